@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+# Every target installs what it needs; a second run finds it there. `make help` lists them.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+BUILD ?= build
+VENV ?= .venv
+PYTHON ?= python3
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+FUZZ_SECONDS ?= 60
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+packages := PYTHON=$(PYTHON) .ci/system_packages.sh
+pip := $(VENV)/bin/python -m pip install --quiet
+cmake := cmake -G Ninja -DDIABOLO_BUILD_PYTHON=OFF
+ifneq ($(shell command -v ccache),)
+cmake += -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+endif
+# Optimised a little, so that tests run fast, and with assertions; other groups of targets in trees of their own.
+test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF
+ctest := ctest --output-on-failure -j $(JOBS)
+
+package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
+  $(shell find cmake include batch python -type f -not -name '*.pyc')
+our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
+
+.PHONY: help demo test test-cpp test-plant test-python test-all mujoco browser sanitize fuzz scalars bench \
+  build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
+
+help: ## List the targets
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 26
+
+# ---- set-up ----
+
+$(VENV)/.created: .ci/build-requirements.txt
+	@$(packages) build
+	@$(PYTHON) -m venv $(VENV)
+	@$(pip) -r .ci/build-requirements.txt
+	@touch $@
+
+# Without build isolation, so that a second build compiles only what changed.
+install_package = $(pip) --no-build-isolation --config-settings=build-dir=$(BUILD)/python
+
+$(VENV)/.package: $(VENV)/.created $(package_sources)
+	@echo "Installing the Python package into $(VENV)"
+	@$(install_package) '.[plot]'
+	@touch $@
+
+$(VENV)/.package-with-tests: $(VENV)/.created $(package_sources)
+	@echo "Installing the Python package and its test tools into $(VENV)"
+	@$(install_package) '.[plot,test]'
+	@touch $(VENV)/.package $@
+
+$(VENV)/.tools: $(VENV)/.created .ci/tool-requirements.txt
+	@$(pip) -r .ci/tool-requirements.txt
+	@touch $@
+
+# ---- what a person runs ----
+
+demo: $(VENV)/.package ## Evaluate the model on the demonstration recordings: a table and a picture
+	@$(VENV)/bin/python -m diabolo demo --out $(BUILD)/demo
+
+test: test-cpp test-plant test-python ## Run the C++ tests, the plant's and the Python tests
+
+test-cpp:
+	@$(packages) build test
+	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
+	@cmake --build $(BUILD)/test -j $(JOBS)
+	@$(ctest) --test-dir $(BUILD)/test
+
+test-plant: # The simulator behind the demonstration recordings is a CMake project of its own.
+ifneq ($(wildcard data/plant/CMakeLists.txt),)
+	@$(packages) build test
+	@$(cmake) -Wno-dev -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
+	@cmake --build $(BUILD)/plant -j $(JOBS)
+	@$(ctest) --test-dir $(BUILD)/plant
+endif
+
+test-python: $(VENV)/.package-with-tests
+	@$(VENV)/bin/python -m pytest
+
+test-all: test mujoco browser sanitize fuzz scalars ## Run the tests and the heavy groups: simulators, browser, sanitizers, fuzzing, every scalar
+
+mujoco: $(VENV)/.package-with-tests
+	@if grep -rqs 'mark.mujoco' tests/python; then \
+	  $(install_package) '.[mujoco]'; $(VENV)/bin/python -m pytest -m mujoco; \
+	else echo "No test compares with MuJoCo yet."; fi
+
+browser: $(VENV)/.package-with-tests
+	@if grep -rqs 'mark.browser' tests/python; then \
+	  $(packages) browser; $(VENV)/bin/python -m pytest -m browser; \
+	else echo "No test drives a browser yet."; fi
+
+sanitize: # With Clang, which so compiles every test with its own warnings too.
+	@$(packages) build test lint
+	@$(cmake) -S . -B $(BUILD)/sanitize $(test_flags) -DCMAKE_CXX_COMPILER=clang++ \
+	  -DCMAKE_CXX_FLAGS_DEBUG='-O1 -gline-tables-only' -DDIABOLO_SANITIZE=address,undefined >/dev/null
+	@cmake --build $(BUILD)/sanitize -j $(JOBS)
+	@$(ctest) --test-dir $(BUILD)/sanitize
+
+fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
+	@$(packages) build lint
+	@$(cmake) -S . -B $(BUILD)/fuzz -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
+	  -DDIABOLO_SANITIZE=address,undefined -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF \
+	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
+	@cmake --build $(BUILD)/fuzz -j $(JOBS)
+	@BUILD=$(BUILD) .ci/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
+
+scalars:
+	@$(packages) build test
+	@$(cmake) -S . -B $(BUILD)/scalars $(test_flags) -DDIABOLO_TEST_SCALARS=ON >/dev/null
+	@cmake --build $(BUILD)/scalars -j $(JOBS) --target tests_scalars
+	@$(ctest) --test-dir $(BUILD)/scalars -L scalars
+
+bench: build-benchmarks ## Run every benchmark, and print what each header costs to compile
+	@for program in $(BUILD)/bench/benchmarks/bench_*; do [ ! -x "$$program" ] || "$$program"; done
+	@$(PYTHON) benchmarks/compile_time.py
+
+check-benchmarks: build-benchmarks # Every benchmark runs; its figures are not looked at.
+	@for program in $(BUILD)/bench/benchmarks/bench_*; do \
+	  [ ! -x "$$program" ] || "$$program" --benchmark_min_time=0.001; done
+
+build-benchmarks:
+	@$(packages) build bench
+	@$(cmake) -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DDIABOLO_BUILD_TESTS=OFF \
+	  -DDIABOLO_BUILD_EXAMPLES=OFF >/dev/null
+	@cmake --build $(BUILD)/bench -j $(JOBS) --target benchmarks
+
+# ---- the state of the sources ----
+
+format: $(VENV)/.tools ## Format C++ and Python in place
+	@$(our_sources) | xargs -r $(VENV)/bin/clang-format -i
+	@$(VENV)/bin/ruff format --quiet
+	@$(VENV)/bin/ruff check --quiet --select I --fix
+
+check-format: $(VENV)/.tools
+	@$(our_sources) | xargs -r $(VENV)/bin/clang-format --dry-run --Werror
+	@$(VENV)/bin/ruff format --check
+
+lint: check-tree $(VENV)/.package-with-tests $(VENV)/.tools ## Check floors and file rules, clang-tidy on every header, ruff and mypy
+	@$(packages) build test lint
+	@$(VENV)/bin/ruff check
+	@$(VENV)/bin/mypy --python-executable $(VENV)/bin/python
+	@$(cmake) -S . -B $(BUILD)/lint $(test_flags) -DCMAKE_CXX_COMPILER=clang++ \
+	  -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+	@clang-tidy --quiet -p $(BUILD)/lint $(BUILD)/lint/tests/headers/all_headers.cpp
+
+check-tree:
+	@$(packages) build
+	@$(PYTHON) .ci/check_tree.py
+
+generate_stubs = rm -rf $(BUILD)/stubs; $(VENV)/bin/pybind11-stubgen --exit-code -o $(BUILD)/stubs diabolo._core
+stubs: $(VENV)/.package-with-tests $(VENV)/.tools ## Write the type stubs of the compiled module anew
+	@$(generate_stubs)
+	@rm -rf python/diabolo/_core python/diabolo/_core.pyi
+	@cp -r $(BUILD)/stubs/diabolo/_core* python/diabolo/
+
+check-stubs: $(VENV)/.package-with-tests $(VENV)/.tools
+	@$(generate_stubs)
+	@for stub in $(BUILD)/stubs/diabolo/_core*; do \
+	  diff -r -u "python/diabolo/$${stub##*/}" "$$stub" || { echo "Stale stubs: run 'make stubs'."; exit 1; }; \
+	done
+
+clean: ## Remove everything that was built, and the virtual environment
+	@rm -rf $(BUILD) $(VENV)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""Measures how long each header of the library takes to compile alone, and prints a table, the slowest first.
+
+Every header is compiled without optimisation in a source that includes nothing else; the figure is the median of
+several runs. Headers of the core (all but interop/, recording/, player/, diagnose/ and robot/) have a budget.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+INCLUDE_DIR = Path(__file__).resolve().parent.parent / "include"
+BUDGET = 2.0  # [s] for one header of the core
+OUTSIDE_CORE = {"interop", "recording", "player", "diagnose", "robot", "diabolo.hpp"}
+
+
+def compile_time(header: str, compiler: str, eigen: str, runs: int) -> float:
+    """Median wall-clock time [s] of compiling `header`, given relative to include/, alone."""
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "alone.cpp"
+        source.write_text(f"#include <{header}>\n")
+        command = [compiler, "-std=c++20", "-O0", f"-I{INCLUDE_DIR}", "-isystem", eigen, "-c", str(source)]
+        times = []
+        for _ in range(runs):
+            start = time.perf_counter()
+            subprocess.run([*command, "-o", str(Path(folder) / "alone.o")], check=True)
+            times.append(time.perf_counter() - start)
+    return statistics.median(times)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--compiler", default="c++")
+    parser.add_argument("--eigen", default="/usr/include/eigen3", help="folder of Eigen's headers")
+    parser.add_argument("--runs", type=int, default=3, help="runs of which the median is taken")
+    arguments = parser.parse_args()
+
+    headers = sorted(str(path.relative_to(INCLUDE_DIR)) for path in INCLUDE_DIR.rglob("*.hpp"))
+    try:
+        times = {h: compile_time(h, arguments.compiler, arguments.eigen, arguments.runs) for h in headers}
+    except subprocess.CalledProcessError as error:
+        print(f"compile_time.py: {' '.join(error.cmd)}: failed", file=sys.stderr)
+        return 2
+
+    print(f"{'header':<44} {'compiled alone [s]':>18}")
+    over = 0
+    for header, seconds in sorted(times.items(), key=lambda item: -item[1]):
+        in_core = header.split("/")[1] not in OUTSIDE_CORE
+        too_long = in_core and seconds > BUDGET
+        over += too_long
+        print(f"{header:<44} {seconds:>18.2f}{'  over the budget' if too_long else ''}")
+    print(f"{over} headers of the core over {BUDGET:g} s")
+    return 1 if over else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
