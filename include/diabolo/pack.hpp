@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include "diabolo/scalar.hpp"
+
+namespace diabolo {
+
+/// A bool per lane: all bits set where true (GCC and Clang vector extensions).
+template <class T, int Lanes>
+struct PackMask {
+  using Integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+  typedef Integer Bits __attribute__((vector_size(sizeof(Integer) * Lanes)));
+  Bits bits{};
+
+  PackMask() = default;
+  PackMask(bool all) : bits(Bits{} - Integer(all ? 1 : 0)) {}  // NOLINT: a bool is the same in every lane
+  explicit PackMask(Bits b) : bits(b) {}
+  bool operator[](int lane) const { return bits[lane] != 0; }
+
+  friend PackMask operator&&(PackMask a, PackMask b) { return PackMask(Bits(a.bits & b.bits)); }
+  friend PackMask operator||(PackMask a, PackMask b) { return PackMask(Bits(a.bits | b.bits)); }
+  friend PackMask operator!(PackMask a) { return PackMask(Bits(~a.bits)); }
+  friend bool any(PackMask a) {
+    Integer sum = 0;
+    for (int i = 0; i < Lanes; ++i) sum |= a.bits[i];
+    return sum != 0;
+  }
+  friend bool all(PackMask a) { return !any(!a); }
+};
+
+/// `Lanes` numbers that go through the same operations at once. The compiler maps it to whatever vector registers the
+/// translation unit is compiled for; the value of a lane does not depend on the other lanes.
+template <class T, int Lanes>
+struct Pack {
+  typedef T Vector __attribute__((vector_size(sizeof(T) * Lanes)));
+  using Mask = PackMask<T, Lanes>;
+  Vector lanes{};
+
+  Pack() = default;
+  Pack(double x) : lanes(Vector{} + static_cast<T>(x)) {}  // NOLINT: a constant is the same in every lane
+  explicit Pack(Vector v) : lanes(v) {}
+  T operator[](int lane) const { return lanes[lane]; }
+  void set(int lane, T x) { lanes[lane] = x; }
+
+  Pack& operator+=(Pack b) { return *this = *this + b; }
+  Pack& operator-=(Pack b) { return *this = *this - b; }
+  Pack& operator*=(Pack b) { return *this = *this * b; }
+  Pack& operator/=(Pack b) { return *this = *this / b; }
+
+  friend Pack operator-(Pack a) { return Pack(Vector(-a.lanes)); }
+  friend Pack operator+(Pack a, Pack b) { return Pack(Vector(a.lanes + b.lanes)); }
+  friend Pack operator-(Pack a, Pack b) { return Pack(Vector(a.lanes - b.lanes)); }
+  friend Pack operator*(Pack a, Pack b) { return Pack(Vector(a.lanes * b.lanes)); }
+  friend Pack operator/(Pack a, Pack b) { return Pack(Vector(a.lanes / b.lanes)); }
+
+  friend Mask operator<(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes < b.lanes)); }
+  friend Mask operator>(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes > b.lanes)); }
+  friend Mask operator<=(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes <= b.lanes)); }
+  friend Mask operator>=(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes >= b.lanes)); }
+  friend Mask operator==(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes == b.lanes)); }
+  friend Mask operator!=(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes != b.lanes)); }
+
+  friend Pack sqrt(Pack x) { return each(x, [](T t) { return std::sqrt(t); }); }
+  friend Pack exp(Pack x) { return each(x, [](T t) { return std::exp(t); }); }
+  friend Pack sin(Pack x) { return each(x, [](T t) { return std::sin(t); }); }
+  friend Pack cos(Pack x) { return each(x, [](T t) { return std::cos(t); }); }
+  friend Pack tanh(Pack x) { return each(x, [](T t) { return std::tanh(t); }); }
+  friend Pack atan2(Pack y, Pack x) {
+    Pack result;
+    for (int i = 0; i < Lanes; ++i) result.lanes[i] = std::atan2(y.lanes[i], x.lanes[i]);
+    return result;
+  }
+
+  friend Pack select(Mask condition, Pack a, Pack b) { return Pack(Vector(condition.bits ? a.lanes : b.lanes)); }
+  friend Mask is_finite(Pack x) { return (x - x) == Pack(0.0); }
+  friend Pack value_of(Pack x) { return x; }
+
+ private:
+  template <class Function>
+  static Pack each(Pack x, Function function) {
+    Pack result;
+    for (int i = 0; i < Lanes; ++i) result.lanes[i] = function(x.lanes[i]);
+    return result;
+  }
+};
+
+template <class T, int Lanes>
+struct ScalarTraits<Pack<T, Lanes>> {
+  using Mask = PackMask<T, Lanes>;
+  using Value = T;
+  static constexpr int kLanes = Lanes;
+};
+
+}  // namespace diabolo
+
+template <class T, int Lanes>
+struct Eigen::NumTraits<diabolo::Pack<T, Lanes>> : Eigen::GenericNumTraits<diabolo::Pack<T, Lanes>> {
+  using Real = diabolo::Pack<T, Lanes>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = double;
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+};

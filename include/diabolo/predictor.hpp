@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cassert>
+
+#include "diabolo/effects/effect.hpp"
+#include "diabolo/pull_velocity.hpp"
+#include "diabolo/rotation.hpp"
+#include "diabolo/spheroid.hpp"
+#include "diabolo/state_machine.hpp"
+#include "diabolo/taut_string.hpp"
+
+namespace diabolo {
+
+/// Predicts the diabolo from the motion of the stick tips. Holds nothing but checked constants: the state is the
+/// caller's, and one predictor may serve any number of threads.
+///
+///     diabolo::Predictor<double> predictor(diabolo::Parameters<double>::consistent());
+///     predictor.step(state, tips_now, tips_next, 1e-3);
+template <class Scalar, template <class> class... Effects>
+class Predictor {
+ public:
+  using Set = EffectSet<Scalar, Effects...>;
+
+  /// Throws std::invalid_argument where a parameter is out of its range.
+  explicit Predictor(const Parameters<Scalar>& parameters, const Set& effects = {})
+      : parameters_(parameters), effects_(effects), length_(effects.string_length(parameters)) {
+    parameters.validate();
+    effects.validate();
+    plane_.active = parameters.planar;
+    plane_.normal = parameters.plane_normal.template cast<Scalar>();
+    compliance_ = effects.compliance() * parameters.mass;
+    damping_time_ = effects.damping_time();
+  }
+
+  const Parameters<Scalar>& parameters() const { return parameters_; }
+  const Set& effects() const { return effects_; }
+
+  /// Advances the state by `dt` > 0 [s] while the tips move from `begin` to `end`. Never throws, allocates or prints.
+  StepStatus<Scalar> step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
+                          const Scalar& dt) const {
+    assert(all(dt > Scalar(0)));
+    if constexpr (sizeof...(Effects) == 0) return dispatch(state, begin, end, dt);
+    else return dispatch(state, effects_.tips(begin), effects_.tips(end), dt);
+  }
+
+ private:
+  StepStatus<Scalar> dispatch(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
+                              const Scalar& dt) const {
+    return parameters_.string_law == StringLaw::kInextensible ? string_step(state, begin, end, dt)
+                                                              : pull_step(state, begin, end, dt);
+  }
+
+  /// Time that the per-step factors stand for.
+  Scalar factor_time(const Scalar& dt) const { return parameters_.per_step ? parameters_.reference_step : dt; }
+
+  /// Ours: a massless string that pulls along the bisector of its two segments.
+  StepStatus<Scalar> string_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
+                                 const Scalar& dt) const {
+    StepStatus<Scalar> status;
+    StringStep<Scalar> step{state.position, state.velocity, acceleration(state, begin), begin, end, dt, length_,
+                            compliance_,    damping_time_,  plane_};
+    if (plane_.active) {
+      step.velocity = plane_(step.velocity);
+      step.acceleration = plane_(step.acceleration);
+    }
+    const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
+    if (any(flying)) status.caught = catch_in_step(state, step, flying);
+    const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
+
+    StringStepResult<Scalar> result = advance_on_string(step, captured);
+    if constexpr (sizeof...(Effects) > 0)
+      result.velocity += effects_.contact_impulse(state, end, result, dt, parameters_);
+    const Scalar decay = dissipation(dt, result.taut);
+    const Scalar string_speed = speed_over_axle(state, begin, end, result.position, dt);
+    state.position = result.position;
+    state.velocity = result.velocity * decay;
+    state.spin = select(result.taut, spin_after_slip(state.spin, string_speed, factor_time(dt), parameters_),
+                        state.spin) + spin_change(state, dt);
+    assign_where(result.taut, state.string_state, StringState::kOnString);
+    if (!all(result.taut))
+      state.string_state = slack_string_state(state.string_state, state.position, result.slack, result.gradient_norm,
+                                              end.left, end.right, parameters_);
+    status.snapped_taut = result.snapped_taut;
+    status.tension = result.tension;
+    const Vector3<Scalar> span = end.left - end.right;
+    const Mask<Scalar> overstretched = Scalar(span.dot(span)) >= length_ * length_;
+    if (any(overstretched)) status.overstretched = hold_between_tips(state, end, captured && overstretched);
+    return status;
+  }
+
+  /// The paper's and the published program's: back onto the spheroid, and a capped part of the way as velocity.
+  StepStatus<Scalar> pull_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
+                               const Scalar& dt) const {
+    const Parameters<Scalar>& p = parameters_;
+    StepStatus<Scalar> status;
+    const Scalar length_change = norm<Scalar>(state.position - end.right) - norm<Scalar>(state.position - begin.right);
+    const Mask<Scalar> was_on_string = is(state.string_state, StringState::kOnString);
+    if (p.spin_rule == SpinRule::kLengthChange)
+      state.spin = select(was_on_string, spin_after_length_change(state.spin, length_change, p), state.spin);
+
+    const Vector3<Scalar> a = plane_(acceleration(state, begin));
+    const Vector3<Scalar> from = state.position;
+    Vector3<Scalar> velocity = plane_(state.velocity);
+    Vector3<Scalar> position = from + velocity * dt;
+    if (p.integrator == Integrator::kParabolic) position += a * (Scalar(0.5) * dt * dt);
+    velocity += a * dt;
+
+    const Spheroid<Scalar> before(begin.left, begin.right, length_), after(end.left, end.right, length_);
+    const bool published = p.flight_rule == FlightRule::kPublished;
+    state.string_state = published ? published_string_state(state.string_state, position, after, p)
+                                   : paper_string_state(state.string_state, position, after, p);
+    const Mask<Scalar> free = is(state.string_state, StringState::kFlying) || after.contains(position);
+    const Mask<Scalar> held = !free && !after.overstretched();
+    if (any(held)) {
+      const Vector3<Scalar> unprojected = position;
+      const Vector3<Scalar> target = plane_on(from, p.projection == Projection::kRadial ? after.radial_point(position)
+                                                                                        : after.closest_point(position));
+      const Vector3<Scalar> gradient = after.path_gradient(target);
+      const Scalar give = compliance_ / (compliance_ + dt * dt * Scalar(gradient.dot(gradient)) + tiny<Scalar>());
+      const Vector3<Scalar> put = target + (position - target) * give;
+      const Vector3<Scalar> normal = normal_at(after, put);
+      const Vector3<Scalar> cap = normal_at(after, unprojected) *
+                                  Scalar(-p.cap_scale * pull_cap(before, after, normal_at(after, unprojected), dt));
+      Vector3<Scalar> pull = capped_pull<Scalar>(put - unprojected, normal, cap, dt, p.pull_scale);
+      const Mask<Scalar> thin = after.tip_distance() >= length_ - p.thin_slack;
+      pull = select<Scalar>(thin, p.thin_rule == ThinRule::kPublished
+                                      ? pull_in_vertical_plane<Scalar>(pull, end.left, end.right)
+                                      : pull_across_plane<Scalar>(pull, end.left, end.right), pull);
+      const Scalar share = p.pull_scale_after_cap * factor_time(dt) / p.reference_step;
+      Vector3<Scalar> moved = velocity * dissipation(dt, held) + plane_(pull) * share;
+      if (published) moved -= normal * maximum(Scalar(moved.dot(normal)), Scalar(0));
+      position = select<Scalar>(held, put, position);
+      velocity = select<Scalar>(held, moved, velocity);
+      status.tension = select(held, Scalar(norm<Scalar>(pull) * share / dt), Scalar(0));
+    }
+    if (!published) velocity = velocity * dissipation(dt, !held && is(state.string_state, StringState::kOnString));
+    if (p.spin_rule == SpinRule::kSlip) {
+      const Scalar change = norm<Scalar>(position - end.right) - norm<Scalar>(from - begin.right);
+      const Scalar slipped = spin_after_slip_explicit<Scalar>(state.spin, change / dt, factor_time(dt), p);
+      state.spin = select(held && was_on_string, slipped, state.spin);
+    }
+    state.spin += spin_change(state, dt);
+    state.position = position;
+    state.velocity = velocity;
+    if (p.release_when_overstretched) status.overstretched = after.overstretched();
+    else if (any(after.overstretched()))
+      status.overstretched = hold_between_tips(state, end, !free && after.overstretched());
+    return status;
+  }
+
+  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips) const {
+    return effects_.acceleration(state, tips, parameters_);
+  }
+
+  Scalar spin_change(const State<Scalar>& state, const Scalar& dt) const {
+    return effects_.spin_acceleration(state, parameters_) * dt;
+  }
+
+  Scalar dissipation(const Scalar& dt, const Mask<Scalar>& where) const {
+    using std::exp;
+    if (all(parameters_.dissipation_rate == Scalar(0))) return Scalar(1);
+    return select(where, Scalar(exp(-parameters_.dissipation_rate * factor_time(dt))), Scalar(1));
+  }
+
+  Vector3<Scalar> normal_at(const Spheroid<Scalar>& spheroid, const Vector3<Scalar>& point) const {
+    return parameters_.normal_rule == NormalRule::kPublished ? spheroid.published_normal(point)
+                                                             : spheroid.normal(point);
+  }
+
+  Vector3<Scalar> plane_on(const Vector3<Scalar>& origin, const Vector3<Scalar>& point) const {
+    return plane_.active ? Vector3<Scalar>(origin + plane_(point - origin)) : point;
+  }
+
+  /// Mean speed at which string passes from the left strand to the right one [m/s].
+  static Scalar speed_over_axle(const State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
+                                const Vector3<Scalar>& position, const Scalar& dt) {
+    const StringPath<Scalar> before(state.position, begin.left, begin.right), after(position, end.left, end.right);
+    return ((after.right_length - after.left_length) - (before.right_length - before.left_length)) *
+           (Scalar(0.5) / dt);
+  }
+
+  /// A flying diabolo that falls through the plane of the tips within the step is caught there if the string is tight
+  /// under it; the rest of the step is on the loose string.
+  [[gnu::noinline]] Mask<Scalar> catch_in_step(State<Scalar>& state, StringStep<Scalar>& step,
+                                               const Mask<Scalar>& flying) const {
+    const auto height = [&](const Scalar& fraction) {
+      const Tips<Scalar> tips = detail::between(step.begin, step.end, fraction);
+      return height_above_tips<Scalar>(detail::free_position(step, Scalar(fraction * step.dt)), tips.left, tips.right);
+    };
+    Scalar low{0}, high{1};
+    Scalar high_height = height(Scalar(1)), low_height = height(Scalar(0));
+    const Mask<Scalar> falls = flying && (low_height > Scalar(0)) && (high_height <= Scalar(0));
+    if (!any(falls)) return falls;
+    for (int i = 0; i < 4; ++i) {  // secant steps on a function that is all but linear
+      const Scalar middle = low + (high - low) * low_height / (low_height - high_height + tiny<Scalar>());
+      const Scalar middle_height = height(middle);
+      const Mask<Scalar> above = middle_height > Scalar(0);
+      low = select(above, middle, low);
+      low_height = select(above, middle_height, low_height);
+      high = select(above, high, middle);
+      high_height = select(above, high_height, middle_height);
+    }
+    const Scalar fraction = select(falls, high, Scalar(0));
+    const Tips<Scalar> tips = detail::between(step.begin, step.end, fraction);
+    const Vector3<Scalar> position = detail::free_position(step, Scalar(fraction * step.dt));
+    const Spheroid<Scalar> spheroid(tips.left, tips.right, length_);
+    const Mask<Scalar> caught = falls && taut_catch(position, spheroid, parameters_) && spheroid.contains(position);
+    const Scalar shift = select(caught, Scalar(fraction * step.dt), Scalar(0));
+    step.begin = detail::between(step.begin, step.end, select(caught, fraction, Scalar(0)));
+    step.position = detail::free_position(step, shift);
+    step.velocity = step.velocity + step.acceleration * shift;
+    step.dt = step.dt - shift;
+    assign_where(caught, state.string_state, StringState::kLoose);
+    return caught;
+  }
+
+  /// There is no spheroid: the diabolo rests on the string, which is straight, and moves with it.
+  [[gnu::noinline]] Mask<Scalar> hold_between_tips(State<Scalar>& state, const Tips<Scalar>& tips,
+                                                   const Mask<Scalar>& where) const {
+    const Mask<Scalar> rigid = where && (compliance_ == Scalar(0));
+    const Vector3<Scalar> span = tips.left - tips.right;
+    const Scalar along = Scalar((state.position - tips.right).dot(span)) / (span.dot(span) + tiny<Scalar>());
+    const Scalar fraction = minimum(maximum(along, Scalar(0)), Scalar(1));
+    const Vector3<Scalar> velocity = tips.right_velocity + (tips.left_velocity - tips.right_velocity) * fraction;
+    state.position = select<Scalar>(rigid, tips.right + span * fraction, state.position);
+    state.velocity = select<Scalar>(rigid, velocity, state.velocity);
+    assign_where(rigid, state.string_state, StringState::kOnString);
+    return rigid;
+  }
+
+  Parameters<Scalar> parameters_;
+  Set effects_;
+  Scalar length_, compliance_, damping_time_;
+  PlaneProjector<Scalar> plane_;
+};
+
+}  // namespace diabolo

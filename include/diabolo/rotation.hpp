@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "diabolo/parameters.hpp"
+
+namespace diabolo {
+
+/// The paper's spin update (its equation of the rotation speed): w += mu * (change of the distance to the right tip),
+/// with mu_acceleration while that strand grows and mu_deceleration otherwise. Unbounded: it knows no slip.
+template <class Scalar>
+Scalar spin_after_length_change(const Scalar& spin, const Scalar& length_change, const Parameters<Scalar>& parameters) {
+  return spin + length_change * select(length_change > Scalar(0), parameters.mu_acceleration,
+                                       parameters.mu_deceleration);
+}
+
+/// The published program's axle slip, stated as a rate: r dw/dt = k (u - r w) with u the speed of the string over the
+/// axle [m/s]. `duration` [s] is the step, or the reference step for the per-step rule; explicit as published.
+template <class Scalar>
+Scalar spin_after_slip_explicit(const Scalar& spin, const Scalar& string_speed, const Scalar& duration,
+                                const Parameters<Scalar>& parameters) {
+  const Scalar& r = parameters.axle_radius;
+  return spin + (string_speed - spin * r) * parameters.spin_coupling * duration / r;
+}
+
+/// The same law, solved by the trapezoidal rule: second order and without overshoot for any step.
+template <class Scalar>
+Scalar spin_after_slip(const Scalar& spin, const Scalar& string_speed, const Scalar& duration,
+                       const Parameters<Scalar>& parameters) {
+  const Scalar half = Scalar(0.5) * parameters.spin_coupling * duration;
+  return spin + (string_speed / parameters.axle_radius - spin) * (Scalar(2) * half / (Scalar(1) + half));
+}
+
+}  // namespace diabolo

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "diabolo/scalar.hpp"
+
+namespace diabolo {
+
+/// Where the string is (paper, section III-A and its figure of the states).
+enum class StringState : std::uint8_t {
+  kOnString = 0,  ///< the string is taut around the axle
+  kLoose = 1,     ///< OFF_STRING_LOOSE: between the cups, too loose to act
+  kFlying = 2,    ///< the diabolo has left the string
+};
+
+/// A string state per lane of a Pack.
+template <class Scalar>
+struct LaneStringState {
+  Scalar code{static_cast<double>(StringState::kLoose)};
+  LaneStringState() = default;
+  LaneStringState(StringState state) : code(static_cast<double>(state)) {}  // NOLINT: the same in every lane
+};
+
+/// StringState, or one per lane.
+template <class Scalar>
+using StringStateOf =
+    std::conditional_t<ScalarTraits<Scalar>::kLanes == 1, StringState, LaneStringState<Scalar>>;
+
+inline bool is(StringState state, StringState wanted) { return state == wanted; }
+template <class Scalar>
+Mask<Scalar> is(const LaneStringState<Scalar>& state, StringState wanted) {
+  return state.code == Scalar(static_cast<double>(wanted));
+}
+
+inline void assign_where(bool condition, StringState& state, StringState next) {
+  if (condition) state = next;
+}
+template <class Scalar>
+void assign_where(const Mask<Scalar>& condition, LaneStringState<Scalar>& state, StringState next) {
+  state.code = select(condition, Scalar(static_cast<double>(next)), state.code);
+}
+
+/// State of the diabolo, a point mass that spins.
+template <class Scalar>
+struct State {
+  Vector3<Scalar> position = Vector3<Scalar>::Constant(Scalar(0));  ///< centre [m], world frame
+  Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
+  /// Spin [rad/s]; positive when the axle's surface under the string moves towards the right tip (rotation about -x).
+  Scalar spin{0};
+  StringStateOf<Scalar> string_state{StringState::kLoose};
+};
+
+/// What happened in one step.
+template <class Scalar>
+struct StepStatus {
+  Mask<Scalar> overstretched{false};  ///< tips farther apart than the string: the diabolo is held between them
+  Mask<Scalar> snapped_taut{false};   ///< the string came taut within the step
+  Mask<Scalar> caught{false};         ///< the string was under a flying diabolo again
+  Scalar tension{0};                  ///< mean tension over the step per mass of the diabolo [m/s^2]
+};
+
+}  // namespace diabolo
