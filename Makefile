@@ -11,6 +11,7 @@ VENV ?= .venv
 PYTHON ?= python3
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 FUZZ_SECONDS ?= 60
+DIABOLO_WARNINGS_AS_ERRORS ?= OFF# of the Python extension; elsewhere they always are
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 packages := PYTHON=$(PYTHON) .ci/system_packages.sh
@@ -21,7 +22,7 @@ cmake += -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 endif
 # Optimised a little, so that tests run fast, and with assertions; other groups of targets in trees of their own.
 test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF
-ctest := ctest --output-on-failure -j $(JOBS)
+ctest := ctest --output-on-failure --no-tests=error -j $(JOBS)
 
 package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
@@ -42,7 +43,8 @@ $(VENV)/.created: .ci/build-requirements.txt
 	@touch $@
 
 # Without build isolation, so that a second build compiles only what changed.
-install_package = $(pip) --no-build-isolation --config-settings=build-dir=$(BUILD)/python
+install_package = $(pip) --no-build-isolation --config-settings=build-dir=$(BUILD)/python \
+  --config-settings=cmake.define.DIABOLO_WARNINGS_AS_ERRORS=$(DIABOLO_WARNINGS_AS_ERRORS)
 
 $(VENV)/.package: $(VENV)/.created $(package_sources)
 	@echo "Installing the Python package into $(VENV)"
@@ -68,7 +70,7 @@ test: test-cpp test-plant test-python ## Run the C++ tests, the plant's and the 
 test-cpp:
 	@$(packages) build test
 	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
-	@cmake --build $(BUILD)/test -j $(JOBS)
+	@cmake --build $(BUILD)/test -j $(JOBS) -- -k 0
 	@$(ctest) --test-dir $(BUILD)/test
 
 test-plant: # The simulator behind the demonstration recordings is a CMake project of its own.
@@ -98,7 +100,7 @@ sanitize: # With Clang, which so compiles every test with its own warnings too.
 	@$(packages) build test lint
 	@$(cmake) -S . -B $(BUILD)/sanitize $(test_flags) -DCMAKE_CXX_COMPILER=clang++ \
 	  -DCMAKE_CXX_FLAGS_DEBUG='-O1 -gline-tables-only' -DDIABOLO_SANITIZE=address,undefined >/dev/null
-	@cmake --build $(BUILD)/sanitize -j $(JOBS)
+	@cmake --build $(BUILD)/sanitize -j $(JOBS) -- -k 0
 	@$(ctest) --test-dir $(BUILD)/sanitize
 
 fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
@@ -110,10 +112,14 @@ fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	@BUILD=$(BUILD) .ci/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
 scalars:
+ifneq ($(wildcard tests/scalars/*.cpp),)
 	@$(packages) build test
 	@$(cmake) -S . -B $(BUILD)/scalars $(test_flags) -DDIABOLO_TEST_SCALARS=ON >/dev/null
-	@cmake --build $(BUILD)/scalars -j $(JOBS) --target tests_scalars
+	@cmake --build $(BUILD)/scalars -j $(JOBS) --target tests_scalars -- -k 0
 	@$(ctest) --test-dir $(BUILD)/scalars -L scalars
+else
+	@echo "No test in tests/scalars yet."
+endif
 
 bench: build-benchmarks ## Run every benchmark, and print what each header costs to compile
 	@for program in $(BUILD)/bench/benchmarks/bench_*; do [ ! -x "$$program" ] || "$$program"; done

@@ -24,5 +24,9 @@ fuzz_one() {
 export -f fuzz_one
 export BUILD seconds
 
-find "$BUILD/fuzz/tests" -maxdepth 1 -name 'fuzz_*' -type f -perm -u+x -print0 |
-  xargs -0 -r -n 1 -P "$jobs" bash -c 'set -euo pipefail; fuzz_one "$1"' --
+mapfile -t programs < <(find "$BUILD/fuzz/tests" -maxdepth 1 -name 'fuzz_*' -type f -perm -u+x | sort)
+if [ "${#programs[@]}" -eq 0 ]; then
+  echo "fuzz.sh: no fuzz target was built; expected one for each tests/fuzz/*.cpp" >&2
+  exit 1
+fi
+printf '%s\0' "${programs[@]}" | xargs -0 -n 1 -P "$jobs" bash -c 'set -euo pipefail; fuzz_one "$1"' --

@@ -4,7 +4,8 @@
 # Warnings of our own code are errors; Eigen and other libraries come as system headers and stay quiet.
 add_library(diabolo_warnings INTERFACE)
 target_compile_options(diabolo_warnings INTERFACE
-  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Werror>)
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion>
+  $<$<BOOL:${DIABOLO_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # Besides looking for faults, this build starts every Eigen matrix as NaN, so that a forgotten value shows.
 add_library(diabolo_sanitizers INTERFACE)
