@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Checks rules that no compiler knows: floors, licence lines, lengths of headers, words that must not appear.
+"""Checks rules that no compiler knows: floors, licence lines, lengths of headers, words that stay out.
 
-Prints one line for each fault, as FILE:LINE: what was found, and what was expected; exits with 1 when there is one.
+Prints one line for each fault, as FILE:LINE: what was found, and what was expected; exits with 1 when there
+is one.
 """
 
 from __future__ import annotations
@@ -55,9 +56,8 @@ FORBIDDEN: dict[str, str] = {
 def floor_of(header: str) -> int | None:
     """Floor of a header, given relative to include/diabolo; None when the table does not know it."""
     for floor, members in enumerate(FLOORS):
-        if any(
-            header == member or (member.endswith("/") and header.startswith(member)) for member in members
-        ):
+        folders = tuple(member for member in members if member.endswith("/"))
+        if header in members or header.startswith(folders):
             return floor
     return None
 
@@ -108,7 +108,7 @@ def check_foreign(header: str, name: str) -> str | None:
 
 
 def find_cycles(graph: dict[str, list[str]]) -> list[list[str]]:
-    """Loops of includes: without one, the headers of a floor have an order in which each sees earlier ones only."""
+    """Loops of includes; without one, a floor has an order in which each header sees earlier ones only."""
     cycles: list[list[str]] = []
     done: set[str] = set()
 
@@ -143,9 +143,9 @@ def check_floors(include_dir: Path) -> list[str]:
                 fault = check_include(header, included)
             if fault:
                 faults.append(f"{where}:{number}: {fault}")
-    return faults + [
-        f"include/diabolo/{cycle[0]}:1: includes itself: {' > '.join(cycle)}" for cycle in find_cycles(graph)
-    ]
+    for cycle in find_cycles(graph):
+        faults.append(f"include/diabolo/{cycle[0]}:1: includes itself: {' > '.join(cycle)}")
+    return faults
 
 
 def check_cpp_file(name: str, lines: list[str]) -> list[str]:
@@ -189,11 +189,8 @@ def main() -> int:
         if name.endswith((".hpp", ".cpp")):
             faults += check_cpp_file(name, lines)
         faults += check_words(name, lines)
-    print(
-        "\n".join(faults)
-        if faults
-        else f"{len(names)} files: floors, licence lines, lengths and words are in order"
-    )
+    summary = f"{len(names)} files: floors, licence lines, lengths and words are in order"
+    print("\n".join(faults) or summary)
     return 1 if faults else 0
 
 

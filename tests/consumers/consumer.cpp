@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <diabolo/version.hpp>
+#include <cstdio>
+
 #include <Eigen/Core>
 
-#include <cstdio>
+#include <diabolo/version.hpp>
 
 /// Says whether the library that was found has the version given on the command line.
 int main(int argc, char** argv) {
