@@ -2,7 +2,8 @@
 """Measures how long each header of the library takes to compile alone, and prints a table, the slowest first.
 
 Every header is compiled without optimisation in a source that includes nothing else; the figure is the
-median of several runs. Headers of the core (all but interop/, recording/, player/, diagnose/ and robot/) have a budget.
+median of several runs. Headers of the core have a budget: all but interop/, recording/, player/, diagnose/
+and robot/.
 """
 
 from __future__ import annotations
