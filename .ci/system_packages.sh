@@ -13,10 +13,11 @@ has_header() {
   printf '#include <%s>\n' "$1" |
     c++ -std=c++20 -E -x c++ -isystem /usr/include/eigen3 -isystem /usr/local/include/eigen3 - >/dev/null 2>&1
 }
-has_cmake() { has_command cmake && cmake -P <(echo 'cmake_minimum_required(VERSION 3.25)') 2>/dev/null; }
-has_python() {
-  "$python" -c 'import ensurepip, venv' 2>/dev/null
+has_cmake() {
+  local version
+  version=$(cmake --version 2>/dev/null | sed -n '1s/.*version //p') && printf '3.25\n%s\n' "$version" | sort -V -C
 }
+has_python() { "$python" -c 'import ensurepip, venv' 2>/dev/null; }
 has_python_headers() {
   "$python" -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("include")) / "Python.h").stat()' 2>/dev/null
 }
