@@ -16,12 +16,13 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 packages := PYTHON=$(PYTHON) .ci/system_packages.sh
 pip := $(VENV)/bin/python -m pip install --quiet
-cmake := cmake -G Ninja -DDIABOLO_BUILD_PYTHON=OFF
+cmake := cmake -G Ninja
 ifneq ($(shell command -v ccache),)
 cmake += -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 endif
 # Optimised a little, so that tests run fast, and with assertions; other groups of targets in trees of their own.
-test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF
+test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF \
+  -DDIABOLO_BUILD_PYTHON=OFF
 ctest := ctest --output-on-failure --no-tests=error -j $(JOBS)
 
 package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
@@ -75,8 +76,8 @@ test-cpp:
 
 test-plant: # The simulator behind the demonstration recordings is a CMake project of its own.
 ifneq ($(wildcard data/plant/CMakeLists.txt),)
-	@$(packages) build test
-	@$(cmake) -Wno-dev -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
+	@$(packages) build test plant
+	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS)
 	@$(ctest) --test-dir $(BUILD)/plant
 endif
@@ -107,7 +108,7 @@ fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	@$(packages) build lint
 	@$(cmake) -S . -B $(BUILD)/fuzz -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
 	  -DDIABOLO_SANITIZE=address,undefined -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF \
-	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
+	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
 	@cmake --build $(BUILD)/fuzz -j $(JOBS)
 	@BUILD=$(BUILD) .ci/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
@@ -132,7 +133,7 @@ check-benchmarks: build-benchmarks # Every benchmark runs; its figures are not l
 build-benchmarks:
 	@$(packages) build bench
 	@$(cmake) -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DDIABOLO_BUILD_TESTS=OFF \
-	  -DDIABOLO_BUILD_EXAMPLES=OFF >/dev/null
+	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_PYTHON=OFF >/dev/null
 	@cmake --build $(BUILD)/bench -j $(JOBS) --target benchmarks
 
 # ---- the state of the sources ----

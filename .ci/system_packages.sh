@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Usage: system_packages.sh GROUP...   with groups build, test, bench, lint, browser
+# Usage: system_packages.sh GROUP...   with groups build, test, plant, bench, lint, browser
 # Looks for what the groups need and installs with apt-get what is missing; asks for nothing when all is there.
 set -euo pipefail
 
 readonly WANTED="a C++20 compiler, CMake 3.25, Ninja, Eigen 3.4, nlohmann-json, Python 3.10 with venv and headers; \
-for tests Catch2, for benchmarks Google Benchmark, for lint and fuzzing clang, clang-tidy and its runtime libraries"
+for tests Catch2 and CLI11, for benchmarks Google Benchmark, for lint and fuzzing clang, clang-tidy and its runtime libraries"
 python=${PYTHON:-python3}
 
 has_command() { command -v "$1" >/dev/null 2>&1; }
@@ -39,6 +39,7 @@ missing_packages() {
       has_python_headers || echo python3-dev
       ;;
     test) has_header catch2/catch_all.hpp || has_header catch2/catch.hpp || echo catch2 ;;
+    plant) has_header CLI/CLI.hpp || echo libcli11-dev ;;
     bench) has_header benchmark/benchmark.h || echo libbenchmark-dev ;;
     lint)
       has_command clang-tidy || echo clang-tidy
@@ -47,7 +48,7 @@ missing_packages() {
       ;;
     browser) has_command chromium || echo chromium ;;
     *)
-      echo "system_packages.sh: unknown group '$1'; expected build, test, bench, lint or browser" >&2
+      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, bench, lint or browser" >&2
       exit 2
       ;;
   esac
