@@ -7,8 +7,8 @@
 
 namespace diabolo {
 
-/// A forward-mode dual number: a value and its derivatives with respect to N inputs, carried through every operation
-/// by the chain rule. `Base` is double, float or a `Pack`. Comparisons look at the value only.
+/// A forward-mode dual number: a value and its derivatives with respect to N inputs, carried through every
+/// operation by the chain rule. `Base` is double, float or a `Pack`. Comparisons look at the value only.
 ///
 ///     using D = diabolo::Dual<double, 2>;
 ///     D x = D::variable(3.0, 0), y = D::variable(4.0, 1);
@@ -16,7 +16,7 @@ namespace diabolo {
 template <class Base, int N>
 struct Dual {
   using Gradient = Eigen::Array<Base, N, 1>;
-  Base value{0};                         ///< the number itself
+  Base value{0};                                    ///< the number itself
   Gradient gradient = Gradient::Constant(Base(0));  ///< its derivative with respect to each input
 
   Dual() = default;
@@ -114,5 +114,13 @@ struct Eigen::NumTraits<diabolo::Dual<Base, N>> : Eigen::GenericNumTraits<diabol
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = N, AddCost = N, MulCost = 3 * N };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = N,
+    AddCost = N,
+    MulCost = 3 * N
+  };
 };

@@ -32,8 +32,8 @@ struct PackMask {
   friend bool all(PackMask a) { return !any(!a); }
 };
 
-/// `Lanes` numbers that go through the same operations at once. The compiler maps it to whatever vector registers the
-/// translation unit is compiled for; the value of a lane does not depend on the other lanes.
+/// `Lanes` numbers that go through the same operations at once. The compiler maps it to whatever vector
+/// registers the translation unit is compiled for; the value of a lane does not depend on the other lanes.
 template <class T, int Lanes>
 struct Pack {
   typedef T Vector __attribute__((vector_size(sizeof(T) * Lanes)));
@@ -64,18 +64,30 @@ struct Pack {
   friend Mask operator==(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes == b.lanes)); }
   friend Mask operator!=(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes != b.lanes)); }
 
-  friend Pack sqrt(Pack x) { return each(x, [](T t) { return std::sqrt(t); }); }
-  friend Pack exp(Pack x) { return each(x, [](T t) { return std::exp(t); }); }
-  friend Pack sin(Pack x) { return each(x, [](T t) { return std::sin(t); }); }
-  friend Pack cos(Pack x) { return each(x, [](T t) { return std::cos(t); }); }
-  friend Pack tanh(Pack x) { return each(x, [](T t) { return std::tanh(t); }); }
+  friend Pack sqrt(Pack x) {
+    return each(x, [](T t) { return std::sqrt(t); });
+  }
+  friend Pack exp(Pack x) {
+    return each(x, [](T t) { return std::exp(t); });
+  }
+  friend Pack sin(Pack x) {
+    return each(x, [](T t) { return std::sin(t); });
+  }
+  friend Pack cos(Pack x) {
+    return each(x, [](T t) { return std::cos(t); });
+  }
+  friend Pack tanh(Pack x) {
+    return each(x, [](T t) { return std::tanh(t); });
+  }
   friend Pack atan2(Pack y, Pack x) {
     Pack result;
     for (int i = 0; i < Lanes; ++i) result.lanes[i] = std::atan2(y.lanes[i], x.lanes[i]);
     return result;
   }
 
-  friend Pack select(Mask condition, Pack a, Pack b) { return Pack(Vector(condition.bits ? a.lanes : b.lanes)); }
+  friend Pack select(Mask condition, Pack a, Pack b) {
+    return Pack(Vector(condition.bits ? a.lanes : b.lanes));
+  }
   friend Mask is_finite(Pack x) { return (x - x) == Pack(0.0); }
   friend Pack value_of(Pack x) { return x; }
 
@@ -103,5 +115,13 @@ struct Eigen::NumTraits<diabolo::Pack<T, Lanes>> : Eigen::GenericNumTraits<diabo
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };

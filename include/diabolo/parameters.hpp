@@ -13,8 +13,8 @@ namespace diabolo {
 
 /// How the string acts on the diabolo.
 enum class StringLaw {
-  kPullVelocity,   ///< the paper's: put back on the spheroid, a capped part of the correction becomes velocity
-  kInextensible,   ///< a massless string that does not stretch: velocity consistent with the constraint
+  kPullVelocity,  ///< the paper's: put back on the spheroid, a capped part of the correction becomes velocity
+  kInextensible,  ///< a massless string that does not stretch: velocity consistent with the constraint
 };
 /// Where a diabolo outside the spheroid is put back.
 enum class Projection { kRadial, kClosestPoint };
@@ -45,27 +45,27 @@ struct ParameterInfo {
   std::string_view meaning;
 };
 
-/// Everything that the predictor can be told. Start from a preset, change fields, hand it to a Predictor, which
-/// checks it once.
+/// Everything that the predictor can be told. Start from a preset, change fields, hand it to a Predictor,
+/// which checks it once.
 template <class Scalar>
 struct Parameters {
-  Scalar string_length{1.45};           ///< L [m]
-  Scalar gravity{kStandardGravity};     ///< [m/s^2], along -z
-  Scalar mass{0.2845};                  ///< of the diabolo [kg]; default: the paper's red one
-  Scalar axle_radius{0.0065};           ///< r [m]
-  Scalar spin_coupling{0.15};           ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
-  Scalar mu_acceleration{154.0};        ///< spin per string length, while the right strand grows [rad/m]
-  Scalar mu_deceleration{154.0};        ///< the same, while it shrinks [rad/m]
-  Scalar dissipation_rate{0.0};         ///< decay of the velocity while ON_STRING [1/s]
-  Scalar pull_scale{0.13};              ///< part of the correction that becomes velocity, before the cap
-  Scalar cap_scale{0.13};               ///< part of the spheroid's own motion that caps it
-  Scalar pull_scale_after_cap{0.07};    ///< per reference step
-  Scalar loose_distance{0.01};          ///< c_L [m]
-  Scalar flying_distance{0.05};         ///< c_F [m]
-  Scalar catch_slack{0.03};             ///< a catch needs tips no closer than L minus this [m]
-  Scalar catch_distance{0.10};          ///< and the diabolo no farther from the line of the tips [m]
-  Scalar thin_slack{0.05};              ///< the spheroid is thin when the tips are farther apart than L minus this [m]
-  Scalar reference_step{1e-3};          ///< the step that the paper's per-step factors were found at [s]
+  Scalar string_length{1.45};         ///< L [m]
+  Scalar gravity{kStandardGravity};   ///< [m/s^2], along -z
+  Scalar mass{0.2845};                ///< of the diabolo [kg]; default: the paper's red one
+  Scalar axle_radius{0.0065};         ///< r [m]
+  Scalar spin_coupling{0.15};         ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
+  Scalar mu_acceleration{154.0};      ///< spin per string length, while the right strand grows [rad/m]
+  Scalar mu_deceleration{154.0};      ///< the same, while it shrinks [rad/m]
+  Scalar dissipation_rate{0.0};       ///< decay of the velocity while ON_STRING [1/s]
+  Scalar pull_scale{0.13};            ///< part of the correction that becomes velocity, before the cap
+  Scalar cap_scale{0.13};             ///< part of the spheroid's own motion that caps it
+  Scalar pull_scale_after_cap{0.07};  ///< per reference step
+  Scalar loose_distance{0.01};        ///< c_L [m]
+  Scalar flying_distance{0.05};       ///< c_F [m]
+  Scalar catch_slack{0.03};           ///< a catch needs tips no closer than L minus this [m]
+  Scalar catch_distance{0.10};        ///< and the diabolo no farther from the line of the tips [m]
+  Scalar thin_slack{0.05};  ///< the spheroid is thin when the tips are farther apart than L minus this [m]
+  Scalar reference_step{1e-3};  ///< the step that the paper's per-step factors were found at [s]
   StringLaw string_law = StringLaw::kInextensible;
   Projection projection = Projection::kClosestPoint;
   NormalRule normal_rule = NormalRule::kTrue;
@@ -73,10 +73,11 @@ struct Parameters {
   ThinRule thin_rule = ThinRule::kPaper;
   SpinRule spin_rule = SpinRule::kSlip;
   Integrator integrator = Integrator::kParabolic;
-  /// Apply dissipation, spin coupling and pull as if every step were a reference step (the published rules), so that
-  /// the motion depends on the step. false: the same factors in time constants.
+  /// Apply dissipation, spin coupling and pull as if every step were a reference step (the published rules),
+  /// so that the motion depends on the step. false: the same factors in time constants.
   bool per_step = false;
-  /// Tips farther apart than the string: let go for that step (published program) instead of holding the diabolo.
+  /// Tips farther apart than the string: let go for that step (published program) instead of holding the
+  /// diabolo.
   bool release_when_overstretched = false;
   /// Keep position and velocity in the plane through the start position with the normal `plane_normal`.
   bool planar = false;
@@ -117,29 +118,37 @@ struct Parameters {
   template <class Self, class Visitor>
   static void for_each(Self& self, Visitor&& visit) {
     using Info = ParameterInfo;
-    visit(Info{"string_length", "m", 0.05, 20.0, "length of the string between the tips"}, self.string_length);
+    visit(Info{"string_length", "m", 0.05, 20.0, "length of the string between the tips"},
+          self.string_length);
     visit(Info{"gravity", "m/s^2", 0.0, 100.0, "acceleration of gravity, downwards"}, self.gravity);
     visit(Info{"mass", "kg", 1e-3, 10.0, "mass of the diabolo"}, self.mass);
     visit(Info{"axle_radius", "m", 1e-4, 0.1, "radius of the axle"}, self.axle_radius);
-    visit(Info{"spin_coupling", "1/s", 0.0, 1e3, "rate at which slip on the axle is worn off"}, self.spin_coupling);
+    visit(Info{"spin_coupling", "1/s", 0.0, 1e3, "rate at which slip on the axle is worn off"},
+          self.spin_coupling);
     visit(Info{"mu_acceleration", "rad/m", 0.0, 1e4, "paper: spin per growth of the right strand"},
           self.mu_acceleration);
     visit(Info{"mu_deceleration", "rad/m", 0.0, 1e4, "paper: spin per shrinking of the right strand"},
           self.mu_deceleration);
     visit(Info{"dissipation_rate", "1/s", 0.0, 1e3, "decay of the velocity while on the string"},
           self.dissipation_rate);
-    visit(Info{"pull_scale", "1", 0.0, 1.0, "paper: part of the correction that becomes velocity, before the cap"},
+    visit(Info{"pull_scale", "1", 0.0, 1.0,
+               "paper: part of the correction that becomes velocity, before the cap"},
           self.pull_scale);
-    visit(Info{"cap_scale", "1", 0.0, 1.0, "paper: part of the spheroid's motion that caps the pull"}, self.cap_scale);
-    visit(Info{"pull_scale_after_cap", "1", 0.0, 1.0, "paper: damping of the pull after the cap, per reference step"},
+    visit(Info{"cap_scale", "1", 0.0, 1.0, "paper: part of the spheroid's motion that caps the pull"},
+          self.cap_scale);
+    visit(Info{"pull_scale_after_cap", "1", 0.0, 1.0,
+               "paper: damping of the pull after the cap, per reference step"},
           self.pull_scale_after_cap);
     visit(Info{"loose_distance", "m", 0.0, 1.0, "paper's c_L"}, self.loose_distance);
     visit(Info{"flying_distance", "m", 0.0, 1.0, "paper's c_F"}, self.flying_distance);
-    visit(Info{"catch_slack", "m", 0.0, 20.0, "a catch needs tips no closer than the string length minus this"},
-          self.catch_slack);
-    visit(Info{"catch_distance", "m", 0.0, 1.0, "a catch needs the diabolo this close to the line of the tips"},
-          self.catch_distance);
-    visit(Info{"thin_slack", "m", 0.0, 20.0, "the spheroid is thin when the tips are farther apart than L minus this"},
+    visit(
+        Info{"catch_slack", "m", 0.0, 20.0, "a catch needs tips no closer than the string length minus this"},
+        self.catch_slack);
+    visit(
+        Info{"catch_distance", "m", 0.0, 1.0, "a catch needs the diabolo this close to the line of the tips"},
+        self.catch_distance);
+    visit(Info{"thin_slack", "m", 0.0, 20.0,
+               "the spheroid is thin when the tips are farther apart than L minus this"},
           self.thin_slack);
     visit(Info{"reference_step", "s", 1e-6, 0.1, "step that the per-step factors are stated for"},
           self.reference_step);
@@ -150,8 +159,8 @@ struct Parameters {
     for_each(*this, [](const ParameterInfo& info, const Scalar& field) {
       if (all(field >= Scalar(info.minimum)) && all(field <= Scalar(info.maximum))) return;
       std::ostringstream text;
-      text << info.name << ": " << describe(field) << ' ' << info.unit << "; must be within [" << info.minimum << ", "
-           << info.maximum << "] " << info.unit;
+      text << info.name << ": " << describe(field) << ' ' << info.unit << "; must be within [" << info.minimum
+           << ", " << info.maximum << "] " << info.unit;
       throw std::invalid_argument(text.str());
     });
     if (planar && !(std::abs(plane_normal.norm() - 1.0) < 1e-9))
@@ -163,8 +172,10 @@ struct Parameters {
 
   static std::string describe(const Scalar& field) {
     std::ostringstream text;
-    if constexpr (std::floating_point<Scalar>) text << field;
-    else text << "a lane or a derivative's value";
+    if constexpr (std::floating_point<Scalar>)
+      text << field;
+    else
+      text << "a lane or a derivative's value";
     return text.str();
   }
 };

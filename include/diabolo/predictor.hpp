@@ -12,8 +12,8 @@
 
 namespace diabolo {
 
-/// Predicts the diabolo from the motion of the stick tips. Holds nothing but checked constants: the state is the
-/// caller's, and one predictor may serve any number of threads.
+/// Predicts the diabolo from the motion of the stick tips. Holds nothing but checked constants: the state is
+/// the caller's, and one predictor may serve any number of threads.
 ///
 ///     diabolo::Predictor<double> predictor(diabolo::Parameters<double>::consistent());
 ///     predictor.step(state, tips_now, tips_next, 1e-3);
@@ -36,12 +36,15 @@ class Predictor {
   const Parameters<Scalar>& parameters() const { return parameters_; }
   const Set& effects() const { return effects_; }
 
-  /// Advances the state by `dt` > 0 [s] while the tips move from `begin` to `end`. Never throws, allocates or prints.
+  /// Advances the state by `dt` > 0 [s] while the tips move from `begin` to `end`. Never throws, allocates or
+  /// prints.
   StepStatus<Scalar> step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                           const Scalar& dt) const {
     assert(all(dt > Scalar(0)));
-    if constexpr (sizeof...(Effects) == 0) return dispatch(state, begin, end, dt);
-    else return dispatch(state, effects_.tips(begin), effects_.tips(end), dt);
+    if constexpr (sizeof...(Effects) == 0)
+      return dispatch(state, begin, end, dt);
+    else
+      return dispatch(state, effects_.tips(begin), effects_.tips(end), dt);
   }
 
  private:
@@ -52,49 +55,51 @@ class Predictor {
   }
 
   /// Time that the per-step factors stand for.
-  Scalar factor_time(const Scalar& dt) const { return parameters_.per_step ? parameters_.reference_step : dt; }
+  Scalar factor_time(const Scalar& dt) const {
+    return parameters_.per_step ? parameters_.reference_step : dt;
+  }
 
   /// Ours: a massless string that pulls along the bisector of its two segments.
   StepStatus<Scalar> string_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                                  const Scalar& dt) const {
     StepStatus<Scalar> status;
-    StringStep<Scalar> step{state.position, state.velocity, acceleration(state, begin), begin, end, dt, length_,
-                            compliance_,    damping_time_,  plane_};
-    if (plane_.active) {
-      step.velocity = plane_(step.velocity);
-      step.acceleration = plane_(step.acceleration);
-    }
+    const Vector3<Scalar> velocity = plane_(state.velocity);
+    const Vector3<Scalar> outer = plane_(acceleration(state, begin));
+    const StringStep<Scalar> step{
+        state.position, velocity,      outer, begin, end, dt, length_, state.string_acceleration,
+        compliance_,    damping_time_, plane_};
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
-    if (any(flying)) status.caught = catch_in_step(state, step, flying);
+    StringStepResult<Scalar> result =
+        any(flying) ? advance_in_flight(state, step, status.caught) : advance(step, !flying);
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
-
-    StringStepResult<Scalar> result = advance_on_string(step, captured);
     if constexpr (sizeof...(Effects) > 0)
       result.velocity += effects_.contact_impulse(state, end, result, dt, parameters_);
-    const Scalar decay = dissipation(dt, result.taut);
-    const Scalar string_speed = speed_over_axle(state, begin, end, result.position, dt);
+    state.spin = select(result.taut,
+                        spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_),
+                        state.spin) +
+                 spin_change(state, dt);
     state.position = result.position;
-    state.velocity = result.velocity * decay;
-    state.spin = select(result.taut, spin_after_slip(state.spin, string_speed, factor_time(dt), parameters_),
-                        state.spin) + spin_change(state, dt);
+    state.velocity = result.velocity * dissipation(dt, result.taut);
+    state.string_acceleration = result.string_acceleration;
     assign_where(result.taut, state.string_state, StringState::kOnString);
     if (!all(result.taut))
-      state.string_state = slack_string_state(state.string_state, state.position, result.slack, result.gradient_norm,
-                                              end.left, end.right, parameters_);
+      state.string_state = slack_string_state(state.string_state, state.position, result.slack,
+                                              result.gradient_squared, end.left, end.right, parameters_);
     status.snapped_taut = result.snapped_taut;
-    status.tension = result.tension;
     const Vector3<Scalar> span = end.left - end.right;
-    const Mask<Scalar> overstretched = Scalar(span.dot(span)) >= length_ * length_;
+    const Mask<Scalar> overstretched = squared_norm(span) >= length_ * length_;
     if (any(overstretched)) status.overstretched = hold_between_tips(state, end, captured && overstretched);
     return status;
   }
 
-  /// The paper's and the published program's: back onto the spheroid, and a capped part of the way as velocity.
+  /// The paper's and the published program's: back onto the spheroid, and a capped part of the way as
+  /// velocity.
   StepStatus<Scalar> pull_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                                const Scalar& dt) const {
     const Parameters<Scalar>& p = parameters_;
     StepStatus<Scalar> status;
-    const Scalar length_change = norm<Scalar>(state.position - end.right) - norm<Scalar>(state.position - begin.right);
+    const Scalar length_change =
+        norm<Scalar>(state.position - end.right) - norm<Scalar>(state.position - begin.right);
     const Mask<Scalar> was_on_string = is(state.string_state, StringState::kOnString);
     if (p.spin_rule == SpinRule::kLengthChange)
       state.spin = select(was_on_string, spin_after_length_change(state.spin, length_change, p), state.spin);
@@ -112,29 +117,35 @@ class Predictor {
                                    : paper_string_state(state.string_state, position, after, p);
     const Mask<Scalar> free = is(state.string_state, StringState::kFlying) || after.contains(position);
     const Mask<Scalar> held = !free && !after.overstretched();
+    Vector3<Scalar> pulled = Vector3<Scalar>::Constant(Scalar(0));
     if (any(held)) {
       const Vector3<Scalar> unprojected = position;
-      const Vector3<Scalar> target = plane_on(from, p.projection == Projection::kRadial ? after.radial_point(position)
-                                                                                        : after.closest_point(position));
+      const Vector3<Scalar> target =
+          plane_on(from, p.projection == Projection::kRadial ? after.radial_point(position)
+                                                             : after.closest_point(position));
       const Vector3<Scalar> gradient = after.path_gradient(target);
-      const Scalar give = compliance_ / (compliance_ + dt * dt * Scalar(gradient.dot(gradient)) + tiny<Scalar>());
+      const Scalar give = compliance_ / (compliance_ + dt * dt * squared_norm(gradient) + tiny<Scalar>());
       const Vector3<Scalar> put = target + (position - target) * give;
       const Vector3<Scalar> normal = normal_at(after, put);
-      const Vector3<Scalar> cap = normal_at(after, unprojected) *
-                                  Scalar(-p.cap_scale * pull_cap(before, after, normal_at(after, unprojected), dt));
+      const Vector3<Scalar> cap =
+          normal_at(after, unprojected) *
+          Scalar(-p.cap_scale * pull_cap(before, after, normal_at(after, unprojected), dt));
       Vector3<Scalar> pull = capped_pull<Scalar>(put - unprojected, normal, cap, dt, p.pull_scale);
       const Mask<Scalar> thin = after.tip_distance() >= length_ - p.thin_slack;
-      pull = select<Scalar>(thin, p.thin_rule == ThinRule::kPublished
-                                      ? pull_in_vertical_plane<Scalar>(pull, end.left, end.right)
-                                      : pull_across_plane<Scalar>(pull, end.left, end.right), pull);
+      pull = select<Scalar>(thin,
+                            p.thin_rule == ThinRule::kPublished
+                                ? pull_in_vertical_plane<Scalar>(pull, end.left, end.right)
+                                : pull_across_plane<Scalar>(pull, end.left, end.right),
+                            pull);
       const Scalar share = p.pull_scale_after_cap * factor_time(dt) / p.reference_step;
-      Vector3<Scalar> moved = velocity * dissipation(dt, held) + plane_(pull) * share;
-      if (published) moved -= normal * maximum(Scalar(moved.dot(normal)), Scalar(0));
+      pulled = select<Scalar>(held, plane_(pull) * share, pulled);
+      Vector3<Scalar> moved = velocity * dissipation(dt, held) + pulled;
+      if (published) moved -= normal * maximum(dot<Scalar>(moved, normal), Scalar(0));
       position = select<Scalar>(held, put, position);
       velocity = select<Scalar>(held, moved, velocity);
-      status.tension = select(held, Scalar(norm<Scalar>(pull) * share / dt), Scalar(0));
     }
-    if (!published) velocity = velocity * dissipation(dt, !held && is(state.string_state, StringState::kOnString));
+    if (!published)
+      velocity = velocity * dissipation(dt, !held && is(state.string_state, StringState::kOnString));
     if (p.spin_rule == SpinRule::kSlip) {
       const Scalar change = norm<Scalar>(position - end.right) - norm<Scalar>(from - begin.right);
       const Scalar slipped = spin_after_slip_explicit<Scalar>(state.spin, change / dt, factor_time(dt), p);
@@ -143,10 +154,18 @@ class Predictor {
     state.spin += spin_change(state, dt);
     state.position = position;
     state.velocity = velocity;
-    if (p.release_when_overstretched) status.overstretched = after.overstretched();
+    state.string_acceleration = pulled * Scalar(Scalar(1) / dt);
+    if (p.release_when_overstretched)
+      status.overstretched = after.overstretched();
     else if (any(after.overstretched()))
       status.overstretched = hold_between_tips(state, end, !free && after.overstretched());
     return status;
+  }
+
+  StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
+    if constexpr (sizeof...(Effects) > 0)
+      if (!all(compliance_ == Scalar(0))) return advance_on_string<true>(step, captured);
+    return advance_on_string<false>(step, captured);
   }
 
   Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips) const {
@@ -172,26 +191,20 @@ class Predictor {
     return plane_.active ? Vector3<Scalar>(origin + plane_(point - origin)) : point;
   }
 
-  /// Mean speed at which string passes from the left strand to the right one [m/s].
-  static Scalar speed_over_axle(const State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
-                                const Vector3<Scalar>& position, const Scalar& dt) {
-    const StringPath<Scalar> before(state.position, begin.left, begin.right), after(position, end.left, end.right);
-    return ((after.right_length - after.left_length) - (before.right_length - before.left_length)) *
-           (Scalar(0.5) / dt);
-  }
-
-  /// A flying diabolo that falls through the plane of the tips within the step is caught there if the string is tight
-  /// under it; the rest of the step is on the loose string.
-  [[gnu::noinline]] Mask<Scalar> catch_in_step(State<Scalar>& state, StringStep<Scalar>& step,
-                                               const Mask<Scalar>& flying) const {
+  /// A step in which some lane is in flight. A diabolo that falls through the plane of the tips is caught
+  /// there if the string is tight under it; the rest of the step is on the loose string.
+  [[gnu::noinline]] StringStepResult<Scalar> advance_in_flight(State<Scalar>& state,
+                                                               const StringStep<Scalar>& step,
+                                                               Mask<Scalar>& caught) const {
+    const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
     const auto height = [&](const Scalar& fraction) {
-      const Tips<Scalar> tips = detail::between(step.begin, step.end, fraction);
-      return height_above_tips<Scalar>(detail::free_position(step, Scalar(fraction * step.dt)), tips.left, tips.right);
+      const Tips<Scalar> tips = step.tips_at(fraction);
+      return height_above_tips<Scalar>(step.free_position(fraction * step.dt), tips.left, tips.right);
     };
     Scalar low{0}, high{1};
     Scalar high_height = height(Scalar(1)), low_height = height(Scalar(0));
     const Mask<Scalar> falls = flying && (low_height > Scalar(0)) && (high_height <= Scalar(0));
-    if (!any(falls)) return falls;
+    if (!any(falls)) return advance(step, !flying);
     for (int i = 0; i < 4; ++i) {  // secant steps on a function that is all but linear
       const Scalar middle = low + (high - low) * low_height / (low_height - high_height + tiny<Scalar>());
       const Scalar middle_height = height(middle);
@@ -201,18 +214,19 @@ class Predictor {
       high = select(above, high, middle);
       high_height = select(above, high_height, middle_height);
     }
-    const Scalar fraction = select(falls, high, Scalar(0));
-    const Tips<Scalar> tips = detail::between(step.begin, step.end, fraction);
-    const Vector3<Scalar> position = detail::free_position(step, Scalar(fraction * step.dt));
-    const Spheroid<Scalar> spheroid(tips.left, tips.right, length_);
-    const Mask<Scalar> caught = falls && taut_catch(position, spheroid, parameters_) && spheroid.contains(position);
-    const Scalar shift = select(caught, Scalar(fraction * step.dt), Scalar(0));
-    step.begin = detail::between(step.begin, step.end, select(caught, fraction, Scalar(0)));
-    step.position = detail::free_position(step, shift);
-    step.velocity = step.velocity + step.acceleration * shift;
-    step.dt = step.dt - shift;
+    const Tips<Scalar> there = step.tips_at(high);
+    const Vector3<Scalar> crossing = step.free_position(high * step.dt);
+    const Spheroid<Scalar> spheroid(there.left, there.right, length_);
+    caught = falls && taut_catch(crossing, spheroid, parameters_) && spheroid.contains(crossing);
+    const Scalar fraction = select(caught, high, Scalar(0));
+    const Scalar t = fraction * step.dt;
+    const Tips<Scalar> tips = step.tips_at(fraction);
+    const Vector3<Scalar> position = step.free_position(t), velocity = step.free_velocity(t);
+    const StringStep<Scalar> rest{position,    velocity, step.acceleration,        tips,        step.end,
+                                  step.dt - t, length_,  step.string_acceleration, compliance_, damping_time_,
+                                  plane_};
     assign_where(caught, state.string_state, StringState::kLoose);
-    return caught;
+    return advance(rest, !is(state.string_state, StringState::kFlying));
   }
 
   /// There is no spheroid: the diabolo rests on the string, which is straight, and moves with it.
@@ -220,9 +234,11 @@ class Predictor {
                                                    const Mask<Scalar>& where) const {
     const Mask<Scalar> rigid = where && (compliance_ == Scalar(0));
     const Vector3<Scalar> span = tips.left - tips.right;
-    const Scalar along = Scalar((state.position - tips.right).dot(span)) / (span.dot(span) + tiny<Scalar>());
+    const Scalar along =
+        dot<Scalar>(state.position - tips.right, span) / (squared_norm(span) + tiny<Scalar>());
     const Scalar fraction = minimum(maximum(along, Scalar(0)), Scalar(1));
-    const Vector3<Scalar> velocity = tips.right_velocity + (tips.left_velocity - tips.right_velocity) * fraction;
+    const Vector3<Scalar> velocity =
+        tips.right_velocity + (tips.left_velocity - tips.right_velocity) * fraction;
     state.position = select<Scalar>(rigid, tips.right + span * fraction, state.position);
     state.velocity = select<Scalar>(rigid, velocity, state.velocity);
     assign_where(rigid, state.string_state, StringState::kOnString);

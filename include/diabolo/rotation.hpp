@@ -5,16 +5,19 @@
 
 namespace diabolo {
 
-/// The paper's spin update (its equation of the rotation speed): w += mu * (change of the distance to the right tip),
-/// with mu_acceleration while that strand grows and mu_deceleration otherwise. Unbounded: it knows no slip.
+/// The paper's spin update (its equation of the rotation speed): w += mu * (change of the distance to the
+/// right tip), with mu_acceleration while that strand grows and mu_deceleration otherwise. Unbounded: it
+/// knows no slip.
 template <class Scalar>
-Scalar spin_after_length_change(const Scalar& spin, const Scalar& length_change, const Parameters<Scalar>& parameters) {
-  return spin + length_change * select(length_change > Scalar(0), parameters.mu_acceleration,
-                                       parameters.mu_deceleration);
+Scalar spin_after_length_change(const Scalar& spin, const Scalar& length_change,
+                                const Parameters<Scalar>& parameters) {
+  return spin + length_change *
+                    select(length_change > Scalar(0), parameters.mu_acceleration, parameters.mu_deceleration);
 }
 
-/// The published program's axle slip, stated as a rate: r dw/dt = k (u - r w) with u the speed of the string over the
-/// axle [m/s]. `duration` [s] is the step, or the reference step for the per-step rule; explicit as published.
+/// The published program's axle slip, stated as a rate: r dw/dt = k (u - r w) with u the speed of the string
+/// over the axle [m/s]. `duration` [s] is the step, or the reference step for the per-step rule; explicit as
+/// published.
 template <class Scalar>
 Scalar spin_after_slip_explicit(const Scalar& spin, const Scalar& string_speed, const Scalar& duration,
                                 const Parameters<Scalar>& parameters) {

@@ -10,13 +10,13 @@
 namespace diabolo {
 
 /// # The Scalar contract
-/// Every law of the library is a template over `Scalar`: double, float, `Dual` (derivatives), `Pack` (SIMD lanes), or
-/// a type of yours. Needed of it: + - * / and unary -, comparisons on the value, construction from double,
-/// `sqrt exp` by argument-dependent lookup (`sin cos atan2 tanh` where a header says so), Eigen::NumTraits,
-/// and a specialisation of `ScalarTraits`.
-/// Rules of the house: `using std::sqrt;` then unqualified calls; never `auto` for a Scalar or an Eigen expression;
-/// `Scalar(0.5)` beside a Scalar; branch on values only where both sides agree at the switch, else `select`;
-/// keep every argument of sqrt above zero (`positive_sqrt`).
+/// Every law of the library is a template over `Scalar`: double, float, `Dual` (derivatives), `Pack` (SIMD
+/// lanes), or a type of yours. Needed of it: + - * / and unary -, comparisons on the value, construction from
+/// double, `sqrt exp` by argument-dependent lookup (`sin cos atan2 tanh` where a header says so),
+/// Eigen::NumTraits, and a specialisation of `ScalarTraits`. Rules of the house: `using std::sqrt;` then
+/// unqualified calls; never `auto` for a Scalar or an Eigen expression; `Scalar(0.5)` beside a Scalar; branch
+/// on values only where both sides agree at the switch, else `select`; keep every argument of sqrt above zero
+/// (`positive_sqrt`).
 template <class Scalar>
 struct ScalarTraits;
 
@@ -57,7 +57,8 @@ constexpr bool all(bool condition) { return condition; }
 
 /// Lane-wise choice between two vectors.
 template <class Scalar>
-Vector3<Scalar> select(const Mask<Scalar>& condition, const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+[[gnu::always_inline]] inline Vector3<Scalar> select(const Mask<Scalar>& condition, const Vector3<Scalar>& a,
+                                                     const Vector3<Scalar>& b) {
   return {select(condition, a.x(), b.x()), select(condition, a.y(), b.y()), select(condition, a.z(), b.z())};
 }
 
@@ -91,9 +92,9 @@ Scalar positive_sqrt(const Scalar& x) {
 
 /// Euclidean norm with finite derivatives at zero.
 template <class Scalar>
-Scalar norm(const Vector3<Scalar>& v) {
+[[gnu::always_inline]] inline Scalar norm(const Vector3<Scalar>& v) {
   using std::sqrt;
-  return sqrt(Scalar(v.dot(v)) + tiny<Scalar>());
+  return sqrt(squared_norm(v) + tiny<Scalar>());
 }
 
 /// Agreement that the string's constraint is solved to, relative to the string's length.

@@ -5,22 +5,23 @@
 
 namespace diabolo {
 
-/// The auxiliary spheroid of the paper (section III-A): the points that a diabolo reaches when the string between the
-/// two stick tips is taut. The tips are its foci, the string's length is its major axis; every point on it has
-/// path length |p - left| + |p - right| == string_length.
+/// The auxiliary spheroid of the paper (section III-A): the points that a diabolo reaches when the string
+/// between the two stick tips is taut. The tips are its foci, the string's length is its major axis; every
+/// point on it has path length |p - left| + |p - right| == string_length.
 ///
-/// The printed formula of the semi-minor axis lacks a square; here b^2 = (L/2)^2 - (D/2)^2. Regular for coinciding
-/// tips (a sphere) and for tips nearly L apart; for tips farther apart than the string there is no spheroid
+/// The printed formula of the semi-minor axis lacks a square; here b^2 = (L/2)^2 - (D/2)^2. Regular for
+/// coinciding tips (a sphere) and for tips nearly L apart; for tips farther apart than the string there is no
+/// spheroid
 /// (`overstretched`), and the segment between the tips takes its place.
 template <class Scalar>
 class Spheroid {
  public:
   /// Tips [m] and string length [m], all in one frame.
   Spheroid(const Vector3<Scalar>& left, const Vector3<Scalar>& right, const Scalar& string_length)
-      : left_(left), right_(right), string_length_(string_length), center_(Scalar(0.5) * (left + right)) {
+      : left_(left), right_(right), string_length_(string_length), center_((left + right) * Scalar(0.5)) {
     const Vector3<Scalar> span = left - right;
     tip_distance_ = norm<Scalar>(span);
-    axis_ = span / tip_distance_;
+    axis_ = span * Scalar(Scalar(1) / tip_distance_);
     const Scalar half_span = Scalar(0.5) * tip_distance_;
     semi_major_ = maximum(Scalar(Scalar(0.5) * string_length), half_span);
     const Scalar semi_minor_squared = (semi_major_ - half_span) * (semi_major_ + half_span);
@@ -30,12 +31,12 @@ class Spheroid {
 
   const Vector3<Scalar>& left() const { return left_; }
   const Vector3<Scalar>& right() const { return right_; }
-  const Vector3<Scalar>& center() const { return center_; }          ///< midpoint of the tips [m]
-  const Vector3<Scalar>& axis() const { return axis_; }              ///< unit vector from right to left tip
-  const Scalar& tip_distance() const { return tip_distance_; }       ///< D [m]
-  const Scalar& string_length() const { return string_length_; }     ///< L [m]
-  const Scalar& semi_major() const { return semi_major_; }           ///< L/2 [m] (D/2 when overstretched)
-  const Scalar& semi_minor() const { return semi_minor_; }           ///< [m], never below 1e-10 of the semi-major axis
+  const Vector3<Scalar>& center() const { return center_; }       ///< midpoint of the tips [m]
+  const Vector3<Scalar>& axis() const { return axis_; }           ///< unit vector from right to left tip
+  const Scalar& tip_distance() const { return tip_distance_; }    ///< D [m]
+  const Scalar& string_length() const { return string_length_; }  ///< L [m]
+  const Scalar& semi_major() const { return semi_major_; }        ///< L/2 [m] (D/2 when overstretched)
+  const Scalar& semi_minor() const { return semi_minor_; }  ///< [m], never below 1e-10 of the semi-major axis
   Mask<Scalar> overstretched() const { return tip_distance_ >= string_length_; }
 
   /// |p - left| + |p - right| [m].
@@ -43,8 +44,8 @@ class Spheroid {
     return norm<Scalar>(point - left_) + norm<Scalar>(point - right_);
   }
 
-  /// Derivative of the path length with respect to the point: the sum of the unit vectors from the tips, of norm
-  /// 2 cos(half the angle between the string's segments).
+  /// Derivative of the path length with respect to the point: the sum of the unit vectors from the tips, of
+  /// norm 2 cos(half the angle between the string's segments).
   Vector3<Scalar> path_gradient(const Vector3<Scalar>& point) const {
     return unit(point - left_) + unit(point - right_);
   }
@@ -67,13 +68,14 @@ class Spheroid {
     const Scalar t = closest_point_parameter(along, across, b);
     const Scalar along_surface = along / (t + Scalar(1));
     // On the minor axis inside the evolute the formula b^2 v / (t + b^2) is 0/0; the surface equation is not.
-    const Scalar across_surface = b * positive_sqrt<Scalar>((Scalar(1) - along_surface) * (Scalar(1) + along_surface));
+    const Scalar across_surface =
+        b * positive_sqrt<Scalar>((Scalar(1) - along_surface) * (Scalar(1) + along_surface));
     const Scalar sign = select(local.along < Scalar(0), Scalar(-semi_major_), semi_major_);
     return center_ + axis_ * (sign * along_surface) + local.direction * (across_surface * semi_major_);
   }
 
-  /// The point where the ray from the centre through the given point leaves the spheroid (the published program's
-  /// projection).
+  /// The point where the ray from the centre through the given point leaves the spheroid (the published
+  /// program's projection).
   Vector3<Scalar> radial_point(const Vector3<Scalar>& point) const {
     const Local local = to_local(point);
     const Scalar along = local.along / semi_major_;
@@ -81,8 +83,8 @@ class Spheroid {
     return center_ + (point - center_) / norm2(along, across);
   }
 
-  /// Outward unit normal of the surface through the point that has the same foci: (x/b^2, y/a^2, z/b^2) on the
-  /// spheroid itself.
+  /// Outward unit normal of the surface through the point that has the same foci: (x/b^2, y/a^2, z/b^2) on
+  /// the spheroid itself.
   Vector3<Scalar> normal(const Vector3<Scalar>& point) const {
     const Vector3<Scalar> gradient = path_gradient(point);
     return gradient / norm<Scalar>(gradient);
@@ -91,7 +93,7 @@ class Spheroid {
   /// The direction (x/b, y/a, z/b) that the published program uses for the normal; a unit vector.
   Vector3<Scalar> published_normal(const Vector3<Scalar>& point) const {
     const Vector3<Scalar> offset = point - center_;
-    const Scalar along = offset.dot(axis_);
+    const Scalar along = dot<Scalar>(offset, axis_);
     const Vector3<Scalar> direction = (offset - axis_ * along) / semi_minor_ + axis_ * (along / semi_major_);
     return direction / norm<Scalar>(direction);
   }
@@ -111,7 +113,7 @@ class Spheroid {
 
   Local to_local(const Vector3<Scalar>& point) const {
     const Vector3<Scalar> offset = point - center_;
-    const Scalar along = offset.dot(axis_);
+    const Scalar along = dot<Scalar>(offset, axis_);
     const Vector3<Scalar> radial = offset - axis_ * along;
     const Scalar across = norm<Scalar>(radial);
     const Mask<Scalar> on_axis = across < Scalar(1e-12) * semi_major_;
@@ -123,12 +125,12 @@ class Spheroid {
     const Vector3<Scalar> forward(Scalar(1), Scalar(0), Scalar(0)), down(Scalar(0), Scalar(0), Scalar(-1));
     const Mask<Scalar> upright = absolute<Scalar>(axis_.z()) > Scalar(0.9999);
     const Vector3<Scalar> reference = select<Scalar>(upright, forward, down);
-    return unit(reference - axis_ * reference.dot(axis_));
+    return unit(reference - axis_ * dot<Scalar>(reference, axis_));
   }
 
-  /// Root of (u/(t+1))^2 + (b v/(t+b^2))^2 = 1 right of -b^2 (Eberly's form of the distance to an ellipse with
-  /// semi-axes 1 and b; u, v >= 0). The function is convex and falling there and Newton starts left of the root, so
-  /// that it comes up to it without overshooting.
+  /// Root of (u/(t+1))^2 + (b v/(t+b^2))^2 = 1 right of -b^2 (Eberly's form of the distance to an ellipse
+  /// with semi-axes 1 and b; u, v >= 0). The function is convex and falling there and Newton starts left of
+  /// the root, so that it comes up to it without overshooting.
   static Scalar closest_point_parameter(const Scalar& u, const Scalar& v, const Scalar& b) {
     const Scalar b2 = b * b;
     Scalar t = maximum(Scalar(u - Scalar(1)), Scalar(b * v - b2));
@@ -138,7 +140,8 @@ class Spheroid {
       const Scalar up = u * p, vq = b * v * q;
       const Scalar excess = up * up + vq * vq - Scalar(1);
       const Scalar slope = Scalar(2) * (up * up * p + vq * vq * q);
-      const Scalar step = select(slope > tiny<Scalar>(), Scalar(excess / maximum(slope, tiny<Scalar>())), Scalar(0));
+      const Scalar step =
+          select(slope > tiny<Scalar>(), Scalar(excess / maximum(slope, tiny<Scalar>())), Scalar(0));
       t += maximum(step, Scalar(0));
       const Scalar settled = Scalar(4.0 * std::numeric_limits<ValueOf<Scalar>>::epsilon()) * (t + b2);
       if (all(step <= settled)) break;

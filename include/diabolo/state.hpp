@@ -47,18 +47,23 @@ template <class Scalar>
 struct State {
   Vector3<Scalar> position = Vector3<Scalar>::Constant(Scalar(0));  ///< centre [m], world frame
   Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
-  /// Spin [rad/s]; positive when the axle's surface under the string moves towards the right tip (rotation about -x).
+  /// Spin [rad/s]; positive when the axle's surface under the string moves towards the right tip (rotation
+  /// about -x).
   Scalar spin{0};
   StringStateOf<Scalar> string_state{StringState::kLoose};
+  /// Mean acceleration of the diabolo by the string over the last step [m/s^2]; times its mass, the string's
+  /// force on it. Output; the next step begins its iteration with it, which changes its result by no more
+  /// than the iteration's tolerance.
+  Vector3<Scalar> string_acceleration = Vector3<Scalar>::Constant(Scalar(0));
 };
 
 /// What happened in one step.
 template <class Scalar>
 struct StepStatus {
-  Mask<Scalar> overstretched{false};  ///< tips farther apart than the string: the diabolo is held between them
-  Mask<Scalar> snapped_taut{false};   ///< the string came taut within the step
-  Mask<Scalar> caught{false};         ///< the string was under a flying diabolo again
-  Scalar tension{0};                  ///< mean tension over the step per mass of the diabolo [m/s^2]
+  Mask<Scalar> overstretched{
+      false};                        ///< tips farther apart than the string: the diabolo is held between them
+  Mask<Scalar> snapped_taut{false};  ///< the string came taut within the step
+  Mask<Scalar> caught{false};        ///< the string was under a flying diabolo again
 };
 
 }  // namespace diabolo

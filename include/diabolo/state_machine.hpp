@@ -7,10 +7,11 @@
 
 namespace diabolo {
 
-/// Height of a point above the plane through both tips that contains the world's x axis [m], times the horizontal
-/// distance of the tips: only its sign is used. Zero for tips one above the other's x line.
+/// Height of a point above the plane through both tips that contains the world's x axis [m], times the
+/// horizontal distance of the tips: only its sign is used. Zero for tips one above the other's x line.
 template <class Scalar>
-Scalar height_above_tips(const Vector3<Scalar>& point, const Vector3<Scalar>& left, const Vector3<Scalar>& right) {
+Scalar height_above_tips(const Vector3<Scalar>& point, const Vector3<Scalar>& left,
+                         const Vector3<Scalar>& right) {
   const Vector3<Scalar> span = left - right;
   const Vector3<Scalar> offset = point - right;
   // offset . (x_world cross span), turned so that it points upwards
@@ -20,20 +21,23 @@ Scalar height_above_tips(const Vector3<Scalar>& point, const Vector3<Scalar>& le
 
 /// Whether the point lies in the ball that has the tips on its surface: (l - p) . (r - p) <= 0.
 template <class Scalar>
-Mask<Scalar> between_tips(const Vector3<Scalar>& point, const Vector3<Scalar>& left, const Vector3<Scalar>& right) {
-  return Scalar((left - point).dot(right - point)) <= Scalar(0);
+Mask<Scalar> between_tips(const Vector3<Scalar>& point, const Vector3<Scalar>& left,
+                          const Vector3<Scalar>& right) {
+  return dot<Scalar>(left - point, right - point) <= Scalar(0);
 }
 
 /// Distance of a point from the line through the tips [m].
 template <class Scalar>
-Scalar distance_to_tip_line(const Vector3<Scalar>& point, const Vector3<Scalar>& left, const Vector3<Scalar>& right) {
+Scalar distance_to_tip_line(const Vector3<Scalar>& point, const Vector3<Scalar>& left,
+                            const Vector3<Scalar>& right) {
   const Vector3<Scalar> span = left - right;
   const Vector3<Scalar> offset = point - right;
-  const Scalar along = offset.dot(span) / (span.dot(span) + tiny<Scalar>());
+  const Scalar along = dot<Scalar>(offset, span) / (squared_norm(span) + tiny<Scalar>());
   return norm<Scalar>(offset - span * along);
 }
 
-/// The taut catch: tips nearly a string length apart under the diabolo, which is between them and close to their line.
+/// The taut catch: tips nearly a string length apart under the diabolo, which is between them and close to
+/// their line.
 template <class Scalar>
 Mask<Scalar> taut_catch(const Vector3<Scalar>& point, const Spheroid<Scalar>& spheroid,
                         const Parameters<Scalar>& parameters) {
@@ -42,13 +46,15 @@ Mask<Scalar> taut_catch(const Vector3<Scalar>& point, const Spheroid<Scalar>& sp
          (distance_to_tip_line(point, spheroid.left(), spheroid.right()) < parameters.catch_distance);
 }
 
-/// The authors' program. `point` is the extrapolated position; a diabolo that is not flying and outside the spheroid
-/// is ON_STRING.
+/// The authors' program. `point` is the extrapolated position; a diabolo that is not flying and outside the
+/// spheroid is ON_STRING.
 template <class Scalar>
 StringStateOf<Scalar> published_string_state(StringStateOf<Scalar> state, const Vector3<Scalar>& point,
-                                             const Spheroid<Scalar>& spheroid, const Parameters<Scalar>& parameters) {
+                                             const Spheroid<Scalar>& spheroid,
+                                             const Parameters<Scalar>& parameters) {
   const Vector3<Scalar>&left = spheroid.left(), &right = spheroid.right();
-  const Mask<Scalar> over = (height_above_tips(point, left, right) > Scalar(0)) && between_tips(point, left, right) &&
+  const Mask<Scalar> over = (height_above_tips(point, left, right) > Scalar(0)) &&
+                            between_tips(point, left, right) &&
                             ((point.z() > left.z()) || (point.z() > right.z()));
   const Mask<Scalar> was_flying = is(state, StringState::kFlying);
   const Mask<Scalar> caught = was_flying && !over && taut_catch(point, spheroid, parameters);
@@ -61,12 +67,13 @@ StringStateOf<Scalar> published_string_state(StringStateOf<Scalar> state, const 
   return state;
 }
 
-/// The paper's figure of the states; its labels are lost in the source, so that this is our reading of the text:
-/// with s > 0 inside, ON_STRING -> LOOSE when s > c_L; LOOSE -> ON_STRING when s <= 0; either -> FLYING when s > c_F
-/// above the plane of the tips; FLYING -> LOOSE by the taut catch only.
+/// The paper's figure of the states; its labels are lost in the source, so that this is our reading of the
+/// text: with s > 0 inside, ON_STRING -> LOOSE when s > c_L; LOOSE -> ON_STRING when s <= 0; either -> FLYING
+/// when s > c_F above the plane of the tips; FLYING -> LOOSE by the taut catch only.
 template <class Scalar>
 StringStateOf<Scalar> paper_string_state(StringStateOf<Scalar> state, const Vector3<Scalar>& point,
-                                         const Spheroid<Scalar>& spheroid, const Parameters<Scalar>& parameters) {
+                                         const Spheroid<Scalar>& spheroid,
+                                         const Parameters<Scalar>& parameters) {
   const Scalar s = spheroid.signed_distance(point);
   const Mask<Scalar> above = height_above_tips(point, spheroid.left(), spheroid.right()) > Scalar(0);
   const Mask<Scalar> flying = is(state, StringState::kFlying);
@@ -81,18 +88,21 @@ StringStateOf<Scalar> paper_string_state(StringStateOf<Scalar> state, const Vect
   return state;
 }
 
-/// Ours, for the inextensible string: as the paper's, with the distance inside the spheroid taken to first order from
-/// the slack, s = (L - path length) / |gradient| (no root search; exact for a string that is nearly taut), and leaving
-/// only between the tips, where the slack string falls off the axle.
+/// Ours, for the inextensible string: as the paper's, with the distance inside the spheroid taken to first
+/// order from the slack, s = (L - path length) / |gradient| (no root search; exact for a string that is
+/// nearly taut), and leaving only between the tips, where the slack string falls off the axle.
 template <class Scalar>
-StringStateOf<Scalar> slack_string_state(StringStateOf<Scalar> state, const Vector3<Scalar>& point, const Scalar& slack,
-                                         const Scalar& gradient_norm, const Vector3<Scalar>& left,
-                                         const Vector3<Scalar>& right, const Parameters<Scalar>& parameters) {
+StringStateOf<Scalar> slack_string_state(StringStateOf<Scalar> state, const Vector3<Scalar>& point,
+                                         const Scalar& slack, const Scalar& gradient_squared,
+                                         const Vector3<Scalar>& left, const Vector3<Scalar>& right,
+                                         const Parameters<Scalar>& parameters) {
+  const Scalar gradient = positive_sqrt<Scalar>(gradient_squared);
   const Mask<Scalar> flying = is(state, StringState::kFlying);
-  const Mask<Scalar> leaves = !flying && (slack > parameters.flying_distance * gradient_norm) &&
-                              (height_above_tips(point, left, right) > Scalar(0)) && between_tips(point, left, right);
+  const Mask<Scalar> leaves = !flying && (slack > parameters.flying_distance * gradient) &&
+                              (height_above_tips(point, left, right) > Scalar(0)) &&
+                              between_tips(point, left, right);
   const Mask<Scalar> loosens =
-      is(state, StringState::kOnString) && (slack > parameters.loose_distance * gradient_norm);
+      is(state, StringState::kOnString) && (slack > parameters.loose_distance * gradient);
   assign_where(loosens, state, StringState::kLoose);
   assign_where(leaves, state, StringState::kFlying);
   return state;

@@ -53,7 +53,8 @@ class TipMotion {
     if (time < begin() || times_.size() == 1) return resting(0);
     if (time >= end()) return resting(times_.size() - 1);
     std::size_t i = hint + 1 < times_.size() ? hint : 0;
-    if (times_[i] > time) i = static_cast<std::size_t>(std::ranges::upper_bound(times_, time) - times_.begin()) - 1;
+    if (times_[i] > time)
+      i = static_cast<std::size_t>(std::ranges::upper_bound(times_, time) - times_.begin()) - 1;
     while (times_[i + 1] <= time) ++i;
     hint = i;
     if (interpolation_ == Interpolation::kHeld) return resting(i);
@@ -87,7 +88,8 @@ class TipMotion {
     if (interpolation_ == Interpolation::kSpline) {
       const double h2 = h * h / 6.0;
       value += a.curvature * Scalar((u * u - 1.0) * u * h2) + b.curvature * Scalar((v * v - 1.0) * v * h2);
-      rate += a.curvature * Scalar((1.0 - 3.0 * u * u) * h / 6.0) + b.curvature * Scalar((3.0 * v * v - 1.0) * h / 6.0);
+      rate += a.curvature * Scalar((1.0 - 3.0 * u * u) * h / 6.0) +
+              b.curvature * Scalar((3.0 * v * v - 1.0) * h / 6.0);
     }
     Tips<Scalar> tips;
     tips.left = value.template head<3>();
@@ -117,8 +119,9 @@ class TipMotion {
     const std::size_t n = times_.size();
     if (n == 0) throw std::invalid_argument("tip motion: no instants; at least one expected");
     if (left.size() != n || right.size() != n)
-      throw std::invalid_argument("tip motion: " + std::to_string(n) + " times, " + std::to_string(left.size()) +
-                                  " left tips and " + std::to_string(right.size()) + " right tips; must be equal");
+      throw std::invalid_argument("tip motion: " + std::to_string(n) + " times, " +
+                                  std::to_string(left.size()) + " left tips and " +
+                                  std::to_string(right.size()) + " right tips; must be equal");
     for (std::size_t i = 0; i < n; ++i) {
       const std::string where = "tip motion, instant " + std::to_string(i) + ": ";
       if (!std::isfinite(times_[i])) throw std::invalid_argument(where + "time is not a finite number");

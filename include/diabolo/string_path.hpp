@@ -11,32 +11,43 @@ struct StringPath {
   Vector3<Scalar> from_left, from_right;  ///< diabolo minus tip [m]
   Scalar left_length, right_length;       ///< of the two strands [m]
 
-  StringPath(const Vector3<Scalar>& diabolo, const Vector3<Scalar>& left, const Vector3<Scalar>& right)
-      : from_left(diabolo - left),
-        from_right(diabolo - right),
+  [[gnu::always_inline]] inline StringPath(const Vector3<Scalar>& diabolo, const Tips<Scalar>& tips)
+      : from_left(diabolo - tips.left),
+        from_right(diabolo - tips.right),
         left_length(norm<Scalar>(from_left)),
         right_length(norm<Scalar>(from_right)) {}
 
   Scalar length() const { return left_length + right_length; }
 
-  /// Derivative of the length with respect to the diabolo's position.
-  Vector3<Scalar> gradient() const { return from_left / left_length + from_right / right_length; }
+  /// Right strand minus left strand [m]; half its change is the string that has passed the axle.
+  Scalar imbalance() const { return right_length - left_length; }
 
-  /// Rate of the length [m/s] for the given velocities.
+  /// Derivative of the length with respect to the diabolo's position.
+  [[gnu::always_inline]] inline Vector3<Scalar> gradient() const {
+    return from_left * Scalar(Scalar(1) / left_length) + from_right * Scalar(Scalar(1) / right_length);
+  }
+
+  /// Rate of the length [m/s] by the tips' velocities alone.
+  [[gnu::always_inline]] inline Scalar tip_rate(const Vector3<Scalar>& left_velocity,
+                                                const Vector3<Scalar>& right_velocity) const {
+    return -dot(from_left, left_velocity) / left_length - dot(from_right, right_velocity) / right_length;
+  }
+
+  /// Rate of the length [m/s].
   Scalar rate(const Vector3<Scalar>& velocity, const Vector3<Scalar>& left_velocity,
               const Vector3<Scalar>& right_velocity) const {
-    return Scalar(from_left.dot(velocity - left_velocity)) / left_length +
-           Scalar(from_right.dot(velocity - right_velocity)) / right_length;
+    return dot(gradient(), velocity) + tip_rate(left_velocity, right_velocity);
   }
 };
 
-/// Discrete gradient of the length between two instants (Gonzalez 1996): its product with the diabolo's displacement
-/// relative to the tips is exactly the change of the length. A force along it does exactly the work that a string of
-/// constant length does, so that a step along it keeps the energy whatever its size.
+/// Discrete gradient of the length between two instants (Gonzalez 1996): its product with the diabolo's
+/// displacement relative to the tips is exactly the change of the length. A force along it does exactly the
+/// work that a string of constant length does, so that a step along it keeps the energy whatever its size.
 template <class Scalar>
-Vector3<Scalar> discrete_gradient(const StringPath<Scalar>& a, const StringPath<Scalar>& b) {
-  return (a.from_left + b.from_left) / (a.left_length + b.left_length) +
-         (a.from_right + b.from_right) / (a.right_length + b.right_length);
+[[gnu::always_inline]] inline Vector3<Scalar> discrete_gradient(const StringPath<Scalar>& a,
+                                                                const StringPath<Scalar>& b) {
+  return (a.from_left + b.from_left) * Scalar(Scalar(1) / (a.left_length + b.left_length)) +
+         (a.from_right + b.from_right) * Scalar(Scalar(1) / (a.right_length + b.right_length));
 }
 
 }  // namespace diabolo

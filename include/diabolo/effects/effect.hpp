@@ -10,9 +10,9 @@
 
 namespace diabolo {
 
-/// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives from this,
-/// holds its parameters (amplitude zero by default: then it changes no bit of the result) and hides the hooks that it
-/// needs. All hooks are const, allocate nothing and know no time.
+/// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
+/// from this, holds its parameters (amplitude zero by default: then it changes no bit of the result) and
+/// hides the hooks that it needs. All hooks are const, allocate nothing and know no time.
 template <class Scalar>
 struct NeutralEffect {
   /// Acceleration beside gravity and string [m/s^2].

@@ -7,10 +7,11 @@
 
 namespace diabolo {
 
-/// A string that stretches: tension = stiffness * e + damping * de/dt while positive, with e the path length beyond the
-/// string's length. One spring stands for string, sticks and their holders in series (the paper's robot: about 60 N/m);
-/// twine of 1.5 mm lies at 400, braided polyester at 1000 to 4000 N/m for 1.45 m. The amplitude is the compliance, so
-/// that zero is the rigid string. Only compliance times the diabolo's mass acts on the motion.
+/// A string that stretches: tension = stiffness * e + damping * de/dt while positive, with e the path length
+/// beyond the string's length. One spring stands for string, sticks and their holders in series (the paper's
+/// robot: about 60 N/m); twine of 1.5 mm lies at 400, braided polyester at 1000 to 4000 N/m for 1.45 m. The
+/// amplitude is the compliance, so that zero is the rigid string. Only compliance times the diabolo's mass
+/// acts on the motion.
 template <class Scalar>
 struct StringElasticity : NeutralEffect<Scalar> {
   Scalar compliance_per_newton{0};  ///< 1 / stiffness [m/N], >= 0

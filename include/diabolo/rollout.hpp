@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+
+#include "diabolo/predictor.hpp"
+
+namespace diabolo {
+
+/// Steps that a rollout takes: from `begin` in `count` equal steps of `dt` [s].
+struct Steps {
+  double begin = 0.0;  ///< time of the initial state [s]
+  double dt = 1e-3;    ///< [s]
+  std::size_t count = 0;
+
+  /// Time after `i` steps [s].
+  double time(std::size_t i) const { return begin + static_cast<double>(i) * dt; }
+};
+
+/// Predicts `steps` from `state`, the tips following `motion`, and calls `visit(index, time, state, status)`
+/// after each step with index 1 .. count. The caller keeps what it needs; nothing is stored. Returns the last
+/// state. Throws std::invalid_argument when dt is not positive and finite.
+template <class Scalar, template <class> class... Effects, class Visitor>
+State<Scalar> rollout(const Predictor<Scalar, Effects...>& predictor, State<Scalar> state,
+                      const TipMotion<Scalar>& motion, const Steps& steps, Visitor&& visit) {
+  if (!(steps.dt > 0.0) || !std::isfinite(steps.dt) || !std::isfinite(steps.begin))
+    throw std::invalid_argument("rollout: dt must be positive and finite, the time of the start finite");
+  std::size_t hint = 0;
+  Tips<Scalar> now = motion.at(steps.begin, hint);
+  for (std::size_t i = 1; i <= steps.count; ++i) {
+    const Tips<Scalar> next = motion.at(steps.time(i), hint);
+    const StepStatus<Scalar> status = predictor.step(state, now, next, Scalar(steps.dt));
+    visit(i, steps.time(i), state, status);
+    now = next;
+  }
+  return state;
+}
+
+/// The same without looking at what lies between.
+template <class Scalar, template <class> class... Effects>
+State<Scalar> rollout(const Predictor<Scalar, Effects...>& predictor, const State<Scalar>& state,
+                      const TipMotion<Scalar>& motion, const Steps& steps) {
+  return rollout(predictor, state, motion, steps,
+                 [](std::size_t, double, const State<Scalar>&, const auto&) {});
+}
+
+}  // namespace diabolo
