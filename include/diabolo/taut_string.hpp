@@ -53,6 +53,7 @@ template <bool kElastic, class Scalar>
 StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const Mask<Scalar>& captured) {
   const Scalar& length = step.string_length;
   const Scalar tolerance = Scalar(constraint_tolerance<Scalar>()) * length;
+  const Scalar energy_tolerance = Scalar(30 * constraint_tolerance<Scalar>());  // [J/kg]
   const StringPath<Scalar> begin(step.position, step.begin);
   const Vector3<Scalar> free = step.free_position(step.dt);
   const Mask<Scalar> begins_slack = begin.length() < length - tolerance;
@@ -80,7 +81,7 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   // last position, its extension is wanted on the line through `free` along the new direction.
   Vector3<Scalar> direction;
   Scalar pull{0}, slope{0};
-  Mask<Scalar> taut{false}, settled{false};
+  Mask<Scalar> settled{false};
   for (int i = 0; i < 12; ++i) {
     direction = step.plane(discrete_gradient(begin, path));
     slope = maximum(dot(gradient, direction), Scalar(1e-9));
@@ -89,19 +90,24 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
       pull = (end_weight * extension + begin_part) / (end_weight * slope + spring);
     else
       pull = extension / slope;
-    taut = captured && (pull > Scalar(0));
+    pull = select(captured, maximum(pull, Scalar(0)), Scalar(0));
     const Vector3<Scalar> next = direction * Scalar(-pull);
     const Scalar moved = squared_norm<Scalar>(next - shift);
     shift = next;
     position = free + shift;
-    // What another iteration could still change is about moved * (moved + pull) / strand.
-    const Scalar strand = minimum(path.left_length, path.right_length) * tolerance;
-    settled = Scalar(2) * moved * (moved + pull * pull) <= strand * strand;
-    if (all(settled || !taut)) break;
+    // What another iteration could still change is about moved * (moved + pull) / strand, and the energy per mass that
+    // the direction is wrong by is about pull / half_square * moved / strand * travel.
+    const Scalar strand = minimum(path.left_length, path.right_length);
+    const Scalar travel = squared_norm<Scalar>(position - step.position);
+    const Scalar position_limit = tolerance * strand, energy_limit = energy_tolerance * half_square * strand;
+    settled = (Scalar(2) * moved * (moved + pull * pull) <= position_limit * position_limit) &&
+              (pull * pull * moved * travel <= energy_limit * energy_limit);
+    if (all(settled)) break;
     path = StringPath<Scalar>(position, step.end);
     gradient = step.plane(path.gradient());
   }
 
+  const Mask<Scalar> taut = pull > Scalar(0);
   StringStepResult<Scalar> result;
   result.taut = taut;
   result.slack = length - path.length();
@@ -119,7 +125,7 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   result.velocity = arriving - direction * impulse - gradient * select(taut, removed, Scalar(0));
   result.position = select<Scalar>(taut, position, free);
   result.string_acceleration = direction * Scalar(-impulse * inverse_dt);
-  const Mask<Scalar> lost = taut && !settled;
+  const Mask<Scalar> lost = captured && !settled;
   if (any(lost)) put_back(step, lost, result);
   return result;
 }
