@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "diabolo/recording/error.hpp"
+#include "diabolo/recording/recording.hpp"
+#include "diabolo/recording/text.hpp"
+
+namespace diabolo {
+
+/// Largest departure of a quaternion's norm from 1 that is taken for rounding and normalised away.
+inline constexpr double kQuaternionTolerance = 1e-3;
+
+/// Largest coordinate [m] that is believed; beyond it a file is taken to be in other units, or broken.
+inline constexpr double kLargestCoordinate = 100.0;
+
+/// Largest time [s] that is believed.
+inline constexpr double kLargestTime = 1e9;
+
+/// Normalises a quaternion whose norm is within kQuaternionTolerance of 1; false, and no change, beyond it.
+/// One that is unit to rounding stays as it is, bit for bit, so that files round-trip.
+inline bool normalize_quaternion(Eigen::Ref<Eigen::Vector4d> quaternion) {
+  const double norm = quaternion.norm();
+  if (!(std::abs(norm - 1.0) <= kQuaternionTolerance)) return false;
+  if (std::abs(norm - 1.0) > 1e-15) quaternion /= norm;
+  return true;
+}
+
+/// Throws RecordingError unless the sampling rate [Hz] is believable and fits the median time step (to 5 %).
+inline void check_rate(double rate, const Eigen::VectorXd& time, const std::string& where) {
+  if (!(rate > 0.0 && rate <= 1e6))
+    throw RecordingError(where + ": rate " + shown(rate) + " Hz; expected more than 0, at most 1e6");
+  if (time.size() < 2) return;
+  Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  double* const middle = step.data() + step.size() / 2;
+  std::nth_element(step.data(), middle, step.data() + step.size());
+  if (std::abs(*middle * rate - 1.0) > 0.05)
+    throw RecordingError(where + ": rate " + shown(rate) + " Hz, but the times step by " + shown(*middle) +
+                         " s");
+}
+
+/// Throws RecordingError unless mass, sizes and string length are finite numbers above zero.
+inline void check_properties(const DiaboloProperties& properties, double string_length,
+                             const std::string& where) {
+  const auto check = [&where](const char* field, double value) {
+    if (!(value > 0.0 && std::isfinite(value)))
+      throw RecordingError(where + ": " + field + " " + shown(value) + "; expected a finite number > 0");
+  };
+  check("diabolo.mass [kg]", properties.mass);
+  check("diabolo.diameter [m]", properties.diameter);
+  check("diabolo.length [m]", properties.length);
+  check("diabolo.axle_radius [m]", properties.axle_radius);
+  check("string_length [m]", string_length);
+}
+
+/// Throws RecordingError unless the track has `size` samples: believable where valid, NaN in dropouts.
+inline void check_track(const Track& track, Eigen::Index size, const std::string& where) {
+  if (track.position.cols() != size || track.valid.size() != size)
+    throw RecordingError(where + ": " + std::to_string(track.position.cols()) + " positions and " +
+                         std::to_string(track.valid.size()) + " marks; expected " + std::to_string(size));
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto position = track.position.col(i);
+    if (track.valid[i] ? !(position.cwiseAbs().array() <= kLargestCoordinate).all()
+                       : !position.array().isNaN().all())
+      throw RecordingError(where + ", sample " + std::to_string(i) + ": position (" + shown(position.x()) +
+                           ", " + shown(position.y()) + ", " + shown(position.z()) + ") m; expected " +
+                           (track.valid[i] ? "numbers within 100 m" : "NaN in a dropout"));
+  }
+}
+
+/// Throws RecordingError unless the track is empty or has `size` samples: unit where valid, NaN in dropouts.
+inline void check_track(const OrientationTrack& track, Eigen::Index size, const std::string& where) {
+  if (track.empty() && track.valid.size() == 0) return;
+  if (track.quaternion.cols() != size || track.valid.size() != size)
+    throw RecordingError(where + ": " + std::to_string(track.quaternion.cols()) + " orientations and " +
+                         std::to_string(track.valid.size()) + " marks; expected " + std::to_string(size));
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto quaternion = track.quaternion.col(i);
+    if (track.valid[i] ? !(std::abs(quaternion.norm() - 1.0) < 1e-9) : !quaternion.array().isNaN().all())
+      throw RecordingError(where + ", sample " + std::to_string(i) + ": quaternion of norm " +
+                           shown(quaternion.norm()) + "; expected " +
+                           (track.valid[i] ? "1" : "NaN in a dropout"));
+  }
+}
+
+/// Throws RecordingError unless `recording` is what its type promises. Readers only return such recordings;
+/// writers and filters check those made by hand.
+inline void check_recording(const Recording& recording) {
+  const std::string where = "recording " + shown(recording.name);
+  const Eigen::Index size = recording.size();
+  if (static_cast<Eigen::Index>(recording.frame.size()) != size)
+    throw RecordingError(where + ": " + std::to_string(recording.frame.size()) + " frame numbers and " +
+                         std::to_string(size) + " times; expected as many");
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (!(std::abs(recording.time[i]) <= kLargestTime) ||
+        (i > 0 && !(recording.time[i] > recording.time[i - 1])))
+      throw RecordingError(where + ", sample " + std::to_string(i) + ": time " + shown(recording.time[i]) +
+                           " s; expected increasing times within 1e9 s");
+  check_rate(recording.rate, recording.time, where);
+  check_properties(recording.properties, recording.string_length, where);
+  check_track(recording.left, size, where + ", left tip");
+  check_track(recording.right, size, where + ", right tip");
+  check_track(recording.diabolo, size, where + ", diabolo");
+  check_track(recording.diabolo_orientation, size, where + ", diabolo orientation");
+  check_track(recording.left_orientation, size, where + ", left orientation");
+  check_track(recording.right_orientation, size, where + ", right orientation");
+}
+
+}  // namespace diabolo
