@@ -29,7 +29,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-cpp test-plant test-python test-all mujoco browser sanitize fuzz scalars bench \
+.PHONY: help demo test test-cpp test-plant test-python test-all mujoco browser sanitize fuzz scalars stress bench \
   build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
@@ -85,7 +85,7 @@ endif
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test mujoco browser sanitize fuzz scalars ## Run the tests and the heavy groups: simulators, browser, sanitizers, fuzzing, every scalar
+test-all: test mujoco browser sanitize fuzz scalars stress ## Run the tests and the heavy groups: simulators, browser, sanitizers, fuzzing, stress
 
 mujoco: $(VENV)/.package-with-tests
 	@if grep -rqs 'mark.mujoco' tests/python; then \
@@ -112,15 +112,13 @@ fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	@cmake --build $(BUILD)/fuzz -j $(JOBS)
 	@BUILD=$(BUILD) .ci/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
-scalars:
-ifneq ($(wildcard tests/scalars/*.cpp),)
-	@$(packages) build test
-	@$(cmake) -S . -B $(BUILD)/scalars $(test_flags) -DDIABOLO_TEST_SCALARS=ON >/dev/null
-	@cmake --build $(BUILD)/scalars -j $(JOBS) --target tests_scalars -- -k 0
-	@$(ctest) --test-dir $(BUILD)/scalars -L scalars
-else
-	@echo "No test in tests/scalars yet."
-endif
+scalars stress: # Every law with every scalar; long random runs. With assertions, but optimised in full.
+	@if compgen -G 'tests/$@/*.cpp' >/dev/null; then \
+	  $(packages) build test; \
+	  $(cmake) -S . -B $(BUILD)/heavy $(test_flags) -DCMAKE_CXX_FLAGS_DEBUG=-O2 -DDIABOLO_TEST_HEAVY=ON >/dev/null; \
+	  cmake --build $(BUILD)/heavy -j $(JOBS) --target tests_$@ -- -k 0; \
+	  $(ctest) --test-dir $(BUILD)/heavy -L $@; \
+	else echo "No test in tests/$@ yet."; fi
 
 bench: build-benchmarks ## Run every benchmark, and print what each header costs to compile
 	@for program in $(BUILD)/bench/benchmarks/bench_*; do [ ! -x "$$program" ] || "$$program"; done
