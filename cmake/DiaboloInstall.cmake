@@ -4,8 +4,10 @@ include(CMakePackageConfigHelpers)
 
 set(config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/diabolo")
 set(installed_targets diabolo)
+set(architecture ARCH_INDEPENDENT)
 if(TARGET diabolo_batch)
   list(APPEND installed_targets diabolo_batch)
+  set(architecture "")
 endif()
 
 install(DIRECTORY include/diabolo DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT cpp
@@ -17,7 +19,7 @@ install(EXPORT diabolo-targets NAMESPACE diabolo:: DESTINATION "${config_dir}" C
 configure_package_config_file(cmake/diabolo-config.cmake.in diabolo-config.cmake
   INSTALL_DESTINATION "${config_dir}")
 write_basic_package_version_file(diabolo-config-version.cmake COMPATIBILITY SameMinorVersion
-  ARCH_INDEPENDENT)
+  ${architecture})
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/diabolo-config.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/diabolo-config-version.cmake"
         DESTINATION "${config_dir}" COMPONENT cpp)
