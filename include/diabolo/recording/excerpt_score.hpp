@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "diabolo/recording/baseline.hpp"
+#include "diabolo/recording/check.hpp"
 #include "diabolo/recording/model.hpp"
 #include "diabolo/recording/paper_table.hpp"
+#include "diabolo/recording/start_state.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/rollout.hpp"
 
@@ -30,12 +36,88 @@ struct ExcerptScore {
   std::optional<double> program_error;  ///< the authors' program, run again [m]
 };
 
-/// Scores the recording by the recipe of the paper's table. Throws RecordingError where it has no row to
-/// start from or to compare.
-ExcerptScore score_excerpt(const Recording& recording, const Model& model);
+/// Step of the published evaluation [s]; the per-step factors of the published rules belong to it.
+inline constexpr double kEvaluationStep = 1e-3;
+
+/// Steps from a start until the first one at or after `seconds` later; a step within a microsecond of it
+/// counts as at it.
+inline std::size_t steps_until(double seconds) {
+  return static_cast<std::size_t>(std::max(0.0, std::ceil(seconds / kEvaluationStep - 1e-3)));
+}
+
+/// Whether a predicted position can be compared at all: finite, and within what is believed of a recording.
+inline bool is_in_world(const Vector3<double>& position) {
+  return (position.cwiseAbs().array() <= kLargestCoordinate).all();
+}
+
+/// The first row at which the published start is known: the diabolo there and in the next row, and both tips.
+/// Throws RecordingError where there is none.
+inline Eigen::Index first_start(const Recording& recording) {
+  bool left = false, right = false;
+  for (Eigen::Index i = 0; i + 1 < recording.size(); ++i) {
+    left = left || recording.left.valid[i];
+    right = right || recording.right.valid[i];
+    if (left && right && recording.diabolo.valid[i] && recording.diabolo.valid[i + 1] &&
+        recording.steps_evenly(i))
+      return i;
+  }
+  throw RecordingError("recording " + shown(recording.name) +
+                       ": no two successive rows with the diabolo and both tips to start from");
+}
+
+/// Scores the recording by the recipe of the paper's table: one rollout from the published start at the first
+/// row where that is known, steps of kEvaluationStep, mean Euclidean distance at the first sample at or after
+/// each row but the last one. Throws RecordingError where it has no row to start from or to compare.
+inline ExcerptScore score_excerpt(const Recording& recording, const Model& model) {
+  check_recording(recording);
+  const Eigen::VectorXd times = row_times(recording);
+  const Track baseline = baseline_track(recording);
+  ExcerptScore score{.recording = recording.name, .model = model.name, .rows = recording.size()};
+  score.start_row = first_start(recording);
+  if (const PaperExcerpt* excerpt = paper_excerpt(recording.name);
+      excerpt != nullptr && excerpt->rows == recording.size()) {
+    score.motion = excerpt->motion;
+    score.paper_error = excerpt->paper_error;
+    score.program_error = excerpt->program_error;
+  }
+
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = score.start_row + 1; i + 1 < recording.size(); ++i)
+    if (recording.diabolo.valid[i] && recording.diabolo.valid[i - 1]) rows.push_back(i);
+  if (rows.empty()) throw RecordingError("recording " + shown(recording.name) + ": no row to compare");
+  score.scored = static_cast<Eigen::Index>(rows.size());
+  score.skipped = recording.size() - 2 - score.start_row - score.scored;
+  const double start_time = times[score.start_row];
+  score.duration = times[rows.back()] - start_time;
+
+  const Steps steps{start_time, kEvaluationStep, steps_until(score.duration)};
+  double error_sum = 0.0, baseline_sum = 0.0;
+  std::size_t next = 0;
+  rollout(predictor_for(model, recording), published_start(recording, score.start_row, has_signed_spin(model)),
+          tip_motion(recording, model.interpolation), steps,
+          [&](std::size_t step, double time, const State<double>& state, const StepStatus<double>&) {
+            if (!score.diverged && !is_in_world(state.position)) score.diverged = time - start_time;
+            for (; next < rows.size() && steps_until(times[rows[next]] - start_time) == step; ++next) {
+              error_sum += (state.position - recording.diabolo.position.col(rows[next])).norm();
+              baseline_sum +=
+                  (baseline.position.col(rows[next]) - recording.diabolo.position.col(rows[next])).norm();
+            }
+          });
+  const double count = static_cast<double>(score.scored);
+  if (!score.diverged) score.error = error_sum / count;
+  score.baseline_error = baseline_sum / count;
+  return score;
+}
 
 /// The excerpt of the paper's table that this take is or contains, if any, and then the take as a whole
 /// unless it is that excerpt.
-std::vector<ExcerptScore> score_excerpts(const Recording& recording, const Model& model);
+inline std::vector<ExcerptScore> score_excerpts(const Recording& recording, const Model& model) {
+  std::vector<ExcerptScore> scores;
+  if (const PaperExcerpt* excerpt = paper_excerpt(recording.name);
+      excerpt != nullptr && excerpt->rows < recording.size())
+    scores.push_back(score_excerpt(cut(recording, 0, excerpt->rows - 1), model));
+  scores.push_back(score_excerpt(recording, model));
+  return scores;
+}
 
 }  // namespace diabolo

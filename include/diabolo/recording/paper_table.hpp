@@ -19,11 +19,11 @@ struct PaperExcerpt {
 };
 
 inline constexpr std::array<PaperExcerpt, 5> kPaperTable{{
-    {"throw", "throw_1", 0, 0.21, 0.1980},
-    {"swinging", "y_swing_2", 0, 0.08, 0.0811},
+    {"throw", "throw_1", 325, 0.21, 0.1980},
+    {"swinging", "y_swing_2", 903, 0.08, 0.0811},
     {"hop", "z_hop_1", 181, 0.07, 0.0700},
     {"linear acceleration", "acceleration_1", 181, 0.03, 0.0303},
-    {"circular acceleration", "circular_accel_stick_motion", 0, 0.11, 0.1104},
+    {"circular acceleration", "circular_accel_stick_motion", 143, 0.11, 0.1104},
 }};
 
 /// The row of the table for a take of this name; null where the paper has none.

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "diabolo/recording/calibration.hpp"
+#include "diabolo/recording/motive.hpp"
+#include "diabolo/recording/spin.hpp"
+#include "diabolo/recording/tidy.hpp"
+
+/// A Motive export is refused with a sentence, or becomes a recording that keeps its promises and can be
+/// written.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    const diabolo::MotiveTake take =
+        diabolo::read_motive(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz.csv");
+    diabolo::Calibration calibration = diabolo::published_calibration();
+    if (take.bodies.empty()) return 0;
+    calibration.left.bodies = calibration.right.bodies =
+        calibration.diabolo.bodies = {take.bodies.front().name};
+    if (take.bodies.front().name.empty()) std::abort();
+    const diabolo::Recording recording = diabolo::apply(calibration, take);
+    diabolo::signed_spin(recording);
+  } catch (const diabolo::RecordingError&) {
+  }
+  return 0;
+}
