@@ -96,6 +96,11 @@ struct Dual {
     for (int i = 0; i < N; ++i) finite = finite && is_finite(x.gradient[i]);
     return finite;
   }
+  friend bool is_constant_zero(const Dual& x) {
+    bool zero = is_constant_zero(x.value);
+    for (int i = 0; i < N; ++i) zero = zero && is_constant_zero(x.gradient[i]);
+    return zero;
+  }
   friend Base value_of(const Dual& x) { return x.value; }
 };
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "diabolo/scalar.hpp"
@@ -10,7 +11,7 @@
 namespace diabolo {
 
 /// A bool per lane: all bits set where true (GCC and Clang vector extensions).
-template <class T, int Lanes>
+template <class T, int Lanes, class Tag = void>
 struct PackMask {
   using Integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
   typedef Integer Bits __attribute__((vector_size(sizeof(Integer) * Lanes)));
@@ -25,23 +26,35 @@ struct PackMask {
   friend PackMask operator||(PackMask a, PackMask b) { return PackMask(Bits(a.bits | b.bits)); }
   friend PackMask operator!(PackMask a) { return PackMask(Bits(~a.bits)); }
   friend bool any(PackMask a) {
-    Integer sum = 0;
-    for (int i = 0; i < Lanes; ++i) sum |= a.bits[i];
-    return sum != 0;
+    // Halving keeps the work in vector registers.
+    if constexpr (Lanes > 2) {
+      typedef typename PackMask<T, Lanes / 2, Tag>::Bits Half;
+      Half low, high;
+      std::memcpy(&low, &a.bits, sizeof(Half));
+      std::memcpy(&high, reinterpret_cast<const char*>(&a.bits) + sizeof(Half), sizeof(Half));
+      return any(PackMask<T, Lanes / 2, Tag>(Half(low | high)));
+    } else {
+      Integer sum = a.bits[0];
+      for (int i = 1; i < Lanes; ++i) sum |= a.bits[i];
+      return sum != 0;
+    }
   }
   friend bool all(PackMask a) { return !any(!a); }
 };
 
 /// `Lanes` numbers that go through the same operations at once. The compiler maps it to whatever vector
 /// registers the translation unit is compiled for; the value of a lane does not depend on the other lanes.
-template <class T, int Lanes>
+///
+/// Code that is compiled for one instruction set inside a program for several gives a `Tag` of its own, so
+/// that the linker never mixes its functions with others.
+template <class T, int Lanes, class Tag = void>
 struct Pack {
   typedef T Vector __attribute__((vector_size(sizeof(T) * Lanes)));
-  using Mask = PackMask<T, Lanes>;
+  using Mask = PackMask<T, Lanes, Tag>;
   Vector lanes{};
 
   Pack() = default;
-  Pack(double x) : lanes(Vector{} + static_cast<T>(x)) {}  // NOLINT: a constant is the same in every lane
+  Pack(double x) : lanes(static_cast<T>(x) - Vector{}) {}  // NOLINT: a constant is the same in every lane
   explicit Pack(Vector v) : lanes(v) {}
   T operator[](int lane) const { return lanes[lane]; }
   void set(int lane, T x) { lanes[lane] = x; }
@@ -89,6 +102,7 @@ struct Pack {
     return Pack(Vector(condition.bits ? a.lanes : b.lanes));
   }
   friend Mask is_finite(Pack x) { return (x - x) == Pack(0.0); }
+  friend bool is_constant_zero(Pack x) { return all(x == Pack(0.0)); }
   friend Pack value_of(Pack x) { return x; }
 
  private:
@@ -100,18 +114,19 @@ struct Pack {
   }
 };
 
-template <class T, int Lanes>
-struct ScalarTraits<Pack<T, Lanes>> {
-  using Mask = PackMask<T, Lanes>;
+template <class T, int Lanes, class Tag>
+struct ScalarTraits<Pack<T, Lanes, Tag>> {
+  using Mask = PackMask<T, Lanes, Tag>;
   using Value = T;
   static constexpr int kLanes = Lanes;
 };
 
 }  // namespace diabolo
 
-template <class T, int Lanes>
-struct Eigen::NumTraits<diabolo::Pack<T, Lanes>> : Eigen::GenericNumTraits<diabolo::Pack<T, Lanes>> {
-  using Real = diabolo::Pack<T, Lanes>;
+template <class T, int Lanes, class Tag>
+struct Eigen::NumTraits<diabolo::Pack<T, Lanes, Tag>>
+    : Eigen::GenericNumTraits<diabolo::Pack<T, Lanes, Tag>> {
+  using Real = diabolo::Pack<T, Lanes, Tag>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;

@@ -45,27 +45,42 @@ struct ParameterInfo {
   std::string_view meaning;
 };
 
+/// Throws std::invalid_argument naming the first field of `Fields::for_each` that is out of its range, its
+/// value and the range.
+template <class Scalar, class Fields>
+void validate_fields(const Fields& fields, const std::string& prefix = {}) {
+  Fields::for_each(fields, [&](const ParameterInfo& info, const Scalar& field) {
+    if (all(field >= Scalar(info.minimum)) && all(field <= Scalar(info.maximum))) return;
+    std::ostringstream text;
+    text << prefix << info.name << ": ";
+    if constexpr (std::floating_point<Scalar>) text << field << ' ' << info.unit << "; ";
+    text << "must be within [" << info.minimum << ", " << info.maximum << "] " << info.unit;
+    throw std::invalid_argument(text.str());
+  });
+}
+
 /// Everything that the predictor can be told. Start from a preset, change fields, hand it to a Predictor,
 /// which checks it once.
 template <class Scalar>
 struct Parameters {
-  Scalar string_length{1.45};         ///< L [m]
-  Scalar gravity{kStandardGravity};   ///< [m/s^2], along -z
-  Scalar mass{0.2845};                ///< of the diabolo [kg]; default: the paper's red one
-  Scalar axle_radius{0.0065};         ///< r [m]
-  Scalar spin_coupling{0.15};         ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
-  Scalar mu_acceleration{154.0};      ///< spin per string length, while the right strand grows [rad/m]
-  Scalar mu_deceleration{154.0};      ///< the same, while it shrinks [rad/m]
-  Scalar dissipation_rate{0.0};       ///< decay of the velocity while ON_STRING [1/s]
-  Scalar pull_scale{0.13};            ///< part of the correction that becomes velocity, before the cap
-  Scalar cap_scale{0.13};             ///< part of the spheroid's own motion that caps it
-  Scalar pull_scale_after_cap{0.07};  ///< per reference step
-  Scalar loose_distance{0.01};        ///< c_L [m]
-  Scalar flying_distance{0.05};       ///< c_F [m]
-  Scalar catch_slack{0.03};           ///< a catch needs tips no closer than L minus this [m]
-  Scalar catch_distance{0.10};        ///< and the diabolo no farther from the line of the tips [m]
-  Scalar thin_slack{0.05};  ///< the spheroid is thin when the tips are farther apart than L minus this [m]
-  Scalar reference_step{1e-3};  ///< the step that the paper's per-step factors were found at [s]
+  Scalar string_length = Scalar(1.45);        ///< L [m]
+  Scalar gravity = Scalar(kStandardGravity);  ///< [m/s^2], along -z
+  Scalar mass = Scalar(0.2845);               ///< of the diabolo [kg]; default: the paper's red one
+  Scalar axle_radius = Scalar(0.0065);        ///< r [m]
+  Scalar spin_coupling = Scalar(0.15);        ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
+  Scalar mu_acceleration = Scalar(154.0);  ///< spin per string length, while the right strand grows [rad/m]
+  Scalar mu_deceleration = Scalar(154.0);  ///< the same, while it shrinks [rad/m]
+  Scalar dissipation_rate = Scalar(0.0);   ///< decay of the velocity while ON_STRING [1/s]
+  Scalar pull_scale = Scalar(0.13);        ///< part of the correction that becomes velocity, before the cap
+  Scalar cap_scale = Scalar(0.13);         ///< part of the spheroid's own motion that caps it
+  Scalar pull_scale_after_cap = Scalar(0.07);  ///< per reference step
+  Scalar loose_distance = Scalar(0.01);        ///< c_L [m]
+  Scalar flying_distance = Scalar(0.05);       ///< c_F [m]
+  Scalar catch_slack = Scalar(0.03);           ///< a catch needs tips no closer than L minus this [m]
+  Scalar catch_distance = Scalar(0.10);        ///< and the diabolo no farther from the line of the tips [m]
+  Scalar thin_slack =
+      Scalar(0.05);  ///< the spheroid is thin when the tips are farther apart than L minus this [m]
+  Scalar reference_step = Scalar(1e-3);  ///< the step that the paper's per-step factors were found at [s]
   StringLaw string_law = StringLaw::kInextensible;
   Projection projection = Projection::kClosestPoint;
   NormalRule normal_rule = NormalRule::kTrue;
@@ -114,6 +129,32 @@ struct Parameters {
     return p;
   }
 
+  /// Takes over everything that is not numeric.
+  template <class Other>
+  void copy_rules(const Parameters<Other>& other) {
+    string_law = other.string_law;
+    projection = other.projection;
+    normal_rule = other.normal_rule;
+    flight_rule = other.flight_rule;
+    thin_rule = other.thin_rule;
+    spin_rule = other.spin_rule;
+    integrator = other.integrator;
+    per_step = other.per_step;
+    release_when_overstretched = other.release_when_overstretched;
+    planar = other.planar;
+    plane_normal = other.plane_normal;
+  }
+
+  /// Whether everything that is not numeric agrees.
+  template <class Other>
+  bool same_rules(const Parameters<Other>& other) const {
+    return string_law == other.string_law && projection == other.projection &&
+           normal_rule == other.normal_rule && flight_rule == other.flight_rule &&
+           thin_rule == other.thin_rule && spin_rule == other.spin_rule && integrator == other.integrator &&
+           per_step == other.per_step && release_when_overstretched == other.release_when_overstretched &&
+           planar == other.planar && plane_normal == other.plane_normal;
+  }
+
   /// Calls `visit(info, field)` for every numeric field.
   template <class Self, class Visitor>
   static void for_each(Self& self, Visitor&& visit) {
@@ -156,28 +197,15 @@ struct Parameters {
 
   /// Throws std::invalid_argument naming the first field that is out of its range, its value and the range.
   void validate() const {
-    for_each(*this, [](const ParameterInfo& info, const Scalar& field) {
-      if (all(field >= Scalar(info.minimum)) && all(field <= Scalar(info.maximum))) return;
-      std::ostringstream text;
-      text << info.name << ": " << describe(field) << ' ' << info.unit << "; must be within [" << info.minimum
-           << ", " << info.maximum << "] " << info.unit;
-      throw std::invalid_argument(text.str());
-    });
+    validate_fields<Scalar>(*this);
+    if (!all(spin_coupling * reference_step <= Scalar(1)))
+      throw std::invalid_argument("spin_coupling: times reference_step must not exceed 1");
     if (planar && !(std::abs(plane_normal.norm() - 1.0) < 1e-9))
       throw std::invalid_argument("plane_normal: must be a unit vector");
   }
 
  private:
   static constexpr double kPublishedDissipationRate = 0.10000500033334732;  // -ln(0.9999) per 1 ms
-
-  static std::string describe(const Scalar& field) {
-    std::ostringstream text;
-    if constexpr (std::floating_point<Scalar>)
-      text << field;
-    else
-      text << "a lane or a derivative's value";
-    return text.str();
-  }
 };
 
 }  // namespace diabolo

@@ -24,9 +24,15 @@ class Predictor {
 
   /// Throws std::invalid_argument where a parameter is out of its range.
   explicit Predictor(const Parameters<Scalar>& parameters, const Set& effects = {})
-      : parameters_(parameters), effects_(effects), length_(effects.string_length(parameters)) {
+      : Predictor(parameters, effects, AlreadyValid{}) {
     parameters.validate();
     effects.validate();
+  }
+
+  /// For parameters that have been validated before, such as the lanes of a batch.
+  struct AlreadyValid {};
+  Predictor(const Parameters<Scalar>& parameters, const Set& effects, AlreadyValid)
+      : parameters_(parameters), effects_(effects), length_(effects.string_length(parameters)) {
     plane_.active = parameters.planar;
     plane_.normal = parameters.plane_normal.template cast<Scalar>();
     compliance_ = effects.compliance() * parameters.mass;
@@ -41,7 +47,7 @@ class Predictor {
   StepStatus<Scalar> step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                           const Scalar& dt) const {
     assert(all(dt > Scalar(0)));
-    if constexpr (sizeof...(Effects) == 0)
+    if constexpr (!Set::kChangesTips)
       return dispatch(state, begin, end, dt);
     else
       return dispatch(state, effects_.tips(begin), effects_.tips(end), dt);
@@ -72,14 +78,14 @@ class Predictor {
     StringStepResult<Scalar> result =
         any(flying) ? advance_in_flight(state, step, status.caught) : advance(step, !flying);
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
-    if constexpr (sizeof...(Effects) > 0)
-      result.velocity += effects_.contact_impulse(state, end, result, dt, parameters_);
-    state.spin = select(result.taut,
-                        spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_),
-                        state.spin) +
-                 spin_change(state, dt);
+    const Scalar slipped =
+        spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_);
+    const Scalar spin =
+        effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
+    state.velocity = effects_.after_contact(result.velocity, state, end, result, dt, parameters_) *
+                     dissipation(dt, result.taut);
     state.position = result.position;
-    state.velocity = result.velocity * dissipation(dt, result.taut);
+    state.spin = spin;
     state.string_acceleration = result.string_acceleration;
     assign_where(result.taut, state.string_state, StringState::kOnString);
     if (!all(result.taut))
@@ -115,8 +121,8 @@ class Predictor {
     const bool published = p.flight_rule == FlightRule::kPublished;
     state.string_state = published ? published_string_state(state.string_state, position, after, p)
                                    : paper_string_state(state.string_state, position, after, p);
-    const Mask<Scalar> free = is(state.string_state, StringState::kFlying) || after.contains(position);
-    const Mask<Scalar> held = !free && !after.overstretched();
+    const Mask<Scalar> held =
+        is(state.string_state, StringState::kOnString) && !after.contains(position) && !after.overstretched();
     Vector3<Scalar> pulled = Vector3<Scalar>::Constant(Scalar(0));
     if (any(held)) {
       const Vector3<Scalar> unprojected = position;
@@ -148,23 +154,26 @@ class Predictor {
       velocity = velocity * dissipation(dt, !held && is(state.string_state, StringState::kOnString));
     if (p.spin_rule == SpinRule::kSlip) {
       const Scalar change = norm<Scalar>(position - end.right) - norm<Scalar>(from - begin.right);
-      const Scalar slipped = spin_after_slip_explicit<Scalar>(state.spin, change / dt, factor_time(dt), p);
+      const Scalar slipped =
+          p.per_step ? spin_after_slip_explicit<Scalar>(state.spin, change / dt, factor_time(dt), p)
+                     : spin_after_slip<Scalar>(state.spin, change / dt, factor_time(dt), p);
       state.spin = select(held && was_on_string, slipped, state.spin);
     }
-    state.spin += spin_change(state, dt);
+    state.spin = effects_.after_torques(state.spin, state, dt, parameters_);
     state.position = position;
     state.velocity = velocity;
     state.string_acceleration = pulled * Scalar(Scalar(1) / dt);
     if (p.release_when_overstretched)
       status.overstretched = after.overstretched();
     else if (any(after.overstretched()))
-      status.overstretched = hold_between_tips(state, end, !free && after.overstretched());
+      status.overstretched = hold_between_tips(
+          state, end, !is(state.string_state, StringState::kFlying) && after.overstretched());
     return status;
   }
 
   StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
     if constexpr (sizeof...(Effects) > 0)
-      if (!all(compliance_ == Scalar(0))) return advance_on_string<true>(step, captured);
+      if (!is_constant_zero(compliance_)) return advance_on_string<true>(step, captured);
     return advance_on_string<false>(step, captured);
   }
 
@@ -172,13 +181,9 @@ class Predictor {
     return effects_.acceleration(state, tips, parameters_);
   }
 
-  Scalar spin_change(const State<Scalar>& state, const Scalar& dt) const {
-    return effects_.spin_acceleration(state, parameters_) * dt;
-  }
-
   Scalar dissipation(const Scalar& dt, const Mask<Scalar>& where) const {
     using std::exp;
-    if (all(parameters_.dissipation_rate == Scalar(0))) return Scalar(1);
+    if (is_constant_zero(parameters_.dissipation_rate)) return Scalar(1);
     return select(where, Scalar(exp(-parameters_.dissipation_rate * factor_time(dt))), Scalar(1));
   }
 
@@ -218,7 +223,7 @@ class Predictor {
     const Vector3<Scalar> crossing = step.free_position(high * step.dt);
     const Spheroid<Scalar> spheroid(there.left, there.right, length_);
     caught = falls && taut_catch(crossing, spheroid, parameters_) && spheroid.contains(crossing);
-    const Scalar fraction = select(caught, high, Scalar(0));
+    const Scalar fraction = select(caught, minimum(high, Scalar(1.0 - 1e-6)), Scalar(0));
     const Scalar t = fraction * step.dt;
     const Tips<Scalar> tips = step.tips_at(fraction);
     const Vector3<Scalar> position = step.free_position(t), velocity = step.free_velocity(t);

@@ -14,14 +14,15 @@ template <class Scalar>
                                 StringStepResult<Scalar>& result) {
   const Vector3<Scalar> outside = step.free_position(step.dt);
   const Vector3<Scalar> to_middle = (step.end.left + step.end.right) * Scalar(0.5) - step.position;
-  const Mask<Scalar> was_inside = StringPath<Scalar>(step.position, step.end).length() <= step.string_length;
+  const Scalar reach = step.string_length * Scalar(1.0 + constraint_tolerance<Scalar>());
+  const Mask<Scalar> was_inside = StringPath<Scalar>(step.position, step.end).length() <= reach;
   const Vector3<Scalar> anchor =
       select<Scalar>(was_inside, step.position, Vector3<Scalar>(step.position + step.plane(to_middle)));
   Scalar low{0}, high{1};
   for (int i = 0; i < 60; ++i) {
     const Scalar middle = Scalar(0.5) * (low + high);
     const StringPath<Scalar> path(anchor + (outside - anchor) * middle, step.end);
-    const Mask<Scalar> fits = path.length() <= step.string_length;
+    const Mask<Scalar> fits = path.length() <= reach;
     low = select(fits, middle, low);
     high = select(fits, high, middle);
   }

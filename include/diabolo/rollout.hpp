@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 
 #include "diabolo/predictor.hpp"
 
@@ -16,6 +17,14 @@ struct Steps {
 
   /// Time after `i` steps [s].
   double time(std::size_t i) const { return begin + static_cast<double>(i) * dt; }
+
+  /// Throws std::invalid_argument when dt is not positive or a time is not finite.
+  void validate() const {
+    if (!(dt > 0.0) || !std::isfinite(dt))
+      throw std::invalid_argument("dt: " + std::to_string(dt) + " s; must be positive and finite");
+    if (!std::isfinite(begin))
+      throw std::invalid_argument("begin: the time of the initial state must be finite");
+  }
 };
 
 /// Predicts `steps` from `state`, the tips following `motion`, and calls `visit(index, time, state, status)`
@@ -24,8 +33,7 @@ struct Steps {
 template <class Scalar, template <class> class... Effects, class Visitor>
 State<Scalar> rollout(const Predictor<Scalar, Effects...>& predictor, State<Scalar> state,
                       const TipMotion<Scalar>& motion, const Steps& steps, Visitor&& visit) {
-  if (!(steps.dt > 0.0) || !std::isfinite(steps.dt) || !std::isfinite(steps.begin))
-    throw std::invalid_argument("rollout: dt must be positive and finite, the time of the start finite");
+  steps.validate();
   std::size_t hint = 0;
   Tips<Scalar> now = motion.at(steps.begin, hint);
   for (std::size_t i = 1; i <= steps.count; ++i) {

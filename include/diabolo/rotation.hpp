@@ -25,12 +25,14 @@ Scalar spin_after_slip_explicit(const Scalar& spin, const Scalar& string_speed, 
   return spin + (string_speed - spin * r) * parameters.spin_coupling * duration / r;
 }
 
-/// The same law, solved by the trapezoidal rule: second order and without overshoot for any step.
+/// The same law for any step: second order, and without overshoot however long the step (the exponential's
+/// Pade approximant 1 / (1 + z + z^2 / 2), z = k dt).
 template <class Scalar>
 Scalar spin_after_slip(const Scalar& spin, const Scalar& string_speed, const Scalar& duration,
                        const Parameters<Scalar>& parameters) {
-  const Scalar half = Scalar(0.5) * parameters.spin_coupling * duration;
-  return spin + (string_speed / parameters.axle_radius - spin) * (Scalar(2) * half / (Scalar(1) + half));
+  const Scalar z = parameters.spin_coupling * duration;
+  const Scalar growth = z + Scalar(0.5) * z * z;
+  return spin + (string_speed / parameters.axle_radius - spin) * (growth / (Scalar(1) + growth));
 }
 
 }  // namespace diabolo

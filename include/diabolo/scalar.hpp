@@ -52,6 +52,12 @@ bool is_finite(Float x) {
   return std::isfinite(x);
 }
 
+/// Whether the number is zero and stays zero: no lane and no derivative differs from zero.
+template <std::floating_point Float>
+constexpr bool is_constant_zero(Float x) {
+  return x == Float(0);
+}
+
 constexpr bool any(bool condition) { return condition; }
 constexpr bool all(bool condition) { return condition; }
 

@@ -66,7 +66,7 @@ class Spheroid {
     const Scalar across = local.across / semi_major_;
     const Scalar b = semi_minor_ / semi_major_;
     const Scalar t = closest_point_parameter(along, across, b);
-    const Scalar along_surface = along / (t + Scalar(1));
+    const Scalar along_surface = along / maximum(Scalar(t + Scalar(1)), tiny<Scalar>());
     // On the minor axis inside the evolute the formula b^2 v / (t + b^2) is 0/0; the surface equation is not.
     const Scalar across_surface =
         b * positive_sqrt<Scalar>((Scalar(1) - along_surface) * (Scalar(1) + along_surface));

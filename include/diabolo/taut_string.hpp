@@ -95,8 +95,8 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
     const Scalar moved = squared_norm<Scalar>(next - shift);
     shift = next;
     position = free + shift;
-    // What another iteration could still change is about moved * (moved + pull) / strand, and the energy per mass that
-    // the direction is wrong by is about pull / half_square * moved / strand * travel.
+    // What another iteration could still change is about moved * (moved + pull) / strand, and the energy per
+    // mass that the direction is wrong by is about pull / half_square * moved / strand * travel.
     const Scalar strand = minimum(path.left_length, path.right_length);
     const Scalar travel = squared_norm<Scalar>(position - step.position);
     const Scalar position_limit = tolerance * strand, energy_limit = energy_tolerance * half_square * strand;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <tuple>
+#include <type_traits>
 
 #include "diabolo/parameters.hpp"
 #include "diabolo/state.hpp"
@@ -34,13 +36,16 @@ struct NeutralEffect {
   }
   /// Rate of change of the spin beside the string's [rad/s^2].
   Scalar spin_acceleration(const State<Scalar>&, const Parameters<Scalar>&) const { return Scalar(0); }
-
-  void validate() const {}
 };
 
-/// Any number of effects at once; the predictor asks the set, the set asks each.
+/// Any number of effects at once; the predictor asks the set, the set asks those effects that have the hook,
+/// so that a hook that nobody uses costs nothing.
 template <class Scalar, template <class> class... Effects>
 struct EffectSet {
+  using Neutral = NeutralEffect<Scalar>;
+  static constexpr bool kChangesTips =
+      (!std::is_same_v<decltype(&Effects<Scalar>::tips), decltype(&Neutral::tips)> || ...);
+
   std::tuple<Effects<Scalar>...> members;
 
   template <template <class> class Effect>
@@ -52,16 +57,21 @@ struct EffectSet {
     return std::get<Effect<Scalar>>(members);
   }
 
+  /// Gravity and all accelerations [m/s^2].
   Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& given,
                                const Parameters<Scalar>& parameters) const {
     Vector3<Scalar> sum(Scalar(0), Scalar(0), Scalar(-parameters.gravity));
-    each([&](const auto& effect) { sum += effect.acceleration(state, given, parameters); });
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (!std::is_same_v<decltype(&Effect::acceleration), decltype(&Neutral::acceleration)>)
+        sum = sum + effect.acceleration(state, given, parameters);
+    });
     return sum;
   }
   Tips<Scalar> tips(Tips<Scalar> given) const {
     each([&](const auto& effect) { given = effect.tips(given); });
     return given;
   }
+  /// Of the string with all additions [m].
   Scalar string_length(const Parameters<Scalar>& parameters) const {
     Scalar sum = parameters.string_length;
     each([&](const auto& effect) { sum += effect.added_length(parameters); });
@@ -77,20 +87,29 @@ struct EffectSet {
     each([&](const auto& effect) { sum += effect.damping_time(); });
     return sum;
   }
-  Vector3<Scalar> contact_impulse(const State<Scalar>& state, const Tips<Scalar>& given,
-                                  const StringStepResult<Scalar>& result, const Scalar& dt,
-                                  const Parameters<Scalar>& parameters) const {
-    Vector3<Scalar> sum = Vector3<Scalar>::Constant(Scalar(0));
-    each([&](const auto& effect) { sum += effect.contact_impulse(state, given, result, dt, parameters); });
-    return sum;
+  /// The velocity after all contact impulses.
+  Vector3<Scalar> after_contact(Vector3<Scalar> velocity, const State<Scalar>& state,
+                                const Tips<Scalar>& given, const StringStepResult<Scalar>& result,
+                                const Scalar& dt, const Parameters<Scalar>& parameters) const {
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (!std::is_same_v<decltype(&Effect::contact_impulse), decltype(&Neutral::contact_impulse)>)
+        velocity = velocity + effect.contact_impulse(state, given, result, dt, parameters);
+    });
+    return velocity;
   }
-  Scalar spin_acceleration(const State<Scalar>& state, const Parameters<Scalar>& parameters) const {
-    Scalar sum{0};
-    each([&](const auto& effect) { sum += effect.spin_acceleration(state, parameters); });
-    return sum;
+  /// The spin after all torques.
+  Scalar after_torques(Scalar spin, const State<Scalar>& state, const Scalar& dt,
+                       const Parameters<Scalar>& parameters) const {
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (!std::is_same_v<decltype(&Effect::spin_acceleration),
+                                    decltype(&Neutral::spin_acceleration)>)
+        spin += effect.spin_acceleration(state, parameters) * dt;
+    });
+    return spin;
   }
+  /// Throws std::invalid_argument naming effect, field, value and range.
   void validate() const {
-    each([](const auto& effect) { effect.validate(); });
+    each([](const auto& effect) { validate_fields<Scalar>(effect, std::string(effect.kName) + " "); });
   }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <stdexcept>
+#include <string_view>
 
 #include "diabolo/effects/effect.hpp"
 
@@ -14,6 +14,7 @@ namespace diabolo {
 /// acts on the motion.
 template <class Scalar>
 struct StringElasticity : NeutralEffect<Scalar> {
+  static constexpr std::string_view kName = "string_elasticity";
   Scalar compliance_per_newton{0};  ///< 1 / stiffness [m/N], >= 0
   Scalar damping{0};                ///< [N s/m], >= 0
 
@@ -28,11 +29,12 @@ struct StringElasticity : NeutralEffect<Scalar> {
   Scalar compliance() const { return compliance_per_newton; }
   Scalar damping_time() const { return damping * compliance_per_newton; }
 
-  void validate() const {
-    if (!all(compliance_per_newton >= Scalar(0)) || !all(compliance_per_newton <= Scalar(1)))
-      throw std::invalid_argument("string_elasticity: stiffness must be at least 1 N/m");
-    if (!all(damping >= Scalar(0)) || !all(damping <= Scalar(1e4)))
-      throw std::invalid_argument("string_elasticity: damping must be within [0, 10000] N s/m");
+  /// Calls `visit(info, field)` for every field.
+  template <class Self, class Visitor>
+  static void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"compliance", "m/N", 0.0, 1.0, "extension of the path length per tension"},
+          self.compliance_per_newton);
+    visit(ParameterInfo{"damping", "N s/m", 0.0, 1e4, "tension per rate of the path length"}, self.damping);
   }
 };
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/batch_kernels.hpp"
+
+namespace diabolo {
+
+namespace batch {
+extern const BatchKernel baseline, avx2, avx512;
+}  // namespace batch
+
+std::vector<BatchKernel> batch_kernels() {
+  const auto named = [](BatchKernel kernel, const char* name) {
+    kernel.instruction_set = name;
+    return kernel;
+  };
+  std::vector<BatchKernel> kernels{named(batch::baseline, "baseline")};
+#ifdef DIABOLO_BATCH_X86
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    kernels.push_back(named(batch::avx2, "avx2"));
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    kernels.push_back(named(batch::avx512, "avx512"));
+#endif
+  return kernels;
+}
+
+BatchKernel best_batch_kernel() { return batch_kernels().back(); }
+
+}  // namespace diabolo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/lanes.hpp"
+
+namespace {
+
+// Compiled once per instruction set. A tag without linkage keeps every instance of a template in this object
+// file.
+struct Isa {};
+
+#if defined(__AVX512F__)
+constexpr int kLanes = 8;
+#elif defined(__AVX2__)
+constexpr int kLanes = 4;
+#else
+constexpr int kLanes = 2;
+#endif
+
+void run(const diabolo::LaneBlock& block) { diabolo::run_lanes<diabolo::Pack<double, kLanes, Isa>>(block); }
+
+}  // namespace
+
+namespace diabolo::batch {
+
+extern const BatchKernel DIABOLO_BATCH_ISA;
+const BatchKernel DIABOLO_BATCH_ISA{kLanes, &run, ""};
+
+}  // namespace diabolo::batch

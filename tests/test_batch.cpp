@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <random>
+
+#include "catch.hpp"
+#include "diabolo/batch.hpp"
+#include "diabolo/batch_kernels.hpp"
+
+using namespace diabolo;
+using V = Vector3<double>;
+
+namespace {
+
+TipMotion<double> beat(double amplitude, double frequency) {
+  std::vector<double> times;
+  std::vector<V> left, right;
+  for (int i = 0; i <= 60; ++i) {
+    const double t = i / 60.0, z = amplitude * std::sin(2.0 * M_PI * frequency * t);
+    times.push_back(t);
+    left.emplace_back(0.0, 0.3, 1.0 + z);
+    right.emplace_back(0.0, -0.3, 1.0 - z);
+  }
+  return {times, left, right, Interpolation::kSpline};
+}
+
+/// Rollouts of all presets, on the string, slack and flying, with and without elasticity.
+struct Case {
+  std::vector<TipMotion<double>> motions;
+  Batch batch;
+
+  explicit Case(std::size_t n, bool own_motions) {
+    std::mt19937_64 generator(n);
+    const auto uniform = [&](double a, double b) {
+      return std::uniform_real_distribution<double>(a, b)(generator);
+    };
+    for (std::size_t i = 0; i < (own_motions ? n : 1); ++i)
+      motions.push_back(beat(uniform(0.0, 0.2), uniform(0.5, 3.0)));
+    for (const TipMotion<double>& m : motions) batch.motions.push_back(&m);
+    batch.parameters.clear();
+    batch.effects.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      Parameters<double> p = i % 5 == 3   ? Parameters<double>::published()
+                             : i % 5 == 4 ? Parameters<double>::paper()
+                                          : Parameters<double>::consistent();
+      p.string_length = uniform(1.3, 1.6);
+      p.dissipation_rate = uniform(0.0, 0.2);
+      batch.parameters.push_back(p);
+      AllEffects<double> effects;
+      if (i % 3 == 0)
+        effects.get<StringElasticity>() = StringElasticity<double>::of_stiffness(uniform(60.0, 5000.0), 1.0);
+      batch.effects.push_back(effects);
+      State<double> s;
+      s.position = V(uniform(-0.1, 0.1), uniform(-0.1, 0.1), uniform(0.3, 1.6));
+      s.velocity = V(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-2.0, 2.0));
+      s.spin = uniform(-200.0, 200.0);
+      s.string_state = i % 7 == 0 ? StringState::kFlying : StringState::kLoose;
+      batch.initial.push_back(s);
+    }
+    batch.steps = {0.0, 1e-3, 700};
+    batch.record_every = 7;
+  }
+};
+
+void require_same(const State<double>& a, const State<double>& b) {
+  REQUIRE(a.position == b.position);
+  REQUIRE(a.velocity == b.velocity);
+  REQUIRE(a.spin == b.spin);
+  REQUIRE(a.string_state == b.string_state);
+}
+
+}  // namespace
+
+TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbours and threads") {
+  const std::atomic<bool> cancel = false;
+  std::vector<BatchKernel> kernels = batch_kernels();
+  kernels.push_back(portable_batch_kernel());
+  for (const bool own_motions : {false, true}) {
+    const Case test(19, own_motions);
+    std::vector<std::vector<State<double>>> expected;
+    for (std::size_t i = 0; i < test.batch.initial.size(); ++i) {
+      const FullPredictor<double> predictor(test.batch.parameters[i], test.batch.effects[i]);
+      std::vector<State<double>> states;
+      rollout(predictor, test.batch.initial[i], *test.batch.motions[own_motions ? i : 0], test.batch.steps,
+              [&](std::size_t, double, const State<double>& s, const auto&) { states.push_back(s); });
+      expected.push_back(states);
+    }
+    for (const BatchKernel& kernel : kernels)
+      for (const unsigned threads : {1U, 3U}) {
+        INFO("kernel " << kernel.instruction_set << ", threads " << threads << ", own motions "
+                       << own_motions);
+        const BatchResult result = rollout_batch(test.batch, kernel, threads, cancel);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+          INFO("rollout " << i);
+          require_same(result.final_states[i], expected[i].back());
+          for (std::size_t k = 0; k < test.batch.records(); ++k) {
+            const State<double>& s = expected[i][7 * (k + 1) - 1];
+            const double* record = &result.records[7 * (i * test.batch.records() + k)];
+            REQUIRE(V(record[0], record[1], record[2]) == s.position);
+            REQUIRE(V(record[3], record[4], record[5]) == s.velocity);
+            REQUIRE(record[6] == s.spin);
+            REQUIRE(result.record_states[i * test.batch.records() + k] == s.string_state);
+          }
+        }
+      }
+  }
+}
+
+TEST_CASE("a batch says what is wrong with it") {
+  const std::atomic<bool> cancel = false;
+  const auto run = [&](const Batch& batch) {
+    return rollout_batch(batch, portable_batch_kernel(), 1, cancel);
+  };
+  Case test(4, false);
+  SECTION("sizes") {
+    test.batch.parameters.pop_back();
+    REQUIRE_THROWS_WITH(run(test.batch),
+                        "batch: 3 parameter sets for 4 initial states; must be 1 or as many");
+  }
+  SECTION("values") {
+    test.batch.parameters[2].string_length = 0.0;
+    REQUIRE_THROWS_WITH(run(test.batch), "string_length: 0 m; must be within [0.05, 20] m");
+  }
+  SECTION("states") {
+    test.batch.initial[1].velocity[2] = std::nan("");
+    REQUIRE_THROWS_WITH(run(test.batch), "batch: an initial state is not finite");
+  }
+  SECTION("steps") {
+    test.batch.steps.dt = 0.0;
+    REQUIRE_THROWS_AS(run(test.batch), std::invalid_argument);
+  }
+}
+
+TEST_CASE("a cancelled batch returns at once") {
+  Case test(8, false);
+  test.batch.steps.count = 2'000'000'000;
+  test.batch.record_every = 0;
+  const std::atomic<bool> cancel = true;
+  rollout_batch(test.batch, portable_batch_kernel(), 2, cancel);
+}
