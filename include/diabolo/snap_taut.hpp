@@ -11,6 +11,7 @@ template <class Scalar>
 Scalar taut_fraction(const StringStep<Scalar>& step, const Mask<Scalar>& where) {
   const Scalar tolerance = Scalar(0.01 * constraint_tolerance<Scalar>()) * step.string_length;
   Scalar low{0}, high{1}, fraction{1};
+  Mask<Scalar> settled{!where};
   for (int i = 0; i < 60; ++i) {
     const Scalar t = fraction * step.dt;
     const StringPath<Scalar> path(step.free_position(t), step.tips_at(fraction));
@@ -20,10 +21,12 @@ Scalar taut_fraction(const StringStep<Scalar>& step, const Mask<Scalar>& where) 
     low = select(extension < Scalar(0), fraction, low);
     high = select(extension < Scalar(0), high, fraction);
     const Scalar newton = fraction - extension / select(slope == Scalar(0), Scalar(1), slope);
-    const Mask<Scalar> settled = absolute<Scalar>(extension) <= tolerance;
-    const Mask<Scalar> useful = settled || ((newton >= low) && (newton <= high));
-    fraction = select(useful, newton, Scalar(Scalar(0.5) * (low + high)));
-    if (all(settled || !where)) break;
+    const Mask<Scalar> close = absolute<Scalar>(extension) <= tolerance;
+    const Mask<Scalar> useful = close || ((newton >= low) && (newton <= high));
+    const Scalar next = select(useful, newton, Scalar(Scalar(0.5) * (low + high)));
+    fraction = select(settled, fraction, next);
+    settled = settled || close;
+    if (all(settled)) break;
   }
   return select(where, fraction, Scalar(0));
 }

@@ -134,6 +134,7 @@ class Spheroid {
   static Scalar closest_point_parameter(const Scalar& u, const Scalar& v, const Scalar& b) {
     const Scalar b2 = b * b;
     Scalar t = maximum(Scalar(u - Scalar(1)), Scalar(b * v - b2));
+    Mask<Scalar> settled{false};
     for (int i = 0; i < kMaximumIterations; ++i) {
       const Scalar p = Scalar(1) / maximum(Scalar(t + Scalar(1)), tiny<Scalar>());
       const Scalar q = Scalar(1) / maximum(Scalar(t + b2), tiny<Scalar>());
@@ -142,9 +143,10 @@ class Spheroid {
       const Scalar slope = Scalar(2) * (up * up * p + vq * vq * q);
       const Scalar step =
           select(slope > tiny<Scalar>(), Scalar(excess / maximum(slope, tiny<Scalar>())), Scalar(0));
-      t += maximum(step, Scalar(0));
-      const Scalar settled = Scalar(4.0 * std::numeric_limits<ValueOf<Scalar>>::epsilon()) * (t + b2);
-      if (all(step <= settled)) break;
+      t += select(settled, Scalar(0), maximum(step, Scalar(0)));
+      const Scalar resolution = Scalar(4.0 * std::numeric_limits<ValueOf<Scalar>>::epsilon()) * (t + b2);
+      settled = settled || (step <= resolution);
+      if (all(settled)) break;
     }
     return t;
   }

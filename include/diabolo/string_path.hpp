@@ -17,6 +17,14 @@ struct StringPath {
         left_length(norm<Scalar>(from_left)),
         right_length(norm<Scalar>(from_right)) {}
 
+  /// Takes the lanes `where` from another path.
+  void keep_where(const Mask<Scalar>& where, const StringPath& other) {
+    from_left = select<Scalar>(where, other.from_left, from_left);
+    from_right = select<Scalar>(where, other.from_right, from_right);
+    left_length = select(where, other.left_length, left_length);
+    right_length = select(where, other.right_length, right_length);
+  }
+
   Scalar length() const { return left_length + right_length; }
 
   /// Right strand minus left strand [m]; half its change is the string that has passed the axle.

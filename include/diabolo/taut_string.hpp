@@ -11,6 +11,33 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
 
 namespace detail {
 
+/// How far the search for the string's pull has come.
+template <class Scalar>
+struct TautIterate {
+  Vector3<Scalar> shift;                 ///< of the diabolo by the string over the step [m]
+  StringPath<Scalar> path;               ///< at the last position
+  Vector3<Scalar> gradient;              ///< of the path length there
+  Vector3<Scalar> direction = gradient;  ///< discrete gradient over the step
+  Scalar slope{0}, pull{0};
+
+  [[gnu::always_inline]] inline TautIterate(const StringStep<Scalar>& step,
+                                            const Vector3<Scalar>& shift_of_diabolo,
+                                            const Vector3<Scalar>& free)
+      : shift(shift_of_diabolo),
+        path(free + shift_of_diabolo, step.end),
+        gradient(step.plane(path.gradient())) {}
+
+  /// Takes the lanes `where` from another iterate.
+  void keep_where(const Mask<Scalar>& where, const TautIterate& other) {
+    shift = select<Scalar>(where, other.shift, shift);
+    path.keep_where(where, other.path);
+    gradient = select<Scalar>(where, other.gradient, gradient);
+    direction = select<Scalar>(where, other.direction, direction);
+    slope = select(where, other.slope, slope);
+    pull = select(where, other.pull, pull);
+  }
+};
+
 /// The step from the instant on at which the string comes taut in the lanes `where`; the whole step in the
 /// others.
 template <bool kElastic, class Scalar>
@@ -60,18 +87,15 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
 
   // The string moves the diabolo by `shift` from where it would have come without it: a guess first.
   const Scalar half_square = Scalar(0.5) * step.dt * step.dt;
-  Vector3<Scalar> shift =
-      step.string_acceleration * select(captured && !begins_slack, half_square, Scalar(0));
-  Vector3<Scalar> position = free + shift;
-  StringPath<Scalar> path(position, step.end);
-  const Mask<Scalar> snaps = captured && begins_slack && (path.length() > length);
+  const Scalar guess = select(captured && !begins_slack, half_square, Scalar(0));
+  detail::TautIterate<Scalar> now(step, step.string_acceleration * guess, free);
+  const Mask<Scalar> snaps = captured && begins_slack && (now.path.length() > length);
   if (any(snaps)) return detail::advance_from_catch<kElastic>(step, captured, snaps);
 
-  Vector3<Scalar> gradient = step.plane(path.gradient());
   // The spring's extension counts with these weights at the end and at the beginning of the step.
   Scalar resolution{0}, end_weight{1}, begin_part{0}, spring{0};
   if constexpr (kElastic) {
-    resolution = step.resolution(squared_norm(gradient));
+    resolution = step.resolution(squared_norm(now.gradient));
     end_weight = Scalar(1) - Scalar(0.5) * resolution + step.damping_time / step.dt;
     begin_part = (Scalar(1) - end_weight) * (begin.length() - length);
     spring = step.compliance / half_square;
@@ -79,34 +103,36 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
 
   // Newton's method for shift = -direction * pull, pull = tension / mass * dt^2 / 2: the path is known at the
   // last position, its extension is wanted on the line through `free` along the new direction.
-  Vector3<Scalar> direction;
-  Scalar pull{0}, slope{0};
   Mask<Scalar> settled{false};
   for (int i = 0; i < 12; ++i) {
-    direction = step.plane(discrete_gradient(begin, path));
-    slope = maximum(dot(gradient, direction), Scalar(1e-9));
-    const Scalar extension = path.length() - length - dot(gradient, shift);
+    detail::TautIterate<Scalar> next = now;
+    if (i > 0) next = detail::TautIterate<Scalar>(step, now.shift, free);
+    next.direction = step.plane(discrete_gradient(begin, next.path));
+    next.slope = maximum(dot(next.gradient, next.direction), Scalar(1e-9));
+    const Scalar extension = next.path.length() - length - dot(next.gradient, now.shift);
     if constexpr (kElastic)
-      pull = (end_weight * extension + begin_part) / (end_weight * slope + spring);
+      next.pull = (end_weight * extension + begin_part) / (end_weight * next.slope + spring);
     else
-      pull = extension / slope;
-    pull = select(captured, maximum(pull, Scalar(0)), Scalar(0));
-    const Vector3<Scalar> next = direction * Scalar(-pull);
-    const Scalar moved = squared_norm<Scalar>(next - shift);
-    shift = next;
-    position = free + shift;
+      next.pull = extension / next.slope;
+    next.pull = select(captured, maximum(next.pull, Scalar(0)), Scalar(0));
+    next.shift = next.direction * Scalar(-next.pull);
+    const Scalar moved = squared_norm<Scalar>(next.shift - now.shift);
+    if (i > 0) next.keep_where(settled, now);  // a lane does not depend on how long its neighbours take
+    now = next;
     // What another iteration could still change is about moved * (moved + pull) / strand, and the energy per
     // mass that the direction is wrong by is about pull / half_square * moved / strand * travel.
-    const Scalar strand = minimum(path.left_length, path.right_length);
-    const Scalar travel = squared_norm<Scalar>(position - step.position);
+    const Scalar strand = minimum(now.path.left_length, now.path.right_length);
+    const Scalar travel = squared_norm<Scalar>(free + now.shift - step.position);
     const Scalar position_limit = tolerance * strand, energy_limit = energy_tolerance * half_square * strand;
-    settled = (Scalar(2) * moved * (moved + pull * pull) <= position_limit * position_limit) &&
-              (pull * pull * moved * travel <= energy_limit * energy_limit);
+    settled =
+        settled || ((Scalar(2) * moved * (moved + now.pull * now.pull) <= position_limit * position_limit) &&
+                    (now.pull * now.pull * moved * travel <= energy_limit * energy_limit));
     if (all(settled)) break;
-    path = StringPath<Scalar>(position, step.end);
-    gradient = step.plane(path.gradient());
   }
 
+  const StringPath<Scalar>& path = now.path;
+  const Vector3<Scalar>&gradient = now.gradient, &direction = now.direction;
+  const Scalar &pull = now.pull, &slope = now.slope;
   const Mask<Scalar> taut = pull > Scalar(0);
   StringStepResult<Scalar> result;
   result.taut = taut;
@@ -123,7 +149,7 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   const Scalar rigidity = (Scalar(1) - resolution) / (result.gradient_squared + Scalar(1e-12));
   const Scalar removed = (rate_before - slope * impulse) * rigidity;
   result.velocity = arriving - direction * impulse - gradient * select(taut, removed, Scalar(0));
-  result.position = select<Scalar>(taut, position, free);
+  result.position = free + now.shift;
   result.string_acceleration = direction * Scalar(-impulse * inverse_dt);
   const Mask<Scalar> lost = captured && !settled;
   if (any(lost)) put_back(step, lost, result);
