@@ -130,7 +130,8 @@ class Predictor {
           plane_on(from, p.projection == Projection::kRadial ? after.radial_point(position)
                                                              : after.closest_point(position));
       const Vector3<Scalar> gradient = after.path_gradient(target);
-      const Scalar give = compliance_ / (compliance_ + dt * dt * squared_norm(gradient) + tiny<Scalar>());
+      const Scalar give =
+          compliance_ / (compliance_ + Scalar(0.5) * dt * dt * squared_norm(gradient) + tiny<Scalar>());
       const Vector3<Scalar> put = target + (position - target) * give;
       const Vector3<Scalar> normal = normal_at(after, put);
       const Vector3<Scalar> cap =
@@ -146,7 +147,7 @@ class Predictor {
       const Scalar share = p.pull_scale_after_cap * factor_time(dt) / p.reference_step;
       pulled = select<Scalar>(held, plane_(pull) * share, pulled);
       Vector3<Scalar> moved = velocity * dissipation(dt, held) + pulled;
-      if (published) moved -= normal * maximum(dot<Scalar>(moved, normal), Scalar(0));
+      moved -= normal * maximum(dot<Scalar>(moved, normal), Scalar(0));
       position = select<Scalar>(held, put, position);
       velocity = select<Scalar>(held, moved, velocity);
     }

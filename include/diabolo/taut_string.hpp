@@ -119,14 +119,16 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
     const Scalar moved = squared_norm<Scalar>(next.shift - now.shift);
     if (i > 0) next.keep_where(settled, now);  // a lane does not depend on how long its neighbours take
     now = next;
-    // What another iteration could still change is about moved * (moved + pull) / strand, and the energy per
-    // mass that the direction is wrong by is about pull / half_square * moved / strand * travel.
+    // What another iteration could still change is about moved * (moved + pull) / strand; the energy per mass
+    // that the position and the direction are wrong by is about that times tension / mass, and pull * moved /
+    // strand * travel.
     const Scalar strand = minimum(now.path.left_length, now.path.right_length);
+    const Scalar pull_squared = now.pull * now.pull;
+    const Scalar reach = Scalar(2) * (moved + pull_squared);
     const Scalar travel = squared_norm<Scalar>(free + now.shift - step.position);
     const Scalar position_limit = tolerance * strand, energy_limit = energy_tolerance * half_square * strand;
-    settled =
-        settled || ((Scalar(2) * moved * (moved + now.pull * now.pull) <= position_limit * position_limit) &&
-                    (now.pull * now.pull * moved * travel <= energy_limit * energy_limit));
+    settled = settled || ((moved * reach <= position_limit * position_limit) &&
+                          (moved * pull_squared * (travel + reach) <= energy_limit * energy_limit));
     if (all(settled)) break;
   }
 
