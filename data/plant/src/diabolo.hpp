@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "state.hpp"
+#include "string.hpp"
+
+namespace plant {
+
+/// A rigid body of revolution.
+struct DiaboloParameters {
+  double mass = 0.2893;           ///< [kg]
+  double diameter = 0.127;        ///< of the cups [m]
+  double length = 0.143;          ///< along the axis [m]
+  double axial_inertia = 5.6e-4;  ///< [kg m^2]
+  double inertia_ratio = 1.18;    ///< transverse over axial inertia
+  Groove groove;
+  std::optional<double>
+      bearing_torque;           ///< drag of a one-way bearing in its free sense [N m]; none: fixed axle
+  double flank_friction = 0.0;  ///< coefficient of the string against a cup's flank
+  double flank_radius = 0.012;  ///< radius at which it rubs there [m]
+};
+
+/// Air about the diabolo.
+struct AirParameters {
+  double drag = 0.028;     ///< acceleration per speed squared, against the velocity [1/m]
+  double magnus = 0.0011;  ///< acceleration per spin and speed, along axis x velocity [1/rad]
+  double windage = 3e-8;   ///< torque per spin squared, against the spin [N m s^2/rad^2]
+};
+
+/// Spin about the body's axis [rad/s]; play's own sign is the opposite one (see `play_spin`).
+inline double spin_about_axis(const DiaboloParameters& diabolo, const State& state) {
+  return state.col(kAngularMomentum).dot(state.col(kAxis)) / diabolo.axial_inertia;
+}
+
+/// Spin as players count it: positive when the axle's surface under the string moves towards the right tip.
+inline double play_spin(const DiaboloParameters& diabolo, const State& state) {
+  return -spin_about_axis(diabolo, state);
+}
+
+/// Rotation of body to world: body x is the axis.
+inline Eigen::Matrix3d orientation(const State& state) {
+  Eigen::Matrix3d rotation;
+  rotation.col(0) = state.col(kAxis);
+  rotation.col(1) = rotate_in_plane(state.col(kReference), state.col(kAxis), state(0, kPhase));
+  rotation.col(2) = rotation.col(0).cross(rotation.col(1));
+  return rotation;
+}
+
+/// What a one-way bearing leaves of the two tensions: it lets the axle slip under the cups that run ahead of
+/// it.
+inline Tensions bearing_limited(const DiaboloParameters& diabolo, const StringParameters& string,
+                                double chirality, double spin, const Tensions& tensions) {
+  const double difference = tensions.right - tensions.left;
+  const bool slows = chirality * difference * spin < 0.0;
+  if (!diabolo.bearing_torque || !slows) return tensions;
+  const double limit = *diabolo.bearing_torque / (diabolo.groove.radius + string.radius);
+  const double kept = std::copysign(std::min(std::abs(difference), limit), difference);
+  const double mean = 0.5 * (tensions.left + tensions.right);
+  return {mean - 0.5 * kept, mean + 0.5 * kept};
+}
+
+/// Adds the air's share to a rate of state.
+inline void add_air(const DiaboloParameters& diabolo, const AirParameters& air, const State& state,
+                    State& rate) {
+  const Vec3 velocity = state.col(kVelocity);
+  const Vec3 axis = state.col(kAxis);
+  const double spin = spin_about_axis(diabolo, state);
+  rate.col(kVelocity) += -air.drag * velocity.norm() * velocity + air.magnus * spin * axis.cross(velocity);
+  rate.col(kAngularMomentum) -= air.windage * std::abs(spin) * spin * axis;
+}
+
+/// Adds the string's pull to a rate of state.
+inline void add_string_pull(const DiaboloParameters& diabolo, const StringShape& shape,
+                            const Tensions& tensions, const State& state, State& rate) {
+  const Vec3 axis = state.col(kAxis);
+  const Vec3 left = tensions.left * shape.strands[0].direction;
+  const Vec3 right = tensions.right * shape.strands[1].direction;
+  const Vec3 force = left + right;
+  rate.col(kVelocity) += force / diabolo.mass;
+  rate.col(kAngularMomentum) += shape.strands[0].arm.cross(left) + shape.strands[1].arm.cross(right);
+  if (shape.at_flank) {
+    const double brake = diabolo.flank_friction * std::abs(force.dot(axis)) * diabolo.flank_radius;
+    rate.col(kAngularMomentum) -= std::copysign(brake, spin_about_axis(diabolo, state)) * axis;
+  }
+}
+
+/// Adds the motion of a free symmetric top: angular momentum carries the axis and the slow frame.
+inline void add_rotation(const DiaboloParameters& diabolo, const State& state, State& rate) {
+  const double transverse = diabolo.axial_inertia * diabolo.inertia_ratio;
+  const Vec3 slow = perpendicular_part(state.col(kAngularMomentum), state.col(kAxis)) / transverse;
+  rate.col(kAxis) += slow.cross(state.col(kAxis));
+  rate.col(kReference) += slow.cross(state.col(kReference));
+  rate(0, kPhase) += spin_about_axis(diabolo, state);
+}
+
+}  // namespace plant

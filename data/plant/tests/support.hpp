@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "../../../tests/catch.hpp"
+#include "plant.hpp"
+
+namespace plant {
+
+/// Hands that keep still for a minute.
+inline Motion still_hands(const Vec3& left, const Vec3& right) {
+  SticksPose pose;
+  pose.tips = {left, right};
+  MotionBuilder motion(pose);
+  motion.hold(60.0);
+  return motion.finish({}, 0);
+}
+
+/// The nominal plant without anything that takes or gives energy, between rigid sticks.
+inline PlantParameters lossless() {
+  PlantParameters parameters;
+  parameters.string.damping = 0.0;
+  parameters.string.friction = 0.0;
+  parameters.sticks.bending_stiffness.reset();
+  parameters.air = {0.0, 0.0, 0.0};
+  return parameters;
+}
+
+/// Without air and between rigid sticks, but with friction and damping.
+inline PlantParameters airless() {
+  PlantParameters parameters;
+  parameters.sticks.bending_stiffness.reset();
+  parameters.air = {0.0, 0.0, 0.0};
+  return parameters;
+}
+
+/// Evenly spaced times from 0 to `end` [s].
+inline std::vector<double> times_until(double end, int count) {
+  std::vector<double> times;
+  for (int i = 0; i <= count; ++i) times.push_back(end * i / count);
+  return times;
+}
+
+/// A diabolo that hangs `stretch` [m] beyond the string's length, `aside` [m] left of the middle, moving at
+/// `velocity`. The axle must be thin.
+inline Start on_ellipse(const PlantParameters& parameters, const Motion& motion, double stretch, double aside,
+                        const Vec3& velocity) {
+  const Pair<Stick> sticks = motion.at(0.0);
+  const Vec3 middle = 0.5 * (sticks[0].tip + sticks[1].tip);
+  const double major = 0.5 * (parameters.string.length + stretch);
+  const double focus = 0.5 * (sticks[1].tip - sticks[0].tip).norm();
+  const double minor = std::sqrt(major * major - focus * focus);
+  Start start;
+  start.spin = 0.0;
+  start.position = middle + Vec3(0.0, aside, -minor * std::sqrt(1.0 - aside * aside / (major * major)));
+  start.velocity = velocity;
+  return start;
+}
+
+}  // namespace plant
