@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "batch.hpp"
+
+#include "diabolo/batch_kernels.hpp"
+
+namespace diabolo::python {
+
+BatchResult run_batch(const Batch& batch, unsigned threads, const std::atomic<bool>& cancel) {
+  return rollout_batch(batch, best_batch_kernel(), threads, cancel);
+}
+
+}  // namespace diabolo::python

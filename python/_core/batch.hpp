@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+
+#include "diabolo/batch.hpp"
+
+namespace diabolo::python {
+
+/// Runs a batch with the fastest kernel of this processor; see rollout_batch().
+BatchResult run_batch(const Batch& batch, unsigned threads, const std::atomic<bool>& cancel);
+
+}  // namespace diabolo::python

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+// Each function adds one topic to the module; module.cpp calls them in an order in which every type is known
+// before it is used.
+namespace diabolo::python {
+
+void bind_parameters(pybind11::module_& module);
+void bind_state(pybind11::module_& module);
+void bind_effects(pybind11::module_& module);
+void bind_spheroid(pybind11::module_& module);
+void bind_tip_motion(pybind11::module_& module);
+void bind_predictor(pybind11::module_& module);
+void bind_rollout(pybind11::module_& module);
+void bind_gradient(pybind11::module_& module);
+
+}  // namespace diabolo::python

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "diabolo/dual.hpp"
+#include "diabolo/rollout.hpp"
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "interrupt.hpp"
+#include "models.hpp"
+#include "state.hpp"
+#include "tip_motion.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using namespace py::literals;
+
+constexpr int kChunk = 8;  // derivatives carried along at once
+using D = Dual<double, kChunk>;
+
+template <class From, class To>
+void copy_numbers(const From& from, To& to) {
+  std::vector<double> values;
+  From::for_each(from, [&](const ParameterInfo&, double value) { values.push_back(value); });
+  auto value = values.begin();
+  To::for_each(to, [&](const ParameterInfo&, D& field) { field = *value++; });
+}
+
+std::vector<Vector3<D>> to_duals(const std::vector<Vector3<double>>& points) {
+  std::vector<Vector3<D>> duals;
+  duals.reserve(points.size());
+  for (const Vector3<double>& p : points) duals.push_back(p.cast<D>());
+  return duals;
+}
+
+/// Everything that a rollout depends on, in numbers that carry derivatives.
+struct Inputs {
+  Parameters<D> parameters;
+  AllEffects<D> effects;
+  State<D> state;
+  std::vector<Vector3<D>> left, right;
+
+  Inputs(const Model& model, const State<double>& initial, const SampledTipMotion& tips)
+      : left(to_duals(tips.left)), right(to_duals(tips.right)) {
+    parameters.copy_rules(model.parameters);
+    copy_numbers(model.parameters, parameters);
+    const auto copy_effects = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (copy_numbers(std::get<I>(model.effects.members), std::get<I>(effects.members)), ...);
+    };
+    copy_effects(std::make_index_sequence<std::tuple_size_v<decltype(effects.members)>>{});
+    state.position = initial.position.cast<D>();
+    state.velocity = initial.velocity.cast<D>();
+    state.spin = initial.spin;
+    state.string_state = initial.string_state;
+  }
+
+  /// Shape of the named input, () for a number. Throws std::invalid_argument where there is none.
+  std::vector<py::ssize_t> shape(const std::string& name) {
+    if (name == "position" || name == "velocity") return {3};
+    if (name == "left" || name == "right") return {static_cast<py::ssize_t>(left.size()), 3};
+    if (name != "spin" && !find_field(name))
+      throw std::invalid_argument("with_respect_to: '" + name +
+                                  "'; expected position, velocity, spin, left, right, a field of Parameters, "
+                                  "or an effect and its field as in string_elasticity.compliance");
+    return {};
+  }
+
+  /// Component number `i` of the named input.
+  D& component(const std::string& name, std::size_t i) {
+    const Eigen::Index axis = static_cast<Eigen::Index>(i % 3);
+    if (name == "position") return state.position[axis];
+    if (name == "velocity") return state.velocity[axis];
+    if (name == "left") return left[i / 3][axis];
+    if (name == "right") return right[i / 3][axis];
+    return name == "spin" ? state.spin : *find_field(name);
+  }
+
+ private:
+  D* find_field(const std::string& name) {
+    D* found = nullptr;
+    const auto look_in = [&](auto& fields, const std::string& prefix) {
+      std::remove_reference_t<decltype(fields)>::for_each(fields, [&](const ParameterInfo& info, D& field) {
+        if (name == prefix + std::string(info.name)) found = &field;
+      });
+    };
+    look_in(parameters, "");
+    for_each_effect(effects, [&](auto& effect) { look_in(effect, std::string(effect.kName) + "."); });
+    return found;
+  }
+};
+
+struct Cancelled {};
+
+State<D> run(const Inputs& inputs, const SampledTipMotion& tips, const Steps& steps,
+             const std::atomic<bool>& cancel) {
+  const FullPredictor<D> predictor(inputs.parameters, inputs.effects);
+  const TipMotion<D> motion(tips.times, inputs.left, inputs.right, tips.interpolation);
+  return diabolo::rollout(predictor, inputs.state, motion, steps,
+                          [&](std::size_t, double, const State<D>&, const StepStatus<D>&) {
+                            if (cancel) throw Cancelled();
+                          });
+}
+
+std::array<D, 7> flat(const State<D>& s) {
+  return {s.position[0], s.position[1], s.position[2], s.velocity[0], s.velocity[1], s.velocity[2], s.spin};
+}
+
+/// One input component, by which a final state is to be derived.
+struct Seed {
+  std::size_t input, index;
+};
+
+struct Derivatives {
+  std::vector<std::vector<double>> of_input;  ///< per input: 7 x its number of components
+  std::vector<double> state = std::vector<double>(7);
+  StringState string_state{};
+};
+
+void expect_finite(const Derivatives& derivatives, const std::vector<std::string>& names) {
+  const auto fail = [](const std::string& text) {
+    PyErr_SetString(PyExc_FloatingPointError, ("rollout_gradient: " + text + " is not finite").c_str());
+    throw py::error_already_set();
+  };
+  const auto finite = [](const std::vector<double>& numbers) {
+    return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
+  };
+  if (!finite(derivatives.state)) fail("the final state");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!finite(derivatives.of_input[i])) fail("the derivative with respect to " + names[i]);
+}
+
+/// Fills `result` chunk by chunk, on several threads.
+void differentiate(const Inputs& nominal, const std::vector<std::string>& names,
+                   const std::vector<Seed>& seeds, const SampledTipMotion& tips, const Steps& steps,
+                   unsigned threads, const std::atomic<bool>& cancel, Derivatives& result) {
+  const std::size_t chunks = std::max<std::size_t>(1, (seeds.size() + kChunk - 1) / kChunk);
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t chunk = next++; chunk < chunks && !cancel; chunk = next++) {
+      const std::size_t first = chunk * kChunk, last = std::min(first + kChunk, seeds.size());
+      Inputs inputs = nominal;
+      for (std::size_t k = first; k < last; ++k)
+        inputs.component(names[seeds[k].input], seeds[k].index).gradient[static_cast<int>(k - first)] = 1.0;
+      State<D> end;
+      try {
+        end = run(inputs, tips, steps, cancel);
+      } catch (const Cancelled&) {
+        return;
+      }
+      const std::array<D, 7> numbers = flat(end);
+      for (std::size_t k = first; k < last; ++k) {
+        std::vector<double>& of_input = result.of_input[seeds[k].input];
+        const std::size_t columns = of_input.size() / 7;
+        for (std::size_t row = 0; row < 7; ++row)
+          of_input[row * columns + seeds[k].index] = numbers[row].gradient[static_cast<int>(k - first)];
+      }
+      if (chunk == 0) {
+        std::ranges::transform(numbers, result.state.begin(), [](const D& x) { return x.value; });
+        result.string_state = end.string_state;
+      }
+    }
+  };
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::jthread> workers;
+  for (std::size_t i = 1; i < std::min<std::size_t>(threads, chunks); ++i) workers.emplace_back(work);
+  work();
+}
+
+py::tuple rollout_gradient(const Model& model, const State<double>& initial, const SampledTipMotion& tips,
+                           const std::vector<std::string>& with_respect_to, double begin, double dt,
+                           std::size_t steps_to_take, unsigned threads) {
+  const Steps steps{begin, dt, steps_to_take};
+  steps.validate();
+  FullPredictor<double>(model.parameters, model.effects);  // speaks about values out of range
+  Inputs nominal(model, initial, tips);
+  std::vector<Seed> seeds;
+  Derivatives result;
+  std::vector<std::vector<py::ssize_t>> shapes;
+  for (std::size_t i = 0; i < with_respect_to.size(); ++i) {
+    std::vector<py::ssize_t> shape = nominal.shape(with_respect_to[i]);
+    std::size_t count = 1;
+    for (const py::ssize_t extent : shape) count *= static_cast<std::size_t>(extent);
+    for (std::size_t k = 0; k < count; ++k) seeds.push_back({i, k});
+    shape.insert(shape.begin(), 7);
+    shapes.push_back(std::move(shape));
+    result.of_input.emplace_back(7 * count);
+  }
+  run_interruptibly([&](const std::atomic<bool>& cancel) {
+    differentiate(nominal, with_respect_to, seeds, tips, steps, threads, cancel, result);
+  });
+  expect_finite(result, with_respect_to);
+  py::dict derivatives;
+  for (std::size_t i = 0; i < with_respect_to.size(); ++i)
+    derivatives[py::str(with_respect_to[i])] = Array(shapes[i], result.of_input[i].data());
+  return py::make_tuple(Array(7, result.state.data()), string_state_to_python(result.string_state),
+                        derivatives);
+}
+
+}  // namespace
+
+void bind_gradient(py::module_& module) {
+  module.def("rollout_gradient", &rollout_gradient, "model"_a, "initial"_a, "tips"_a, "with_respect_to"_a,
+             "begin"_a, "dt"_a, "steps"_a, "threads"_a, "See diabolo.rollout_gradient.");
+}
+
+}  // namespace diabolo::python

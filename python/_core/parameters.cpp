@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "parameters.hpp"
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "choices.hpp"
+#include "fields.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using P = Parameters<double>;
+
+py::object to_python(bool value) { return py::bool_(value); }
+py::object to_python(const Vector3<double>& value) { return from_vector3(value); }
+template <class Enum>
+py::object to_python(Enum value) {
+  return choice_to_python(value);
+}
+
+void from_python(py::handle value, const std::string& name, bool& field) {
+  field = cast_to<bool>(value, name, "True or False");
+}
+void from_python(py::handle value, const std::string& name, Vector3<double>& field) {
+  field = to_vector3(cast_to<Array>(value, name, "an array of the shape (3,)"), name);
+}
+template <class Enum>
+void from_python(py::handle value, const std::string& name, Enum& field) {
+  field = choice_from_python<Enum>(cast_to<std::string>(value, name, "a str"), name);
+}
+
+py::dict to_dict(const P& parameters) {
+  py::dict fields;
+  add_numbers(parameters, fields);
+  for_each_rule([&](const char* name, auto member, const char*) {
+    const py::object value = to_python(parameters.*member);
+    if constexpr (std::is_same_v<decltype(member), Vector3<double> P::*>)
+      fields[name] = value.attr("tolist")();
+    else
+      fields[name] = py::isinstance<py::str>(value) ? value.attr("value") : value;
+  });
+  return fields;
+}
+
+P with_fields(P parameters, const py::kwargs& fields) {
+  assign_fields(parameters, fields);
+  return parameters;
+}
+
+void bind_rules(py::class_<P>& cls) {
+  for_each_rule([&](const char* name, auto member, const char* meaning) {
+    using Field = std::remove_reference_t<decltype(std::declval<P&>().*member)>;
+    const auto set = [name = std::string(name), member](P& p, const py::object& value) {
+      P changed = p;
+      from_python(value, name, changed.*member);
+      changed.validate();
+      p = changed;
+    };
+    if constexpr (std::is_enum_v<Field>) {
+      std::string doc = std::string(meaning) + ", as in diabolo." + Choices<Field>::kClass + ":";
+      for (const std::string_view choice : Choices<Field>::kNames) doc += " '" + std::string(choice) + "'";
+      cls.def_property(
+          name, [member](const P& p) { return choice_to_python(p.*member); },
+          [set](P& p, const py::str& value) { set(p, value); }, doc.c_str());
+    } else if constexpr (std::is_same_v<Field, bool>) {
+      cls.def_property(
+          name, [member](const P& p) { return p.*member; },
+          [set](P& p, bool value) { set(p, py::bool_(value)); }, meaning);
+    } else {
+      cls.def_property(
+          name, [member](const P& p) { return from_vector3(p.*member); },
+          [set](P& p, const Array& value) { set(p, value); }, meaning);
+    }
+  });
+}
+
+}  // namespace
+
+void assign_fields(Parameters<double>& parameters, const py::kwargs& fields) {
+  for (const auto& [key, value] : fields) {
+    const std::string name = py::str(key);
+    double* const number = find_number(parameters, name);
+    if (number) *number = cast_to<double>(value, name, "a number");
+    bool found = number != nullptr;
+    for_each_rule([&](const char* rule, auto member, const char*) {
+      if (name != rule) return;
+      from_python(value, name, parameters.*member);
+      found = true;
+    });
+    if (!found) throw py::type_error("Parameters has no field '" + name + "'");
+  }
+  parameters.validate();
+}
+
+void bind_parameters(py::module_& module) {
+  py::class_<ParameterInfo>(module, "ParameterInfo", "Name, unit and range of a numeric parameter.")
+      .def_readonly("name", &ParameterInfo::name)
+      .def_readonly("unit", &ParameterInfo::unit)
+      .def_readonly("minimum", &ParameterInfo::minimum)
+      .def_readonly("maximum", &ParameterInfo::maximum)
+      .def_readonly("meaning", &ParameterInfo::meaning)
+      .def("__repr__", [](const ParameterInfo& info) {
+        return py::str("<{} [{}] within [{}, {}]: {}>")
+            .format(info.name, info.unit, info.minimum, info.maximum, info.meaning);
+      });
+
+  py::class_<P> cls(module, "Parameters", R"(Everything that the predictor can be told.
+
+    Parameters(string_length=1.4)              # ours: an inextensible string, the default
+    Parameters.paper(axle_radius=0.007)        # the rules of the paper's text
+    Parameters.published()                     # the authors' program
+
+Keywords set fields; a rule is chosen by a member of its enumeration or by its name. A value out of its range
+is a ValueError that names the field, the value and the range.)");
+  cls.def(py::init([](const py::kwargs& fields) { return with_fields(P::consistent(), fields); }));
+  cls.def_static(
+      "consistent", [](const py::kwargs& fields) { return with_fields(P::consistent(), fields); },
+      "Inextensible massless string without friction; results converge as the step goes to zero.");
+  cls.def_static(
+      "paper", [](const py::kwargs& fields) { return with_fields(P::paper(), fields); },
+      "The rules of the paper's text with its errata corrected.");
+  cls.def_static(
+      "published", [](const py::kwargs& fields) { return with_fields(P::published(), fields); },
+      "The authors' program, rule by rule, with the settings of its evaluation.");
+  cls.def_static("fields", &list_of_infos<P>, "Name, unit and range of every numeric field (ParameterInfo).");
+  bind_numbers(cls, [](const P& p) { p.validate(); });
+  bind_rules(cls);
+  cls.def(
+      "replace", [](const P& p, const py::kwargs& fields) { return with_fields(p, fields); },
+      "A copy with other values in the given fields.");
+  cls.def("to_dict", &to_dict, "All fields by name; Parameters(**fields) builds them again.");
+  cls.def("__repr__",
+          [](const P& p) { return call_text("Parameters", to_dict(p), to_dict(P::consistent())); });
+  bind_copies(cls, &to_dict,
+              [](const py::dict& fields) { return with_fields(P::consistent(), py::kwargs(fields)); });
+}
+
+}  // namespace diabolo::python

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "models.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using namespace py::literals;
+using FullModel = FullPredictor<double>;
+
+FullModel make(const Model& model, const py::kwargs& effects) {
+  const py::object whole = py::type::of<Model>()(model.parameters, **effects);
+  return FullModel(model.parameters, effects.empty() ? model.effects : whole.cast<Model>().effects);
+}
+
+StepStatus<double> step(const FullModel& predictor, State<double>& state, const Array& left0,
+                        const Array& right0, const Array& left1, const Array& right1, double dt,
+                        const std::optional<std::array<Array, 4>>& velocities) {
+  if (!(dt > 0.0) || !std::isfinite(dt))
+    throw std::invalid_argument("dt: " + std::to_string(dt) + " s; must be positive and finite");
+  Tips<double> begin, end;
+  begin.left = to_vector3(left0, "left0");
+  begin.right = to_vector3(right0, "right0");
+  end.left = to_vector3(left1, "left1");
+  end.right = to_vector3(right1, "right1");
+  if (velocities) {
+    begin.left_velocity = to_vector3((*velocities)[0], "velocities[0]");
+    begin.right_velocity = to_vector3((*velocities)[1], "velocities[1]");
+    end.left_velocity = to_vector3((*velocities)[2], "velocities[2]");
+    end.right_velocity = to_vector3((*velocities)[3], "velocities[3]");
+  } else {
+    begin.left_velocity = end.left_velocity = (end.left - begin.left) * (1.0 / dt);
+    begin.right_velocity = end.right_velocity = (end.right - begin.right) * (1.0 / dt);
+  }
+  State<double> next = state;
+  const StepStatus<double> status = predictor.step(next, begin, end, dt);
+  if (!next.position.allFinite() || !next.velocity.allFinite() || !std::isfinite(next.spin)) {
+    PyErr_SetString(PyExc_FloatingPointError, "step: the state is no longer finite");
+    throw py::error_already_set();
+  }
+  state = next;
+  return status;
+}
+
+}  // namespace
+
+void bind_predictor(py::module_& module) {
+  py::class_<StepStatus<double>>(module, "StepStatus", "What happened in one step.")
+      .def_readonly("overstretched", &StepStatus<double>::overstretched,
+                    "The tips were farther apart than the string: the diabolo is held between them.")
+      .def_readonly("snapped_taut", &StepStatus<double>::snapped_taut, "The string came taut within the step.")
+      .def_readonly("caught", &StepStatus<double>::caught, "The string was under a flying diabolo again.")
+      .def("__repr__", [](const StepStatus<double>& s) {
+        return py::str("StepStatus(overstretched={}, snapped_taut={}, caught={})")
+            .format(s.overstretched, s.snapped_taut, s.caught);
+      });
+
+  py::class_<FullModel>(module, "Predictor", R"(Predicts the diabolo from the motion of the stick tips.
+
+    predictor = Predictor(Parameters())
+    predictor = Predictor(Parameters(), string_elasticity=StringElasticity.of_stiffness(600.0))
+    predictor.step(state, left0, right0, left1, right1, dt=1e-3)
+
+It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().)")
+      .def(py::init(&make), "model"_a)
+      .def_property_readonly(
+          "model", [](const FullModel& p) { return Model{p.parameters(), p.effects()}; }, "A copy.")
+      .def("step", &step, "state"_a, "left0"_a, "right0"_a, "left1"_a, "right1"_a, "dt"_a,
+           "velocities"_a = py::none(),
+           R"(Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
+each of the shape (3,) [m].
+
+`velocities` [m/s] are those of left0, right0, left1, right1; without them the tips go straight at constant
+speed. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.)");
+}
+
+}  // namespace diabolo::python

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using namespace py::literals;
+using S = State<double>;
+
+constexpr std::array<const char*, 3> kNames{"on_string", "loose", "flying"};
+
+S make(const Array& position, const Array& velocity, double spin, const py::object& string_state) {
+  if (!std::isfinite(spin))
+    throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
+  S state;
+  state.position = to_vector3(position, "position");
+  state.velocity = to_vector3(velocity, "velocity");
+  state.spin = spin;
+  state.string_state = string_state_from_python(string_state);
+  return state;
+}
+
+Array to_array(const S& state) {
+  Array array(7);
+  double* to = std::copy_n(state.position.data(), 3, array.mutable_data());
+  to = std::copy_n(state.velocity.data(), 3, to);
+  *to = state.spin;
+  return array;
+}
+
+}  // namespace
+
+py::int_ string_state_to_python(StringState state) {
+  return py::module_::import("diabolo.enums").attr("StringState")(static_cast<int>(state));
+}
+
+StringState string_state_from_python(const py::object& state) {
+  if (py::isinstance<py::str>(state)) {
+    const auto found = std::ranges::find(kNames, state.cast<std::string>());
+    if (found != kNames.end()) return static_cast<StringState>(found - kNames.begin());
+  } else if (py::isinstance<py::int_>(state) || py::hasattr(state, "__index__")) {
+    const long code = state.cast<long>();
+    if (code >= 0 && code < static_cast<long>(kNames.size())) return static_cast<StringState>(code);
+  }
+  throw std::invalid_argument("string_state: " + std::string(py::repr(state)) +
+                              "; expected 'on_string', 'loose', 'flying' or a StringState");
+}
+
+void bind_state(py::module_& module) {
+  const Array zero = from_vector3(Vector3<double>::Zero());
+  py::class_<S>(module, "State", R"(State of the diabolo, a point mass that spins.
+
+`position` [m] and `velocity` [m/s] have the shape (3,), world frame: x forward (away from the player), y left,
+z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
+string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.)")
+      .def(py::init(&make), "position"_a, "velocity"_a = py::make_tuple(0.0, 0.0, 0.0), "spin"_a = 0.0,
+           "string_state"_a = "loose")
+      .def_property(
+          "position", [](const S& s) { return from_vector3(s.position); },
+          [](S& s, const Array& value) { s.position = to_vector3(value, "position"); },
+          "Centre [m], shape (3,).")
+      .def_property(
+          "velocity", [](const S& s) { return from_vector3(s.velocity); },
+          [](S& s, const Array& value) { s.velocity = to_vector3(value, "velocity"); },
+          "[m/s], shape (3,).")
+      .def_property(
+          "spin", [](const S& s) { return s.spin; },
+          [](S& s, double value) {
+            s = make(from_vector3(s.position), from_vector3(s.velocity), value,
+                     string_state_to_python(s.string_state));
+          },
+          "[rad/s]")
+      .def_property(
+          "string_state", [](const S& s) { return string_state_to_python(s.string_state); },
+          [](S& s, const py::object& value) { s.string_state = string_state_from_python(value); },
+          "A StringState; its number or its name may be assigned.")
+      .def_property_readonly(
+          "string_acceleration", [](const S& s) { return from_vector3(s.string_acceleration); },
+          "Mean acceleration by the string over the last step [m/s^2], shape (3,).")
+      .def("to_array", &to_array, "Position, velocity and spin, shape (7,).")
+      .def("__copy__", [](const S& s) { return s; })
+      .def("__deepcopy__", [](const S& s, const py::dict&) { return s; }, "memo"_a)
+      .def("__repr__", [](const S& s) {
+        return py::str("State(position={}, velocity={}, spin={!r}, string_state='{}')")
+            .format(from_vector3(s.position).attr("tolist")(), from_vector3(s.velocity).attr("tolist")(),
+                    s.spin, kNames[static_cast<std::size_t>(s.string_state)]);
+      });
+}
+
+}  // namespace diabolo::python

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: MIT
+"""Many predictions at once, and their derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._core import Model, Parameters, TipMotion
+from .enums import StringState
+
+AnyModel: TypeAlias = Model | Parameters
+AnyStringState: TypeAlias = StringState | int | str
+
+
+class Rollout(NamedTuple):
+    """What `rollout` gives; the batch axis N is missing where nothing that was handed over had it."""
+
+    time: NDArray[np.float64]
+    """Since the initial state [s], shape (frames,); the initial state itself is not repeated."""
+    states: NDArray[np.float64]
+    """Position [m], velocity [m/s] and spin [rad/s], shape (N, frames, 7)."""
+    string_states: NDArray[np.uint8]
+    """As in StringState, shape (N, frames)."""
+
+
+class RolloutGradient(NamedTuple):
+    """What `rollout_gradient` gives."""
+
+    state: NDArray[np.float64]
+    """Position [m], velocity [m/s] and spin [rad/s] at the end, shape (7,)."""
+    string_state: StringState
+    """At the end."""
+    derivatives: dict[str, NDArray[np.float64]]
+    """Of `state` by each named input: the shape (7,) followed by the input's own."""
+
+
+def rollout(
+    model: AnyModel | Sequence[AnyModel],
+    initial: ArrayLike,
+    tips: TipMotion | Sequence[TipMotion],
+    *,
+    dt: float = 1e-3,
+    steps: int | None = None,
+    begin: float | None = None,
+    string_state: AnyStringState | ArrayLike = StringState.LOOSE,
+    record_every: int = 1,
+    threads: int = 0,
+) -> Rollout:
+    """Predict the diabolo from each of N initial states while the tips move.
+
+    model: Parameters or a Model, one for all or a sequence of N.
+    initial: position [m], velocity [m/s] and spin [rad/s], shape (N, 7) or (7,).
+    tips: a TipMotion, one for all or a sequence of N.
+    dt: time step [s].
+    steps: how many; by default as many as the (shortest) tip motion lasts.
+    begin: time of the initial state within the tip motions [s]; by default where the first one begins.
+    string_state: of the initial state; one for all or an array of the shape (N,).
+    record_every: a frame after each so many steps; `steps` must be a multiple of it.
+    threads: 0 takes all cores. The result does not depend on it.
+
+    Ctrl-C ends it at once. Raises ValueError about bad input, and FloatingPointError where a state does not
+    stay finite.
+
+        tips = TipMotion([0.0], [[0.0, 0.3, 0.0]], [[0.0, -0.3, 0.0]])
+        fall = rollout(Parameters(), [0, 0, -0.4, 0, 0, 0, 100], tips, steps=1000)
+        fall.states[-1]  # a second later
+    """
+    models = [model] if isinstance(model, (Model, Parameters)) else list(model)
+    motions = [tips] if isinstance(tips, TipMotion) else list(tips)
+    states = np.asarray(initial, dtype=np.float64)
+    codes = _codes(string_state)
+    if states.ndim not in (1, 2) or states.shape[-1] != 7:
+        raise ValueError(f"initial: shape {states.shape}; expected (7,) or (N, 7)")
+    if not models or not motions:
+        raise ValueError("rollout: an empty sequence of models or tip motions; expected one or N")
+    if record_every < 1:
+        raise ValueError(f"record_every: {record_every}; must be at least 1")
+
+    batched = states.ndim == 2 or codes.ndim == 1 or _is_sequence(model) or _is_sequence(tips)
+    sizes = {
+        "initial": len(states) if states.ndim == 2 else 1,
+        "string_state": codes.size,
+        "model": len(models),
+        "tips": len(motions),
+    }
+    size = 0 if 0 in sizes.values() else max(sizes.values())
+    for name, given in sizes.items():
+        if given not in (1, size):
+            raise ValueError(f"{name}: {given} given for {size} rollouts; expected 1 or {size}")
+
+    start = motions[0].begin if begin is None else float(begin)
+    if steps is None:
+        steps = _whole_steps(min(motion.end for motion in motions) - start, dt)
+        steps -= steps % record_every
+    if steps < 0 or steps % record_every != 0:
+        raise ValueError(f"steps: {steps}; expected a multiple of record_every, which is {record_every}")
+
+    records, record_states = _core.rollout(
+        models,
+        np.broadcast_to(states, (size, 7)),
+        np.broadcast_to(codes, (size,)),
+        motions,
+        start,
+        dt,
+        steps,
+        record_every,
+        _checked_threads(threads),
+    )
+    time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
+    return Rollout(time, records, record_states) if batched else Rollout(time, records[0], record_states[0])
+
+
+def rollout_gradient(
+    model: AnyModel,
+    initial: ArrayLike,
+    tips: TipMotion,
+    with_respect_to: Sequence[str] = ("position", "velocity", "spin"),
+    *,
+    dt: float = 1e-3,
+    steps: int | None = None,
+    begin: float | None = None,
+    string_state: AnyStringState = StringState.LOOSE,
+    threads: int = 0,
+) -> RolloutGradient:
+    """Final state of a rollout, and its derivatives by forward-mode automatic differentiation.
+
+    `with_respect_to` names inputs:
+      "position", "velocity" (3,) and "spin" () of the initial state,
+      "left", "right" (M, 3): the poses that the tip motion was made from,
+      any numeric field of Parameters () such as "string_length", see Parameters.fields(),
+      any field of an effect () such as "string_elasticity.compliance".
+
+    The derivative holds for the sequence of string states that the rollout goes through: instants at which
+    the string comes taut are located within a step, so they move with the inputs. `initial` has the shape
+    (7,); all else is as for `rollout`.
+
+        g = rollout_gradient(Parameters(), initial, tips, ["string_length"], steps=500)
+        g.derivatives["string_length"][2]  # height at the end per string length
+    """
+    state = np.asarray(initial, dtype=np.float64)
+    if state.shape != (7,):
+        raise ValueError(f"initial: shape {state.shape}; expected (7,)")
+    start = tips.begin if begin is None else float(begin)
+    if steps is None:
+        steps = _whole_steps(tips.end - start, dt)
+    if steps < 0:
+        raise ValueError(f"steps: {steps}; must not be negative")
+    final, final_string_state, derivatives = _core.rollout_gradient(
+        model,
+        _core.State(state[:3], state[3:6], float(state[6]), string_state),
+        tips,
+        list(with_respect_to),
+        start,
+        dt,
+        steps,
+        _checked_threads(threads),
+    )
+    return RolloutGradient(final, StringState(final_string_state), derivatives)
+
+
+def _is_sequence(given: object) -> bool:
+    return not isinstance(given, (Model, Parameters, TipMotion))
+
+
+def _whole_steps(duration: float, dt: float) -> int:
+    """As many steps as fit; a step that misses the end by rounding only does fit."""
+    if not dt > 0.0:
+        raise ValueError(f"dt: {dt} s; must be positive and finite")
+    return max(0, int(duration / dt + 1e-6))
+
+
+def _codes(string_state: AnyStringState | ArrayLike) -> NDArray[np.uint8]:
+    """The numbers of string states given by number or name."""
+    given = np.asarray(string_state)
+    if given.dtype.kind == "U":
+        names = {state.name.lower(): int(state) for state in StringState}
+        unknown = sorted(set(given.ravel().tolist()) - set(names))
+        if unknown:
+            raise ValueError(f"string_state: '{unknown[0]}'; expected one of {', '.join(names)}")
+        given = np.vectorize(names.__getitem__, otypes=[np.int64])(given)
+    if given.ndim > 1:
+        raise ValueError(f"string_state: shape {given.shape}; expected one or (N,)")
+    if given.dtype.kind not in "iu" or np.any(given < 0) or np.any(given > max(StringState)):
+        raise ValueError(f"string_state: {given}; expected names or numbers of StringState")
+    return given.astype(np.uint8)
+
+
+def _checked_threads(threads: int) -> int:
+    if threads < 0:
+        raise ValueError(f"threads: {threads}; expected 0 (all cores) or more")
+    return threads
