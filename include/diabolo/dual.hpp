@@ -20,7 +20,7 @@ struct Dual {
   Gradient gradient = Gradient::Constant(Base(0));  ///< its derivative with respect to each input
 
   Dual() = default;
-  Dual(double x) : value(x) {}  // NOLINT: constants mix freely with duals
+  Dual(double x) : value(Base(x)) {}  // NOLINT: constants mix freely with duals
   Dual(const Base& x, const Gradient& g) : value(x), gradient(g) {}
 
   /// The input number `index` with the given value.

@@ -65,11 +65,14 @@ class Spheroid {
     const Scalar along = absolute(local.along) / semi_major_;
     const Scalar across = local.across / semi_major_;
     const Scalar b = semi_minor_ / semi_major_;
-    const Scalar t = closest_point_parameter(along, across, b);
-    const Scalar along_surface = along / maximum(Scalar(t + Scalar(1)), tiny<Scalar>());
-    // On the minor axis inside the evolute the formula b^2 v / (t + b^2) is 0/0; the surface equation is not.
+    const Scalar eccentricity = Scalar(0.5) * tip_distance_ / semi_major_;
+    const Scalar e2 = eccentricity * eccentricity;
+    const Scalar s = closest_point_parameter(along, across, b, e2);
+    const Scalar along_surface = along / maximum(Scalar(s + e2), tiny<Scalar>());
+    // Near the vertices b^2 v / s keeps the digits; between the centres of curvature, on the axis, it is 0/0.
     const Scalar across_surface =
-        b * positive_sqrt<Scalar>((Scalar(1) - along_surface) * (Scalar(1) + along_surface));
+        select(along > e2, Scalar(b * b * across / maximum(s, tiny<Scalar>())),
+               Scalar(b * positive_sqrt<Scalar>((Scalar(1) - along_surface) * (Scalar(1) + along_surface))));
     const Scalar sign = select(local.along < Scalar(0), Scalar(-semi_major_), semi_major_);
     return center_ + axis_ * (sign * along_surface) + local.direction * (across_surface * semi_major_);
   }
@@ -128,27 +131,27 @@ class Spheroid {
     return unit(reference - axis_ * dot<Scalar>(reference, axis_));
   }
 
-  /// Root of (u/(t+1))^2 + (b v/(t+b^2))^2 = 1 right of -b^2 (Eberly's form of the distance to an ellipse
-  /// with semi-axes 1 and b; u, v >= 0). The function is convex and falling there and Newton starts left of
-  /// the root, so that it comes up to it without overshooting.
-  static Scalar closest_point_parameter(const Scalar& u, const Scalar& v, const Scalar& b) {
-    const Scalar b2 = b * b;
-    Scalar t = maximum(Scalar(u - Scalar(1)), Scalar(b * v - b2));
+  /// Root s > 0 of (u/(s+e^2))^2 + (b v/s)^2 = 1 (Eberly's form of the distance to an ellipse with semi-axes
+  /// 1 and b, b^2 + e^2 = 1, his t being s - b^2, so that no digits cancel for a near sphere; u, v >= 0). The
+  /// function is convex and falling and Newton starts left of the root, so that it comes up to it without
+  /// overshooting.
+  static Scalar closest_point_parameter(const Scalar& u, const Scalar& v, const Scalar& b, const Scalar& e2) {
+    Scalar s = maximum(Scalar(u - e2), Scalar(b * v));
     Mask<Scalar> settled{false};
     for (int i = 0; i < kMaximumIterations; ++i) {
-      const Scalar p = Scalar(1) / maximum(Scalar(t + Scalar(1)), tiny<Scalar>());
-      const Scalar q = Scalar(1) / maximum(Scalar(t + b2), tiny<Scalar>());
+      const Scalar p = Scalar(1) / maximum(Scalar(s + e2), tiny<Scalar>());
+      const Scalar q = Scalar(1) / maximum(s, tiny<Scalar>());
       const Scalar up = u * p, vq = b * v * q;
       const Scalar excess = up * up + vq * vq - Scalar(1);
       const Scalar slope = Scalar(2) * (up * up * p + vq * vq * q);
       const Scalar step =
           select(slope > tiny<Scalar>(), Scalar(excess / maximum(slope, tiny<Scalar>())), Scalar(0));
-      t += select(settled, Scalar(0), maximum(step, Scalar(0)));
-      const Scalar resolution = Scalar(4.0 * std::numeric_limits<ValueOf<Scalar>>::epsilon()) * (t + b2);
+      s += select(settled, Scalar(0), maximum(step, Scalar(0)));
+      const Scalar resolution = Scalar(4.0 * std::numeric_limits<ValueOf<Scalar>>::epsilon()) * s;
       settled = settled || (step <= resolution);
       if (all(settled)) break;
     }
-    return t;
+    return s;
   }
 
   Vector3<Scalar> left_, right_;
