@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "diabolo/taut_string.hpp"
+
+/// A StringStep together with everything that it refers to.
+struct StepCase {
+  using Vector = diabolo::Vector3<double>;
+
+  Vector position = Vector::Zero(), velocity = Vector::Zero();
+  Vector acceleration{0.0, 0.0, -diabolo::kStandardGravity};
+  diabolo::Tips<double> begin, end;
+  double dt = 1e-3, length = 1.45;
+  Vector guess = Vector::Zero();
+  double compliance = 0.0, damping_time = 0.0;
+  diabolo::PlaneProjector<double> plane;
+
+  diabolo::StringStep<double> step() const {
+    return {position, velocity, acceleration, begin, end, dt, length, guess, compliance, damping_time, plane};
+  }
+
+  /// Both tips at rest.
+  void rest(const Vector& left, const Vector& right) {
+    begin = {left, right, Vector::Zero(), Vector::Zero()};
+    end = begin;
+  }
+
+  /// Both tips from here on with constant velocities.
+  void move(const Vector& left, const Vector& right, const Vector& left_velocity, const Vector& right_velocity) {
+    begin = {left, right, left_velocity, right_velocity};
+    end = {Vector(left + left_velocity * dt), Vector(right + right_velocity * dt), left_velocity, right_velocity};
+  }
+
+  /// Path length of a position with the tips at the end.
+  double path(const Vector& p) const { return (p - end.left).norm() + (p - end.right).norm(); }
+};
