@@ -38,8 +38,8 @@ template <class Scalar>
   const Scalar limit = select(was_inside, minimum(share, Scalar(1)), Scalar(1));
   result.position = select<Scalar>(where, position, result.position);
   result.velocity = select<Scalar>(where, Vector3<Scalar>(velocity * limit), result.velocity);
-  const Vector3<Scalar> none = Vector3<Scalar>::Constant(Scalar(0));
-  result.string_acceleration = select<Scalar>(where, none, result.string_acceleration);
+  const Vector3<Scalar> pull = (velocity * limit - arriving) * Scalar(Scalar(1) / step.dt);
+  result.string_acceleration = select<Scalar>(where, pull, result.string_acceleration);
 }
 
 }  // namespace diabolo

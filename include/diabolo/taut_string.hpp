@@ -60,6 +60,9 @@ template <bool kElastic, class Scalar>
                                StringPath<Scalar>(step.position, step.begin).imbalance();
   StringStepResult<Scalar> result = advance_on_string<kElastic>(rest, captured);
   result.passed += Scalar(0.5) * passed_before;
+  const Vector3<Scalar> impulse = result.string_acceleration * rest.dt + (velocity - arriving);
+  result.string_acceleration =
+      select<Scalar>(where, impulse * Scalar(Scalar(1) / step.dt), result.string_acceleration);
   result.snapped_taut = where;
   return result;
 }
@@ -149,10 +152,11 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   const Scalar rate_before =
       dot(gradient, arriving) + path.tip_rate(step.end.left_velocity, step.end.right_velocity);
   const Scalar rigidity = (Scalar(1) - resolution) / (result.gradient_squared + Scalar(1e-12));
-  const Scalar removed = (rate_before - slope * impulse) * rigidity;
-  result.velocity = arriving - direction * impulse - gradient * select(taut, removed, Scalar(0));
+  const Scalar removed = select(taut, Scalar((rate_before - slope * impulse) * rigidity), Scalar(0));
+  const Vector3<Scalar> string_impulse = direction * impulse + gradient * removed;
+  result.velocity = arriving - string_impulse;
   result.position = free + now.shift;
-  result.string_acceleration = direction * Scalar(-impulse * inverse_dt);
+  result.string_acceleration = string_impulse * Scalar(-inverse_dt);
   const Mask<Scalar> lost = captured && !settled;
   if (any(lost)) put_back(step, lost, result);
   return result;
