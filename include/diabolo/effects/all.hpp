@@ -10,10 +10,6 @@ namespace diabolo {
 template <class Scalar>
 using AllEffects = EffectSet<Scalar, StringElasticity>;
 
-/// Every effect of the library, each at amplitude zero until it is told otherwise.
-template <class Scalar>
-using AllEffects = EffectSet<Scalar, StringElasticity>;
-
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
