@@ -88,5 +88,5 @@ def mujoco_folder() -> Path:
     try:
         import mujoco
     except ImportError as error:
-        raise BenchmarkError("MuJoCo is not installed: pip install mujoco") from error
+        raise BenchmarkError("MuJoCo is not installed: pip install mujoco==4.0.0") from error
     return Path(mujoco.__file__).parent
