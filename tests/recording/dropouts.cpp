@@ -12,7 +12,7 @@ TEST_CASE("A held track repeats the last valid position and keeps what came befo
   track.position.col(1) << 1.0, 2.0, 3.0;
   track.position.col(4) << 4.0, 5.0, 6.0;
   const Track held = hold_last_valid(track);
-  CHECK((held.valid == (Mask(6) << false, true, true, true, true, true).finished()).all());
+  CHECK((held.valid == (Marks(6) << false, true, true, true, true, true).finished()).all());
   CHECK(held.position.col(0).array().isNaN().all());
   CHECK(held.position.col(2) == track.position.col(1));
   CHECK(held.position.col(3) == track.position.col(1));
@@ -32,10 +32,10 @@ TEST_CASE("Holding changes no valid sample, and holding twice changes nothing mo
 }
 
 TEST_CASE("Dropouts widen by the asked number of samples") {
-  const Mask valid = (Mask(9) << true, true, true, true, false, true, true, true, true).finished();
+  const Marks valid = (Marks(9) << true, true, true, true, false, true, true, true, true).finished();
   CHECK((widen_dropouts(valid, 0) == valid).all());
   CHECK((widen_dropouts(valid, 1) ==
-         (Mask(9) << true, true, true, false, false, false, true, true, true).finished())
+         (Marks(9) << true, true, true, false, false, false, true, true, true).finished())
             .all());
   CHECK((widen_dropouts(valid, 2) == widen_dropouts(widen_dropouts(valid, 1), 1)).all());
   CHECK(!widen_dropouts(valid, 100).any());

@@ -42,14 +42,14 @@ TEST_CASE("A Motive export is read as it stands") {
   CHECK(left.position.col(2) == Eigen::Vector3d(-0.25, 0.5, 1.02));
   CHECK(left.quaternion.col(2) == Eigen::Vector4d(0.0, 0.0, 0.0, 1.0));
   CHECK(diabolo.name == "diabolo_red");
-  CHECK((diabolo.valid == (Mask(3) << true, false, true).finished()).all());
+  CHECK((diabolo.valid == (Marks(3) << true, false, true).finished()).all());
   CHECK(diabolo.position.col(1).array().isNaN().all());
   CHECK(diabolo.quaternion.col(1).array().isNaN().all());
   CHECK(diabolo.quaternion.col(2) == Eigen::Vector4d(0.6, 0.8, 0.0, 0.0));
   REQUIRE(take.markers.size() == 1);
   CHECK(take.markers[0].name == "diabolo_red:Marker1");
   CHECK(take.markers[0].measured);
-  CHECK((take.markers[0].valid == (Mask(3) << true, false, true).finished()).all());
+  CHECK((take.markers[0].valid == (Marks(3) << true, false, true).finished()).all());
   CHECK(take.markers[0].position.col(2) == Eigen::Vector3d(0.1, 0.2, 0.35));
 }
 

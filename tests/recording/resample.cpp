@@ -30,8 +30,8 @@ Recording uniform_motion(Eigen::Index size) {
     recording.left_orientation.quaternion.col(i) =
         Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * time, axis)).coeffs();
   }
-  for (Mask* mask : {&recording.left.valid, &recording.right.valid, &recording.diabolo.valid,
-                     &recording.diabolo_orientation.valid, &recording.left_orientation.valid})
+  for (Marks* mask : {&recording.left.valid, &recording.right.valid, &recording.diabolo.valid,
+                      &recording.diabolo_orientation.valid, &recording.left_orientation.valid})
     mask->setConstant(true);
   return recording;
 }
@@ -92,10 +92,10 @@ TEST_CASE("Dropouts and gaps are never bridged, nothing is extrapolated") {
   times << -0.005, 0.0, 0.025, 0.035, 0.04, 0.045, 0.055, 0.085, 0.125;
   const Recording result = resample(recording, times);
   CHECK((result.left.valid ==
-         (Mask(9) << false, true, true, false, false, false, true, false, false).finished())
+         (Marks(9) << false, true, true, false, false, false, true, false, false).finished())
             .all());
   CHECK(
-      (result.right.valid == (Mask(9) << false, true, true, true, true, true, true, false, false).finished())
+      (result.right.valid == (Marks(9) << false, true, true, true, true, true, true, false, false).finished())
           .all());
   for (Eigen::Index k = 0; k < times.size(); ++k)
     CHECK(result.left.position.col(k).array().isNaN().all() == !result.left.valid[k]);
@@ -109,6 +109,21 @@ TEST_CASE("Half the rate keeps every other sample, and half of that commutes") {
   for (Eigen::Index k = 0; k < half.size(); ++k)
     CHECK(half.diabolo.position.col(k) == recording.diabolo.position.col(2 * k));
   CHECK(test::same(resample(half, 25.0), quarter));
+}
+
+TEST_CASE("Whatever times are asked for, the result keeps a recording's promises") {
+  const std::uint32_t seed = test::fresh_seed();
+  INFO("seed " << seed);
+  std::mt19937 generator(seed);
+  for (std::uint32_t k = 0; k < 50; ++k) {
+    const Recording recording = test::random_recording(seed + k);
+    std::exponential_distribution<double> step(
+        std::uniform_real_distribution<double>(20.0, 500.0)(generator));
+    Eigen::VectorXd times(30);
+    times[0] = recording.time[0] - 0.1;
+    for (Eigen::Index i = 1; i < times.size(); ++i) times[i] = times[i - 1] + 1e-5 + step(generator);
+    CHECK_NOTHROW(check_recording(resample(recording, times)));
+  }
 }
 
 TEST_CASE("Times that do not increase are refused") {

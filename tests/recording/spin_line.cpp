@@ -23,7 +23,7 @@ MotiveTake spinning(const Eigen::Vector3d& axis, const Eigen::Vector3d& point, d
   take.rate = 120.0;
   take.time.resize(size);
   take.bodies.push_back(
-      {"diabolo", Eigen::Matrix4Xd(4, size), Eigen::Matrix3Xd(3, size), Mask::Constant(size, true)});
+      {"diabolo", Eigen::Matrix4Xd(4, size), Eigen::Matrix3Xd(3, size), Marks::Constant(size, true)});
   MotiveBody& body = take.bodies[0];
   for (Eigen::Index i = 0; i < size; ++i) {
     const double time = static_cast<double>(i) / 120.0;

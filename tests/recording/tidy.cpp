@@ -33,7 +33,7 @@ TEST_CASE("A tidy recording is read as it stands") {
   CHECK(recording.time == Eigen::Vector3d(0.0, 0.01, 0.02));
   CHECK(recording.left.position.col(2) == Eigen::Vector3d(0.1, 0.3, 1.02));
   CHECK(recording.right.position.col(1) == Eigen::Vector3d(0.1, -0.3, 0.99));
-  CHECK((recording.diabolo.valid == (Mask(3) << true, false, true).finished()).all());
+  CHECK((recording.diabolo.valid == (Marks(3) << true, false, true).finished()).all());
   CHECK(recording.diabolo.position.col(1).array().isNaN().all());
   CHECK(recording.diabolo_orientation.quaternion.col(2) == Eigen::Vector4d(0.6, 0.8, 0.0, 0.0));
   CHECK(recording.left_orientation.empty());
@@ -87,6 +87,9 @@ TEST_CASE("Headers that do not fit are refused") {
   CHECK(says("\n") == "play.csv, line 1: column 1 is \"\", which a tidy recording lacks");
   CHECK(says(tidy_text().substr(0, tidy_text().find('\n') + 1)) ==
         "play.csv, line 1: the file ends here; expected at least one line of data");
+  std::string wide = "time";
+  for (int column = 0; column < 1'000'000; ++column) wide += ",left_x";
+  CHECK(says(wide + "\n") == "play.csv, line 1: column \"left_x\" is there twice");
   CHECK(says("") == "play.csv: the file is empty");
   CHECK(says("\xfe\xff") == "play.csv: the text is UTF-16; expected UTF-8");
 }

@@ -33,7 +33,7 @@ Velocity diabolo_velocity(const Recording& recording, const VelocityFilter& filt
 TEST_CASE("The two-point rule is the published one") {
   const Recording recording = sampled(5, [](double t) { return Eigen::Vector3d(t * t, -t, 0.5); });
   const Velocity result = diabolo_velocity(recording, forward_difference());
-  CHECK((result.valid == (Mask(5) << true, true, true, true, false).finished()).all());
+  CHECK((result.valid == (Marks(5) << true, true, true, true, false).finished()).all());
   for (Eigen::Index i = 0; i < 4; ++i)
     CHECK(((recording.diabolo.position.col(i + 1) - recording.diabolo.position.col(i)) * 120.0 -
            result.velocity.col(i))

@@ -30,16 +30,21 @@ inline bool normalize_quaternion(Eigen::Ref<Eigen::Vector4d> quaternion) {
   return true;
 }
 
+/// The median step between times [s]; there must be two at least.
+inline double median_step(const Eigen::VectorXd& time) {
+  Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  double* const middle = step.data() + step.size() / 2;
+  std::nth_element(step.data(), middle, step.data() + step.size());
+  return *middle;
+}
+
 /// Throws RecordingError unless the sampling rate [Hz] is believable and fits the median time step (to 5 %).
 inline void check_rate(double rate, const Eigen::VectorXd& time, const std::string& where) {
   if (!(rate > 0.0 && rate <= 1e6))
     throw RecordingError(where + ": rate " + shown(rate) + " Hz; expected more than 0, at most 1e6");
   if (time.size() < 2) return;
-  Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
-  double* const middle = step.data() + step.size() / 2;
-  std::nth_element(step.data(), middle, step.data() + step.size());
-  if (std::abs(*middle * rate - 1.0) > 0.05)
-    throw RecordingError(where + ": rate " + shown(rate) + " Hz, but the times step by " + shown(*middle) +
+  if (const double step = median_step(time); std::abs(step * rate - 1.0) > 0.05)
+    throw RecordingError(where + ": rate " + shown(rate) + " Hz, but the times step by " + shown(step) +
                          " s");
 }
 

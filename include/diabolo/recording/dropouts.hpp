@@ -20,12 +20,12 @@ inline Track hold_last_valid(Track track) {
 }
 
 /// Marks with every dropout widened by `samples` on both sides.
-inline Mask widen_dropouts(const Mask& valid, Eigen::Index samples) {
-  Mask result = valid;
+inline Marks widen_dropouts(const Marks& valid, Eigen::Index samples) {
+  Marks result = valid;
   for (Eigen::Index i = 0; i < valid.size(); ++i) {
     if (valid[i]) continue;
-    const Eigen::Index first = std::max<Eigen::Index>(0, i - samples);
-    result.segment(first, std::min(valid.size(), i + samples + 1) - first).setConstant(false);
+    const Eigen::Index last = std::min(valid.size() - 1, i + samples);
+    for (Eigen::Index k = std::max<Eigen::Index>(0, i - samples); k <= last; ++k) result[k] = false;
   }
   return result;
 }

@@ -28,7 +28,7 @@ struct MotiveBody {
   std::string name;
   Eigen::Matrix4Xd quaternion;  ///< x, y, z, w; 4 x N, body to capture frame, unit; NaN in a dropout
   Eigen::Matrix3Xd position;    ///< of the body's origin [m], 3 x N; NaN in a dropout
-  Mask valid;                   ///< N; false marks a dropout
+  Marks valid;                  ///< N; false marks a dropout
 };
 
 /// A single marker over N samples, in the frame of the motion capture.
@@ -36,7 +36,7 @@ struct MotiveMarker {
   std::string name;
   bool measured;  ///< true: as the cameras saw it ("Marker"); false: as the solved body carries it
   Eigen::Matrix3Xd position;  ///< [m], 3 x N; NaN in a dropout
-  Mask valid;                 ///< N; false marks a dropout
+  Marks valid;                ///< N; false marks a dropout
 };
 
 /// A take as OptiTrack Motive exports it, with nothing interpreted.
@@ -181,10 +181,10 @@ class MotiveReader {
     take_.time.resize(size);
     for (const Columns& columns : body_columns_)
       take_.bodies.push_back(
-          {std::string(columns.name), Eigen::Matrix4Xd(4, size), Eigen::Matrix3Xd(3, size), Mask(size)});
+          {std::string(columns.name), Eigen::Matrix4Xd(4, size), Eigen::Matrix3Xd(3, size), Marks(size)});
     for (const Columns& columns : marker_columns_)
       take_.markers.push_back(
-          {std::string(columns.name), columns.type == "Marker", Eigen::Matrix3Xd(3, size), Mask(size)});
+          {std::string(columns.name), columns.type == "Marker", Eigen::Matrix3Xd(3, size), Marks(size)});
 
     for (Eigen::Index i = 0; !csv_.at_end(); ++i) {
       csv_.next_numbers(row_);

@@ -12,29 +12,29 @@
 namespace diabolo {
 
 /// One mark per sample.
-using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+using Marks = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Positions over N samples, world frame (x forward, y left, z up).
 struct Track {
   Eigen::Matrix3Xd position;  ///< [m], 3 x N; NaN in a dropout, so that using one is loud
-  Mask valid;                 ///< N; false marks a dropout
+  Marks valid;                ///< N; false marks a dropout
 
   /// A track of dropouts.
   static Track missing(Eigen::Index size) {
-    return {Eigen::Matrix3Xd::Constant(3, size, kNaN), Mask::Constant(size, false)};
+    return {Eigen::Matrix3Xd::Constant(3, size, kNaN), Marks::Constant(size, false)};
   }
 };
 
 /// Orientations, body to world, over N samples; no columns where none were recorded.
 struct OrientationTrack {
   Eigen::Matrix4Xd quaternion;  ///< x, y, z, w; 4 x N, unit; NaN in a dropout
-  Mask valid;                   ///< N; false marks a dropout
+  Marks valid;                  ///< N; false marks a dropout
 
   /// A track of dropouts.
   static OrientationTrack missing(Eigen::Index size) {
-    return {Eigen::Matrix4Xd::Constant(4, size, kNaN), Mask::Constant(size, false)};
+    return {Eigen::Matrix4Xd::Constant(4, size, kNaN), Marks::Constant(size, false)};
   }
   bool empty() const { return quaternion.cols() == 0; }
 };

@@ -23,8 +23,8 @@ inline constexpr double kSameInstant = 2e-6;
 ///
 /// At a time within kSameInstant of a sample, that sample is copied bit for bit. Elsewhere a value is valid
 /// only where both neighbours are, one sampling period apart: dropouts are never bridged, nothing is
-/// extrapolated. The new rate is that of the mean step, `frame` the nearest old frame. Throws RecordingError
-/// where the times do not increase, or the recording is not what its type promises.
+/// extrapolated. The new rate is that of the median step, `frame` the nearest old frame. Throws
+/// RecordingError where the times do not increase, or the recording is not what its type promises.
 inline Recording resample(const Recording& recording, const Eigen::VectorXd& times) {
   check_recording(recording);
   const Eigen::Index size = times.size(), last = recording.size() - 1;
@@ -83,7 +83,7 @@ inline Recording resample(const Recording& recording, const Eigen::VectorXd& tim
     orientation(recording.left_orientation, result.left_orientation);
     orientation(recording.right_orientation, result.right_orientation);
   }
-  if (size > 1) result.rate = static_cast<double>(size - 1) / (times[size - 1] - times[0]);
+  if (size > 1) result.rate = 1.0 / median_step(times);
   return result;
 }
 

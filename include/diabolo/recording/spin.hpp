@@ -18,7 +18,7 @@ namespace diabolo {
 /// other sign.
 struct Spin {
   Eigen::VectorXd value;  ///< [rad/s], N; NaN where not valid
-  Mask valid;             ///< N; sample i needs samples i and i + 1, so the last is never valid
+  Marks valid;            ///< N; sample i needs samples i and i + 1, so the last is never valid
 };
 
 /// Largest spin that a sampling rate [Hz] tells apart [rad/s].
@@ -33,7 +33,7 @@ template <class Rule>
 Spin spin_by(const Recording& recording, const Rule& rule) {
   check_recording(recording);
   const Eigen::Index size = recording.size();
-  Spin spin{Eigen::VectorXd::Constant(size, kNaN), Mask::Constant(size, false)};
+  Spin spin{Eigen::VectorXd::Constant(size, kNaN), Marks::Constant(size, false)};
   const OrientationTrack& track = recording.diabolo_orientation;
   if (track.empty()) return spin;
   for (Eigen::Index i = 0; i + 1 < size; ++i) {

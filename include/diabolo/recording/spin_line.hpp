@@ -27,7 +27,7 @@ struct SpinLine {
 /// squares), since points off the line circle about it. Frames within two of a dropout are left out. Throws
 /// RecordingError where fewer than ten frames remain or the body does not spin.
 inline SpinLine find_spin_line(const MotiveTake& take, const MotiveBody& body) {
-  const Mask usable = widen_dropouts(body.valid, 2);
+  const Marks usable = widen_dropouts(body.valid, 2);
   const auto rotation = [&body](Eigen::Index i) {
     return Eigen::Quaterniond(Eigen::Vector4d(body.quaternion.col(i))).toRotationMatrix();
   };

@@ -104,7 +104,7 @@ inline VelocityFilter local_polynomial(int frames, int degree, Window window) {
 /// Velocities over N samples.
 struct Velocity {
   Eigen::Matrix3Xd velocity;  ///< [m/s], 3 x N; NaN where not valid
-  Mask valid;                 ///< N
+  Marks valid;                ///< N
 };
 
 /// Velocity of a track of `recording` by a filter. Valid only where every frame in the window is valid and
@@ -114,7 +114,7 @@ inline Velocity velocity(const Recording& recording, const Track& track, const V
   check_recording(recording);
   const Eigen::Index size = recording.size(), length = filter.weight.size();
   check_track(track, size, "track of " + shown(recording.name));
-  Velocity result{Eigen::Matrix3Xd::Constant(3, size, kNaN), Mask::Constant(size, false)};
+  Velocity result{Eigen::Matrix3Xd::Constant(3, size, kNaN), Marks::Constant(size, false)};
   Eigen::Index usable = 0;  // frames without a gap, up to and with `last`
   for (Eigen::Index last = 0; last < size; ++last) {
     const bool joined = last > 0 && recording.steps_evenly(last - 1);

@@ -64,8 +64,8 @@ inline Recording load_recording(const std::filesystem::path& path,
   return read_tidy(text, file_name, read_metadata(read_file(metadata), metadata.string()));
 }
 
-/// Writes NAME.csv (tidy) and NAME.json, neither ever half-written. Throws RecordingError where `path` does not end
-/// in .csv, the recording is not what its type promises, or a file cannot be written.
+/// Writes NAME.csv (tidy) and NAME.json, neither ever half-written. Throws RecordingError where `path` does
+/// not end in .csv, the recording is not what its type promises, or a file cannot be written.
 inline void save_tidy(const Recording& recording, const std::filesystem::path& path) {
   if (path.extension() != ".csv") throw RecordingError(path.string() + ": expected a name that ends in .csv");
   FilesToWrite files;
