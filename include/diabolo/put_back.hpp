@@ -15,14 +15,17 @@ template <class Scalar>
   const Vector3<Scalar> outside = step.free_position(step.dt);
   const Vector3<Scalar> to_middle = (step.end.left + step.end.right) * Scalar(0.5) - step.position;
   const Scalar reach = step.string_length * Scalar(1.0 + constraint_tolerance<Scalar>());
-  const Mask<Scalar> was_inside = StringPath<Scalar>(step.position, step.end).length() <= reach;
+  const Scalar begin_length = StringPath<Scalar>(step.position, step.end).length();
+  const Mask<Scalar> was_inside = begin_length <= reach;
   const Vector3<Scalar> anchor =
       select<Scalar>(was_inside, step.position, Vector3<Scalar>(step.position + step.plane(to_middle)));
+  // Not a bit longer than it was: what the string gives back is multiplied by its tension.
+  const Scalar longest = select(was_inside, maximum(begin_length, step.string_length), step.string_length);
   Scalar low{0}, high{1};
   for (int i = 0; i < 60; ++i) {
     const Scalar middle = Scalar(0.5) * (low + high);
     const StringPath<Scalar> path(anchor + (outside - anchor) * middle, step.end);
-    const Mask<Scalar> fits = path.length() <= reach;
+    const Mask<Scalar> fits = path.length() <= longest;
     low = select(fits, middle, low);
     high = select(fits, high, middle);
   }
