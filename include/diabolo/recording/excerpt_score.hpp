@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "diabolo/recording/baseline.hpp"
 #include "diabolo/recording/check.hpp"
+#include "diabolo/recording/evaluation_step.hpp"
 #include "diabolo/recording/model.hpp"
 #include "diabolo/recording/paper_table.hpp"
 #include "diabolo/recording/start_state.hpp"
@@ -36,33 +35,17 @@ struct ExcerptScore {
   std::optional<double> program_error;  ///< the authors' program, run again [m]
 };
 
-/// Step of the published evaluation [s]; the per-step factors of the published rules belong to it.
-inline constexpr double kEvaluationStep = 1e-3;
-
-/// Steps from a start until the first one at or after `seconds` later; a step within a microsecond of it
-/// counts as at it.
-inline std::size_t steps_until(double seconds) {
-  return static_cast<std::size_t>(std::max(0.0, std::ceil(seconds / kEvaluationStep - 1e-3)));
-}
-
-/// Whether a predicted position can be compared at all: finite, and within what is believed of a recording.
-inline bool is_in_world(const Vector3<double>& position) {
-  return (position.cwiseAbs().array() <= kLargestCoordinate).all();
-}
-
-/// The first row at which the published start is known: the diabolo there and in the next row, and both tips.
-/// Throws RecordingError where there is none.
-inline Eigen::Index first_start(const Recording& recording) {
+/// The first row at which the published start and both tips are known. Throws RecordingError where there is
+/// none.
+inline Eigen::Index first_start(const Recording& recording, const StartStates& starts) {
   bool left = false, right = false;
-  for (Eigen::Index i = 0; i + 1 < recording.size(); ++i) {
+  for (Eigen::Index i = 0; i < recording.size(); ++i) {
     left = left || recording.left.valid[i];
     right = right || recording.right.valid[i];
-    if (left && right && recording.diabolo.valid[i] && recording.diabolo.valid[i + 1] &&
-        recording.steps_evenly(i))
-      return i;
+    if (left && right && starts.known(Start::kPublished, i)) return i;
   }
   throw RecordingError("recording " + shown(recording.name) +
-                       ": no two successive rows with the diabolo and both tips to start from");
+                       ": no two successive rows with the diabolo, and both tips, to start from");
 }
 
 /// Scores the recording by the recipe of the paper's table: one rollout from the published start at the first
@@ -70,10 +53,15 @@ inline Eigen::Index first_start(const Recording& recording) {
 /// each row but the last one. Throws RecordingError where it has no row to start from or to compare.
 inline ExcerptScore score_excerpt(const Recording& recording, const Model& model) {
   check_recording(recording);
-  const Eigen::VectorXd times = row_times(recording);
+  const RecordedTips tips(recording, model.interpolation);
+  const Eigen::VectorXd& times = tips.times();
+  const StartStates starts(recording, has_signed_spin(model));
   const Track baseline = baseline_track(recording);
-  ExcerptScore score{.recording = recording.name, .model = model.name, .rows = recording.size()};
-  score.start_row = first_start(recording);
+  ExcerptScore score;
+  score.recording = recording.name;
+  score.model = model.name;
+  score.rows = recording.size();
+  score.start_row = first_start(recording, starts);
   if (const PaperExcerpt* excerpt = paper_excerpt(recording.name);
       excerpt != nullptr && excerpt->rows == recording.size()) {
     score.motion = excerpt->motion;
@@ -93,8 +81,8 @@ inline ExcerptScore score_excerpt(const Recording& recording, const Model& model
   const Steps steps{start_time, kEvaluationStep, steps_until(score.duration)};
   double error_sum = 0.0, baseline_sum = 0.0;
   std::size_t next = 0;
-  rollout(predictor_for(model, recording), published_start(recording, score.start_row, has_signed_spin(model)),
-          tip_motion(recording, model.interpolation), steps,
+  rollout(predictor_for(model, recording), starts.at(Start::kPublished, score.start_row),
+          *tips.motion(score.start_row, recording.size() - 1), steps,
           [&](std::size_t step, double time, const State<double>& state, const StepStatus<double>&) {
             if (!score.diverged && !is_in_world(state.position)) score.diverged = time - start_time;
             for (; next < rows.size() && steps_until(times[rows[next]] - start_time) == step; ++next) {

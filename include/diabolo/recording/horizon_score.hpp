@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "diabolo/recording/bootstrap.hpp"
+#include "diabolo/recording/horizon_options.hpp"
+#include "diabolo/recording/horizon_task.hpp"
 #include "diabolo/recording/model.hpp"
 #include "diabolo/recording/parallel.hpp"
-#include "diabolo/recording/start_state.hpp"
 
 namespace diabolo {
-
-/// How the multi-start evaluation is done.
-struct HorizonOptions {
-  double starts_every = 0.1;                               ///< [s]
-  std::vector<double> horizons{0.1, 0.25, 0.5, 1.0, 2.0};  ///< after the start [s]
-  Start start = Start::kFair;
-  std::uint64_t seed = 1;  ///< of the bootstrap
-  int threads = 2;         ///< 1 or 2; the result is the same
-};
 
 /// Position errors at one horizon, over all starts.
 struct HorizonScore {
@@ -35,11 +29,60 @@ struct HorizonScore {
   std::optional<Interval> advantage_ci95;
 };
 
-/// Errors at each horizon over starts in one recording, or in all of several. Throws std::invalid_argument
-/// about options, RecordingError about recordings, Cancelled.
-std::vector<HorizonScore> score_horizons(const std::vector<const Recording*>& recordings, const Model& model,
-                                         const HorizonOptions& options = {}, const Watch& watch = {});
-std::vector<HorizonScore> score_horizons(const Recording& recording, const Model& model,
-                                         const HorizonOptions& options = {}, const Watch& watch = {});
+/// Score at horizon number `h` [s] from the errors of all windows in order.
+inline HorizonScore summarize_horizon(const std::vector<std::vector<WindowError>>& errors, std::size_t h,
+                                      const HorizonOptions& options, std::mt19937_64& generator) {
+  HorizonScore score;
+  score.horizon = options.horizons[h];
+  std::vector<double> model, baseline, advantage;
+  for (const std::vector<WindowError>& window : errors) {
+    const WindowError& error = window[h];
+    if (!error.comparable) continue;
+    ++score.windows;
+    score.failed += error.failed ? 1 : 0;
+    score.missed_catches += !error.failed && error.missed_catch ? 1 : 0;
+    baseline.push_back(error.baseline);
+    if (error.failed) continue;
+    model.push_back(error.model);
+    advantage.push_back(error.baseline - error.model);
+  }
+  // Windows overlap, and share data, up to this many starts apart.
+  const std::size_t overlap = 1 + static_cast<std::size_t>(std::ceil(score.horizon / options.starts_every));
+  score.model = summarize(model, overlap, generator);
+  score.baseline = summarize(baseline, overlap, generator);
+  if (const std::optional<ErrorSummary> difference = summarize(advantage, overlap, generator)) {
+    score.advantage = difference->mean;
+    score.advantage_ci95 = difference->mean_ci95;
+  }
+  return score;
+}
+
+/// Errors at each horizon over starts in all of several recordings. Throws std::invalid_argument about
+/// options and the model, RecordingError about recordings, Cancelled.
+inline std::vector<HorizonScore> score_horizons(const std::vector<const Recording*>& recordings,
+                                                const Model& model, const HorizonOptions& options = {},
+                                                const Watch& watch = {}) {
+  check_options(options);
+  std::vector<HorizonTask> tasks;
+  std::vector<std::pair<std::size_t, std::size_t>> windows;  // task and number in it
+  for (const Recording* recording : recordings) {
+    tasks.emplace_back(*recording, model, options);
+    for (std::size_t i = 0; i < tasks.back().size(); ++i) windows.emplace_back(tasks.size() - 1, i);
+  }
+  std::vector<std::vector<WindowError>> errors(windows.size());
+  for_each_index(windows.size(), options.threads, watch,
+                 [&](std::size_t i) { errors[i] = tasks[windows[i].first].errors(windows[i].second); });
+  std::mt19937_64 generator(options.seed);
+  std::vector<HorizonScore> scores;
+  for (std::size_t h = 0; h < options.horizons.size(); ++h)
+    scores.push_back(summarize_horizon(errors, h, options, generator));
+  return scores;
+}
+
+/// The same for one recording.
+inline std::vector<HorizonScore> score_horizons(const Recording& recording, const Model& model,
+                                                const HorizonOptions& options = {}, const Watch& watch = {}) {
+  return score_horizons(std::vector<const Recording*>{&recording}, model, options, watch);
+}
 
 }  // namespace diabolo

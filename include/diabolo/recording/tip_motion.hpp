@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "diabolo/recording/dropouts.hpp"
 #include "diabolo/recording/error.hpp"
+#include "diabolo/recording/evaluation_step.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/recording/resample.hpp"
 #include "diabolo/recording/text.hpp"
@@ -17,10 +19,10 @@
 
 namespace diabolo {
 
-/// How much later than its instant a held pose sets in [s]. In the published evaluation a pose counts from
-/// the first step strictly after its instant, while TipMotion gives it at the instant itself; a delay below
-/// any step and above the rounding of the times is the difference.
-inline constexpr double kHeldDelay = 1e-9;
+/// How much later than its instant a held pose sets in [s]. In the published evaluation a pose counts in the
+/// first step that begins strictly after its instant, while the predictor asks for the tips at the end of a
+/// step, and TipMotion gives a pose at its instant itself: one step, and a bit above the rounding of times.
+inline constexpr double kHeldDelay = kEvaluationStep + 1e-9;
 
 /// Time of each row since row 0 [s]: from the frame numbers, which are exact, where the written times agree
 /// with them to their last digit (kSameInstant); else from the written times.
@@ -75,27 +77,56 @@ inline Track fill_gaps(Track tip, const TipSpan& span, const Eigen::VectorXd& ti
   return tip;
 }
 
-/// Motion of the stick tips over a recording, time zero at its row 0. Held: a missing tip stays where it was
-/// seen last (see kHeldDelay). Linear and spline: each tip runs through its own valid samples. Rows that one
-/// of the tips does not reach are left out; both tips rest there. Throws RecordingError where the tips are
-/// never seen at the same time.
-inline TipMotion<double> tip_motion(const Recording& recording, Interpolation interpolation) {
-  const Eigen::VectorXd times = row_times(recording);
-  const TipSpan left_span = tip_span(recording.left, recording, "left");
-  const TipSpan right_span = tip_span(recording.right, recording, "right");
-  const Track left = fill_gaps(recording.left, left_span, times, interpolation);
-  const Track right = fill_gaps(recording.right, right_span, times, interpolation);
-  std::vector<double> instants;
-  std::vector<Vector3<double>> left_points, right_points;
-  for (Eigen::Index i = 0; i < recording.size(); ++i) {
-    if (!left.valid[i] || !right.valid[i]) continue;
-    instants.push_back(times[i] + (interpolation == Interpolation::kHeld ? kHeldDelay : 0.0));
-    left_points.emplace_back(left.position.col(i));
-    right_points.emplace_back(right.position.col(i));
+/// The stick tips of a recording, ready to be followed; time zero at its row 0. Held: a missing tip stays
+/// where it was seen last (see kHeldDelay). Linear and spline: each tip runs through its own valid samples.
+/// Rows that one of the tips does not reach are left out; both tips rest there.
+class RecordedTips {
+ public:
+  /// Throws RecordingError where the tips are never seen at the same time.
+  RecordedTips(const Recording& recording, Interpolation interpolation)
+      : interpolation_(interpolation), times_(row_times(recording)) {
+    left_ = fill_gaps(recording.left, tip_span(recording.left, recording, "left"), times_, interpolation);
+    right_ = fill_gaps(recording.right, tip_span(recording.right, recording, "right"), times_, interpolation);
+    if (!(left_.valid && right_.valid).any())
+      throw RecordingError("recording " + shown(recording.name) +
+                           ": the tips are never seen at the same time");
+    if (interpolation != Interpolation::kHeld)
+      whole_ = std::make_shared<TipMotion<double>>(through(0, recording.size() - 1));
   }
-  if (instants.empty())
-    throw RecordingError("recording " + shown(recording.name) + ": the tips are never seen at the same time");
-  return TipMotion<double>(std::move(instants), left_points, right_points, interpolation);
+
+  /// Time of each row [s].
+  const Eigen::VectorXd& times() const { return times_; }
+
+  /// The motion for a prediction from row `first` to row `last`. Held, it begins with the pose of the first
+  /// row, which so counts from the start on; else it is that of the whole recording. Between the rows both
+  /// tips must be seen in one row at least.
+  std::shared_ptr<const TipMotion<double>> motion(Eigen::Index first, Eigen::Index last) const {
+    return whole_ ? whole_ : std::make_shared<TipMotion<double>>(through(first, last));
+  }
+
+ private:
+  TipMotion<double> through(Eigen::Index first, Eigen::Index last) const {
+    const double delay = interpolation_ == Interpolation::kHeld ? kHeldDelay : 0.0;
+    std::vector<double> instants;
+    std::vector<Vector3<double>> left, right;
+    for (Eigen::Index i = first; i <= last; ++i) {
+      if (!left_.valid[i] || !right_.valid[i]) continue;
+      instants.push_back(times_[i] + delay);
+      left.emplace_back(left_.position.col(i));
+      right.emplace_back(right_.position.col(i));
+    }
+    return TipMotion<double>(std::move(instants), left, right, interpolation_);
+  }
+
+  Interpolation interpolation_;
+  Eigen::VectorXd times_;
+  Track left_, right_;  ///< gaps filled
+  std::shared_ptr<const TipMotion<double>> whole_;
+};
+
+/// Motion of the stick tips over a whole recording; see RecordedTips.
+inline TipMotion<double> tip_motion(const Recording& recording, Interpolation interpolation) {
+  return *RecordedTips(recording, interpolation).motion(0, recording.size() - 1);
 }
 
 }  // namespace diabolo
