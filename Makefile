@@ -88,9 +88,9 @@ test-python: $(VENV)/.package-with-tests
 test-all: test mujoco browser sanitize fuzz scalars stress ## Run the tests and the heavy groups: simulators, browser, sanitizers, fuzzing, stress
 
 mujoco: $(VENV)/.package-with-tests
-	@if grep -rqs 'mark.mujoco' tests/python; then \
-	  $(install_package) '.[mujoco]'; $(VENV)/bin/python -m pytest -m mujoco; \
-	else echo "No test compares with MuJoCo yet."; fi
+	@$(packages) mujoco
+	@$(install_package) '.[mujoco,plot,test]'
+	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy
 
 browser: $(VENV)/.package-with-tests
 	@if grep -rqs 'mark.browser' tests/python; then \

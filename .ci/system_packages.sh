@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Usage: system_packages.sh GROUP...   with groups build, test, plant, bench, lint, browser
+# Usage: system_packages.sh GROUP...   with groups build, test, plant, bench, lint, mujoco, browser
 # Looks for what the groups need and installs with apt-get what is missing; asks for nothing when all is there.
 set -euo pipefail
 
@@ -46,9 +46,13 @@ missing_packages() {
       has_command clang++ || echo clang
       has_fuzzer || echo libclang-rt-dev
       ;;
+    mujoco)
+      ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri
+      has_command valgrind || echo valgrind
+      ;;
     browser) has_command chromium || echo chromium ;;
     *)
-      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, bench, lint or browser" >&2
+      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, bench, lint, mujoco or browser" >&2
       exit 2
       ;;
   esac
