@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// One law, every scalar: what a rollout is does not depend on the numbers it is computed with.
+
+#include "diabolo/pack.hpp"
+#include "rollouts_of_scalar.hpp"
+
+using namespace diabolo;
+
+TEST_CASE("a pack of doubles rolls out to the motion that double gives") { check_rollouts_of_scalar<Pack<double, 4>>(); }
+
+TEST_CASE("a pack of floats rolls out to the motion that double gives") { check_rollouts_of_scalar<Pack<float, 8>>(); }
