@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cassert>
+#include <stdexcept>
 
 #include "diabolo/effects/effect.hpp"
 #include "diabolo/pull_velocity.hpp"
@@ -27,6 +28,8 @@ class Predictor {
       : Predictor(parameters, effects, AlreadyValid{}) {
     parameters.validate();
     effects.validate();
+    if (!all(length_ > Scalar(0)))
+      throw std::invalid_argument("string_length: not positive with the additions of all effects");
   }
 
   /// For parameters that have been validated before, such as the lanes of a batch.
@@ -82,7 +85,7 @@ class Predictor {
         spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_);
     const Scalar spin =
         effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
-    state.velocity = effects_.after_contact(result.velocity, state, end, result, dt, parameters_) *
+    state.velocity = plane_(effects_.after_contact(result.velocity, state, end, result, dt, parameters_)) *
                      dissipation(dt, result.taut);
     state.position = result.position;
     state.spin = spin;
@@ -147,7 +150,9 @@ class Predictor {
       const Scalar share = p.pull_scale_after_cap * factor_time(dt) / p.reference_step;
       pulled = select<Scalar>(held, plane_(pull) * share, pulled);
       Vector3<Scalar> moved = velocity * dissipation(dt, held) + pulled;
-      moved -= normal * maximum(dot<Scalar>(moved, normal), Scalar(0));
+      const Vector3<Scalar> outward = plane_(normal);
+      const Scalar outward_rate = maximum(dot<Scalar>(moved, outward), Scalar(0));
+      moved = moved - outward * Scalar(outward_rate / (squared_norm(outward) + tiny<Scalar>()));
       position = select<Scalar>(held, put, position);
       velocity = select<Scalar>(held, moved, velocity);
     }
@@ -161,9 +166,14 @@ class Predictor {
       state.spin = select(held && was_on_string, slipped, state.spin);
     }
     state.spin = effects_.after_torques(state.spin, state, dt, parameters_);
+    StringStepResult<Scalar> result;
+    result.position = position;
+    result.velocity = velocity;
+    result.string_acceleration = pulled * Scalar(Scalar(1) / dt);
+    result.taut = held;
+    state.velocity = plane_(effects_.after_contact(velocity, state, end, result, dt, p));
     state.position = position;
-    state.velocity = velocity;
-    state.string_acceleration = pulled * Scalar(Scalar(1) / dt);
+    state.string_acceleration = result.string_acceleration;
     if (p.release_when_overstretched)
       status.overstretched = after.overstretched();
     else if (any(after.overstretched()))

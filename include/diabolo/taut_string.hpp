@@ -94,6 +94,7 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   detail::TautIterate<Scalar> now(step, step.string_acceleration * guess, free);
   const Mask<Scalar> snaps = captured && begins_slack && (now.path.length() > length);
   if (any(snaps)) return detail::advance_from_catch<kElastic>(step, captured, snaps);
+  const Mask<Scalar> may_pull = captured && !begins_slack;
 
   // The spring's extension counts with these weights at the end and at the beginning of the step.
   Scalar resolution{0}, end_weight{1}, begin_part{0}, spring{0};
@@ -117,7 +118,7 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
       next.pull = (end_weight * extension + begin_part) / (end_weight * next.slope + spring);
     else
       next.pull = extension / next.slope;
-    next.pull = select(captured, maximum(next.pull, Scalar(0)), Scalar(0));
+    next.pull = select(may_pull, maximum(next.pull, Scalar(0)), Scalar(0));
     next.shift = next.direction * Scalar(-next.pull);
     const Scalar moved = squared_norm<Scalar>(next.shift - now.shift);
     if (i > 0) next.keep_where(settled, now);  // a lane does not depend on how long its neighbours take
@@ -157,7 +158,15 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   result.velocity = arriving - string_impulse;
   result.position = free + now.shift;
   result.string_acceleration = string_impulse * Scalar(-inverse_dt);
-  const Mask<Scalar> lost = captured && !settled;
+  // A rigid string that began too long by less than the tolerance would give that length back times its
+  // tension.
+  const Scalar surplus = (begin.length() - length) * impulse * inverse_dt;
+  const Mask<Scalar> gains = (surplus > energy_tolerance) && (resolution == Scalar(0));
+  if (any(gains)) {
+    const Scalar kept = Scalar(1) - Scalar(2) * surplus / (squared_norm(result.velocity) + tiny<Scalar>());
+    result.velocity = result.velocity * select(gains, positive_sqrt<Scalar>(kept), Scalar(1));
+  }
+  const Mask<Scalar> lost = may_pull && !settled;
   if (any(lost)) put_back(step, lost, result);
   return result;
 }
