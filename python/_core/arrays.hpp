@@ -24,8 +24,7 @@ std::string shape_text(const std::vector<py::ssize_t>& shape);
 std::vector<py::ssize_t> shape_of(const py::array& array);
 
 /// Throws std::invalid_argument that says what was expected and what was given.
-void expect_shape(const py::array& array, const std::string& name,
-                  const std::vector<py::ssize_t>& expected);
+void expect_shape(const py::array& array, const std::string& name, const std::vector<py::ssize_t>& expected);
 
 /// Throws std::invalid_argument where a number is not finite.
 void expect_finite(const Array& array, const std::string& name);

@@ -8,11 +8,14 @@
 namespace diabolo::python {
 
 void bind_parameters(pybind11::module_& module);
+void bind_model(pybind11::module_& module);
 void bind_state(pybind11::module_& module);
 void bind_effects(pybind11::module_& module);
 void bind_spheroid(pybind11::module_& module);
 void bind_tip_motion(pybind11::module_& module);
+void bind_recording(pybind11::module_& module);
 void bind_predictor(pybind11::module_& module);
+void bind_evaluation(pybind11::module_& module);
 void bind_rollout(pybind11::module_& module);
 void bind_gradient(pybind11::module_& module);
 

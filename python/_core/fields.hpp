@@ -74,10 +74,10 @@ void bind_numbers(py::class_<Fields>& cls, const Validate& validate) {
 template <class Fields, class ToDict, class FromDict>
 void bind_copies(py::class_<Fields>& cls, const ToDict& to_dict, const FromDict& from_dict) {
   cls.def("__copy__", [](const Fields& fields) { return fields; });
-  cls.def("__deepcopy__", [](const Fields& fields, const py::dict&) { return fields; }, py::arg("memo"));
   cls.def(
-      "__eq__",
-      [to_dict](const Fields& a, const Fields& b) { return to_dict(a).equal(to_dict(b)); },
+      "__deepcopy__", [](const Fields& fields, const py::dict&) { return fields; }, py::arg("memo"));
+  cls.def(
+      "__eq__", [to_dict](const Fields& a, const Fields& b) { return to_dict(a).equal(to_dict(b)); },
       py::is_operator());
   cls.def(py::pickle(to_dict, from_dict));
 }

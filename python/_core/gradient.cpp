@@ -14,8 +14,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "diabolo/recording/model.hpp"
 #include "interrupt.hpp"
-#include "models.hpp"
+
+#include "effects.hpp"
 #include "state.hpp"
 #include "tip_motion.hpp"
 

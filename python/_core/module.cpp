@@ -4,14 +4,18 @@
 #include "bindings.hpp"
 
 PYBIND11_MODULE(_core, module) {
+  using namespace diabolo::python;
   module.doc() = "Compiled core of diabolo: the header-only C++ library, bound for Python.";
   module.attr("__version__") = diabolo::kVersion;
-  diabolo::python::bind_parameters(module);
-  diabolo::python::bind_effects(module);
-  diabolo::python::bind_state(module);
-  diabolo::python::bind_spheroid(module);
-  diabolo::python::bind_tip_motion(module);
-  diabolo::python::bind_predictor(module);
-  diabolo::python::bind_rollout(module);
-  diabolo::python::bind_gradient(module);
+  bind_parameters(module);
+  bind_effects(module);
+  bind_model(module);
+  bind_state(module);
+  bind_recording(module);
+  bind_spheroid(module);
+  bind_tip_motion(module);
+  bind_predictor(module);
+  bind_rollout(module);
+  bind_gradient(module);
+  bind_evaluation(module);
 }

@@ -33,7 +33,7 @@ void from_python(py::handle value, const std::string& name, Enum& field) {
 py::dict to_dict(const P& parameters) {
   py::dict fields;
   add_numbers(parameters, fields);
-  for_each_rule([&](const char* name, auto member, const char*) {
+  for_each_rule_member([&](const char* name, auto member, const char*) {
     const py::object value = to_python(parameters.*member);
     if constexpr (std::is_same_v<decltype(member), Vector3<double> P::*>)
       fields[name] = value.attr("tolist")();
@@ -49,7 +49,7 @@ P with_fields(P parameters, const py::kwargs& fields) {
 }
 
 void bind_rules(py::class_<P>& cls) {
-  for_each_rule([&](const char* name, auto member, const char* meaning) {
+  for_each_rule_member([&](const char* name, auto member, const char* meaning) {
     using Field = std::remove_reference_t<decltype(std::declval<P&>().*member)>;
     const auto set = [name = std::string(name), member](P& p, const py::object& value) {
       P changed = p;
@@ -58,8 +58,8 @@ void bind_rules(py::class_<P>& cls) {
       p = changed;
     };
     if constexpr (std::is_enum_v<Field>) {
-      std::string doc = std::string(meaning) + ", as in diabolo." + Choices<Field>::kClass + ":";
-      for (const std::string_view choice : Choices<Field>::kNames) doc += " '" + std::string(choice) + "'";
+      std::string doc = std::string(meaning) + ", as in diabolo." + enum_class(Field{}) + ":";
+      for (const std::string_view choice : names_of(Field{})) doc += " '" + std::string(choice) + "'";
       cls.def_property(
           name, [member](const P& p) { return choice_to_python(p.*member); },
           [set](P& p, const py::str& value) { set(p, value); }, doc.c_str());
@@ -83,7 +83,7 @@ void assign_fields(Parameters<double>& parameters, const py::kwargs& fields) {
     double* const number = find_number(parameters, name);
     if (number) *number = cast_to<double>(value, name, "a number");
     bool found = number != nullptr;
-    for_each_rule([&](const char* rule, auto member, const char*) {
+    for_each_rule_member([&](const char* rule, auto member, const char*) {
       if (name != rule) return;
       from_python(value, name, parameters.*member);
       found = true;

@@ -9,7 +9,7 @@ namespace diabolo::python {
 
 /// Calls `visit(name, member, meaning)` for every field of Parameters that is not a number.
 template <class Visitor>
-void for_each_rule(Visitor&& visit) {
+void for_each_rule_member(Visitor&& visit) {
   using P = Parameters<double>;
   visit("string_law", &P::string_law, "how the string acts on the diabolo");
   visit("projection", &P::projection, "where a diabolo outside the spheroid is put back");

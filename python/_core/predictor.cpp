@@ -7,21 +7,24 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "models.hpp"
+#include "diabolo/recording/model.hpp"
+
+#include "effects.hpp"
 
 namespace diabolo::python {
 
 namespace {
 
 using namespace py::literals;
-using FullModel = FullPredictor<double>;
+using Simulator = FullPredictor<double>;
 
-FullModel make(const Model& model, const py::kwargs& effects) {
-  const py::object whole = py::type::of<Model>()(model.parameters, **effects);
-  return FullModel(model.parameters, effects.empty() ? model.effects : whole.cast<Model>().effects);
+Simulator make(const Model& model, const py::kwargs& given) {
+  AllEffects<double> effects = model.effects;
+  assign_effects(effects, given);
+  return Simulator(model.parameters, effects);
 }
 
-StepStatus<double> step(const FullModel& predictor, State<double>& state, const Array& left0,
+StepStatus<double> step(const Simulator& predictor, State<double>& state, const Array& left0,
                         const Array& right0, const Array& left1, const Array& right1, double dt,
                         const std::optional<std::array<Array, 4>>& velocities) {
   if (!(dt > 0.0) || !std::isfinite(dt))
@@ -56,14 +59,15 @@ void bind_predictor(py::module_& module) {
   py::class_<StepStatus<double>>(module, "StepStatus", "What happened in one step.")
       .def_readonly("overstretched", &StepStatus<double>::overstretched,
                     "The tips were farther apart than the string: the diabolo is held between them.")
-      .def_readonly("snapped_taut", &StepStatus<double>::snapped_taut, "The string came taut within the step.")
+      .def_readonly("snapped_taut", &StepStatus<double>::snapped_taut,
+                    "The string came taut within the step.")
       .def_readonly("caught", &StepStatus<double>::caught, "The string was under a flying diabolo again.")
       .def("__repr__", [](const StepStatus<double>& s) {
         return py::str("StepStatus(overstretched={}, snapped_taut={}, caught={})")
             .format(s.overstretched, s.snapped_taut, s.caught);
       });
 
-  py::class_<FullModel>(module, "Predictor", R"(Predicts the diabolo from the motion of the stick tips.
+  py::class_<Simulator>(module, "Predictor", R"(Predicts the diabolo from the motion of the stick tips.
 
     predictor = Predictor(Parameters())
     predictor = Predictor(Parameters(), string_elasticity=StringElasticity.of_stiffness(600.0))
@@ -72,10 +76,11 @@ void bind_predictor(py::module_& module) {
 It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().)")
       .def(py::init(&make), "model"_a)
       .def_property_readonly(
-          "model", [](const FullModel& p) { return Model{p.parameters(), p.effects()}; }, "A copy.")
-      .def("step", &step, "state"_a, "left0"_a, "right0"_a, "left1"_a, "right1"_a, "dt"_a,
-           "velocities"_a = py::none(),
-           R"(Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
+          "parameters", [](const Simulator& p) { return p.parameters(); }, "A copy.")
+      .def(
+          "step", &step, "state"_a, "left0"_a, "right0"_a, "left1"_a, "right1"_a, "dt"_a,
+          "velocities"_a = py::none(),
+          R"(Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
 each of the shape (3,) [m].
 
 `velocities` [m/s] are those of left0, right0, left1, right1; without them the tips go straight at constant

@@ -10,8 +10,10 @@
 #include "arrays.hpp"
 #include "batch.hpp"
 #include "bindings.hpp"
+#include "diabolo/recording/model.hpp"
 #include "interrupt.hpp"
-#include "models.hpp"
+
+#include "effects.hpp"
 #include "tip_motion.hpp"
 
 namespace diabolo::python {
@@ -56,8 +58,8 @@ void expect_finite_end(const std::vector<double>& records, std::size_t frames) {
     for (std::size_t frame = 0; frame < frames; ++frame)
       for (std::size_t k = 0; k < 7; ++k) {
         if (std::isfinite(records[(i * frames + frame) * 7 + k])) continue;
-        const std::string text = "rollout " + std::to_string(i) + ": the state is no longer finite at frame " +
-                                 std::to_string(frame);
+        const std::string text = "rollout " + std::to_string(i) +
+                                 ": the state is no longer finite at frame " + std::to_string(frame);
         PyErr_SetString(PyExc_FloatingPointError, text.c_str());
         throw py::error_already_set();
       }
@@ -77,12 +79,12 @@ py::tuple rollout(const std::vector<Model>& models, const Array& initial, const 
   batch.steps = {begin, dt, steps};
   batch.record_every = record_every;
   BatchResult result;
-  run_interruptibly(
-      [&](const std::atomic<bool>& cancel) { result = run_batch(batch, threads, cancel); });
+  run_interruptibly([&](const std::atomic<bool>& cancel) { result = run_batch(batch, threads, cancel); });
   expect_finite_end(result.records, batch.records());
   const py::ssize_t n = initial.shape(0), frames = static_cast<py::ssize_t>(batch.records());
   std::vector<std::uint8_t> codes(result.record_states.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::uint8_t>(result.record_states[i]);
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    codes[i] = static_cast<std::uint8_t>(result.record_states[i]);
   return py::make_tuple(to_array(std::move(result.records), {n, frames, 7}),
                         to_array(std::move(codes), {n, frames}));
 }

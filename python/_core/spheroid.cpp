@@ -21,7 +21,8 @@ Surface make(const Array& left, const Array& right, double string_length) {
   return {to_vector3(left, "left"), to_vector3(right, "right"), string_length};
 }
 
-/// `method` of each point of an array of the shape (..., 3): `components` numbers each, NaN where the point is.
+/// `method` of each point of an array of the shape (..., 3): `components` numbers each, NaN where the point
+/// is.
 template <int components, class Result>
 Array map_points(const Surface& spheroid, Result (Surface::*method)(const Vector3<double>&) const,
                  const Array& points) {
@@ -44,7 +45,8 @@ Array map_points(const Surface& spheroid, Result (Surface::*method)(const Vector
 }  // namespace
 
 void bind_spheroid(py::module_& module) {
-  py::class_<Surface> spheroid(module, "Spheroid", R"(The points that a diabolo reaches when the string is taut.
+  py::class_<Surface> spheroid(module, "Spheroid",
+                               R"(The points that a diabolo reaches when the string is taut.
 
 The stick tips are its foci, the string's length is its major axis: every point on it has the path length
 |p - left| + |p - right| == string_length. Methods take points of the shape (..., 3) [m] and give arrays of
@@ -79,10 +81,9 @@ the shape (...) or (..., 3); a point with a NaN (a dropout) gives NaN.)");
   number_of_points("signed_distance", &Surface::signed_distance,
                    "Distance to the surface [m], positive inside (the paper's s).");
 
-  const auto vector_of_points = [&spheroid](
-                                    const char* name,
-                                    Vector3<double> (Surface::*method)(const Vector3<double>&) const,
-                                    const char* doc) {
+  const auto vector_of_points = [&spheroid](const char* name,
+                                            Vector3<double> (Surface::*method)(const Vector3<double>&) const,
+                                            const char* doc) {
     spheroid.def(
         name, [method](const Surface& s, const Array& points) { return map_points<3>(s, method, points); },
         "points"_a, doc);

@@ -70,8 +70,7 @@ string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.)")
           "Centre [m], shape (3,).")
       .def_property(
           "velocity", [](const S& s) { return from_vector3(s.velocity); },
-          [](S& s, const Array& value) { s.velocity = to_vector3(value, "velocity"); },
-          "[m/s], shape (3,).")
+          [](S& s, const Array& value) { s.velocity = to_vector3(value, "velocity"); }, "[m/s], shape (3,).")
       .def_property(
           "spin", [](const S& s) { return s.spin; },
           [](S& s, double value) {
@@ -88,7 +87,8 @@ string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.)")
           "Mean acceleration by the string over the last step [m/s^2], shape (3,).")
       .def("to_array", &to_array, "Position, velocity and spin, shape (7,).")
       .def("__copy__", [](const S& s) { return s; })
-      .def("__deepcopy__", [](const S& s, const py::dict&) { return s; }, "memo"_a)
+      .def(
+          "__deepcopy__", [](const S& s, const py::dict&) { return s; }, "memo"_a)
       .def("__repr__", [](const S& s) {
         return py::str("State(position={}, velocity={}, spin={!r}, string_state='{}')")
             .format(from_vector3(s.position).attr("tolist")(), from_vector3(s.velocity).attr("tolist")(),

@@ -2,16 +2,26 @@
 """Simulation, planning and diagnosis of diabolo play."""
 
 from ._core import (
+    Calibration,
+    DiaboloProperties,
+    ErrorSummary,
+    HorizonScore,
+    Interval,
     Model,
     ParameterInfo,
     Parameters,
     Predictor,
+    Recording,
+    RecordingError,
     Spheroid,
     State,
     StepStatus,
     StringElasticity,
     TipMotion,
     __version__,
+    baseline,
+    load_recording,
+    start_state,
 )
 from .enums import (
     FlightRule,
@@ -24,18 +34,29 @@ from .enums import (
     StringState,
     ThinRule,
 )
+from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
 from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
 
 __all__ = [
+    "Calibration",
+    "DiaboloProperties",
+    "ErrorSummary",
+    "Evaluation",
+    "Excerpt",
     "FlightRule",
+    "HorizonRow",
+    "HorizonScore",
     "Integrator",
     "Interpolation",
+    "Interval",
     "Model",
     "NormalRule",
     "ParameterInfo",
     "Parameters",
     "Predictor",
     "Projection",
+    "Recording",
+    "RecordingError",
     "Rollout",
     "RolloutGradient",
     "SpinRule",
@@ -45,9 +66,16 @@ __all__ = [
     "StringElasticity",
     "StringLaw",
     "StringState",
+    "TableRow",
     "ThinRule",
     "TipMotion",
     "__version__",
+    "baseline",
+    "evaluate",
+    "load_recording",
+    "position_errors",
+    "predict",
     "rollout",
     "rollout_gradient",
+    "start_state",
 ]

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cctype>
+#include <string>
+#include <string_view>
+
+#include "diabolo/effects/all.hpp"
+
+#include "fields.hpp"
+
+namespace diabolo::python {
+
+/// "string_elasticity" as "StringElasticity".
+inline std::string class_name(std::string_view name) {
+  std::string result;
+  bool capital = true;
+  for (const char c : name) {
+    if (c != '_') result += capital ? static_cast<char>(std::toupper(c)) : c;
+    capital = c == '_';
+  }
+  return result;
+}
+
+template <class Effect>
+void validate_effect(const Effect& effect) {
+  validate_fields<double>(effect, std::string(Effect::kName) + " ");
+}
+
+template <class Effect>
+py::dict effect_to_dict(const Effect& effect) {
+  py::dict fields;
+  add_numbers(effect, fields);
+  return fields;
+}
+
+template <class Effect>
+Effect effect_from_dict(const py::dict& fields) {
+  Effect effect;
+  for (const auto& [key, value] : fields) {
+    const std::string name = py::str(key);
+    double* const number = find_number(effect, name);
+    if (!number) throw py::type_error(class_name(Effect::kName) + " has no field '" + name + "'");
+    *number = cast_to<double>(value, name, "a number");
+  }
+  validate_effect(effect);
+  return effect;
+}
+
+/// Calls `visit(effect)` for each effect of a set.
+template <class Set, class Visitor>
+void for_each_effect(Set& set, Visitor&& visit) {
+  std::apply([&](auto&... effect) { (visit(effect), ...); }, set.members);
+}
+
+/// Takes over effects given by keyword; None has the amplitude zero. Throws py::type_error about anything
+/// else.
+void assign_effects(AllEffects<double>& effects, const py::kwargs& given);
+
+}  // namespace diabolo::python

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/recording/recording.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "diabolo/interop/json/calibration_file.hpp"
+#include "diabolo/interop/json/recording_file.hpp"
+#include "diabolo/recording/resample.hpp"
+#include "diabolo/recording/spin.hpp"
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using namespace py::literals;
+using Unlocked = py::call_guard<py::gil_scoped_release>;
+
+/// A read-only view of numbers that `owner` keeps.
+template <class T>
+py::array_t<T> view(const T* data, const std::vector<py::ssize_t>& shape, const py::object& owner) {
+  py::array_t<T> array(shape, data, owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+/// Columns of an Eigen matrix are the rows of the array.
+template <class Matrix>
+py::array_t<double> rows_of(const Matrix& matrix, const py::object& owner) {
+  return view(matrix.data(), {matrix.cols(), matrix.rows()}, owner);
+}
+
+/// The columns that the rows of `array`, of the shape (size, extent), are; a row with a NaN is a dropout.
+template <class AnyTrack, class Matrix>
+AnyTrack to_track(const Array& array, const std::string& name, py::ssize_t size, Matrix AnyTrack::*numbers) {
+  AnyTrack track = AnyTrack::missing(size);
+  const py::ssize_t extent = (track.*numbers).rows();
+  expect_shape(array, name, {size, extent});
+  for (py::ssize_t i = 0; i < size; ++i) {
+    const Eigen::Map<const Eigen::VectorXd> row(array.data(i, 0), extent);
+    track.valid[i] = !row.array().isNaN().any();
+    if (track.valid[i]) (track.*numbers).col(i) = row;
+  }
+  return track;
+}
+
+OrientationTrack to_orientation(const std::optional<Array>& array, const std::string& name,
+                                py::ssize_t size) {
+  if (!array) return {};
+  OrientationTrack track = to_track(*array, name, size, &OrientationTrack::quaternion);
+  for (py::ssize_t i = 0; i < size; ++i)
+    if (track.valid[i] && !normalize_quaternion(track.quaternion.col(i)))
+      throw RecordingError(name + ", row " + std::to_string(i) + ": quaternion of norm " +
+                           shown(track.quaternion.col(i).norm()) + "; expected 1");
+  return track;
+}
+
+Recording make(const Array& time, const Array& left, const Array& right, const Array& diabolo, double rate,
+               const std::optional<Array>& diabolo_orientation, const std::optional<Array>& left_orientation,
+               const std::optional<Array>& right_orientation, const std::string& name,
+               const DiaboloProperties& properties, double string_length) {
+  expect_shape(time, "time", {kAny});
+  const py::ssize_t size = time.shape(0);
+  Recording recording;
+  recording.name = name;
+  recording.rate = rate;
+  recording.time = Eigen::Map<const Eigen::VectorXd>(time.data(), size);
+  recording.left = to_track(left, "left", size, &Track::position);
+  recording.right = to_track(right, "right", size, &Track::position);
+  recording.diabolo = to_track(diabolo, "diabolo", size, &Track::position);
+  recording.diabolo_orientation = to_orientation(diabolo_orientation, "diabolo_orientation", size);
+  recording.left_orientation = to_orientation(left_orientation, "left_orientation", size);
+  recording.right_orientation = to_orientation(right_orientation, "right_orientation", size);
+  recording.properties = properties;
+  recording.string_length = string_length;
+  // Of times and rates that check_recording() would refuse, lround() may not be asked.
+  for (const double t : recording.time)
+    recording.frame.push_back(std::abs(t * rate) < 1e15 ? std::lround(t * rate) : 0);
+  check_recording(recording);
+  return recording;
+}
+
+/// Properties `NAME` and `NAME_valid` of a track of positions.
+void bind_track(py::class_<Recording>& cls, const char* name, Track Recording::*track, const char* doc) {
+  cls.def_property_readonly(
+      name,
+      [track](const py::object& self) {
+        return rows_of((self.cast<const Recording&>().*track).position, self);
+      },
+      doc);
+  cls.def_property_readonly((std::string(name) + "_valid").c_str(),
+                            [track](const py::object& self) {
+                              const Track& t = self.cast<const Recording&>().*track;
+                              return view(t.valid.data(), {t.valid.size()}, self);
+                            },
+                            "False marks a dropout, shape (N,).");
+}
+
+/// A property that is None where no orientations were recorded.
+void bind_orientation(py::class_<Recording>& cls, const char* name, OrientationTrack Recording::*track,
+                      const char* doc) {
+  cls.def_property_readonly(
+      name,
+      [track](const py::object& self) -> std::optional<py::array_t<double>> {
+        const OrientationTrack& t = self.cast<const Recording&>().*track;
+        if (t.empty()) return std::nullopt;
+        return rows_of(t.quaternion, self);
+      },
+      doc);
+}
+
+Array spin(const Recording& recording, bool with_sign) {
+  const Spin spin = with_sign ? signed_spin(recording) : unsigned_spin(recording);
+  return Array(spin.value.size(), spin.value.data());
+}
+
+void bind_motive(py::module_& module) {
+  py::class_<MotiveBody>(module, "MotiveBody",
+                         "A rigid body of a Motive take, in the frame of the motion capture.")
+      .def_readonly("name", &MotiveBody::name)
+      .def_property_readonly(
+          "quaternion",
+          [](const py::object& self) { return rows_of(self.cast<const MotiveBody&>().quaternion, self); },
+          "Body to capture frame, x, y, z, w, shape (N, 4); NaN in a dropout.")
+      .def_property_readonly(
+          "position",
+          [](const py::object& self) { return rows_of(self.cast<const MotiveBody&>().position, self); },
+          "Of the body's origin [m], shape (N, 3); NaN in a dropout.");
+  py::class_<MotiveTake>(module, "MotiveTake",
+                         "A take as OptiTrack Motive exports it, with nothing interpreted.")
+      .def_static(
+          "load",
+          [](const std::filesystem::path& path) { return read_motive(read_file(path), path.string()); },
+          "path"_a, Unlocked(), "Reads a Motive export (CSV).")
+      .def_readonly("rate", &MotiveTake::rate, "[Hz]")
+      .def_property_readonly(
+          "time", [](const MotiveTake& take) { return Array(take.time.size(), take.time.data()); },
+          "[s], shape (N,).")
+      .def_readonly("bodies", &MotiveTake::bodies, "List of MotiveBody.");
+}
+
+void bind_properties(py::module_& module) {
+  using Properties = DiaboloProperties;
+  const auto make_properties = [](double mass, double diameter, double length, double axle_radius) {
+    const Properties properties{mass, diameter, length, axle_radius};
+    check_properties(properties, kPublishedStringLength, "DiaboloProperties");
+    return properties;
+  };
+  py::class_<Properties>(module, "DiaboloProperties", "What a diabolo is like.")
+      .def(py::init(make_properties), "mass"_a, "diameter"_a, "length"_a, "axle_radius"_a = 0.0065)
+      .def_static(
+          "red", [] { return kRedDiabolo; }, "The paper's red diabolo, without markers.")
+      .def_static(
+          "blue", [] { return kBlueDiabolo; }, "The blue one, which runs on a bearing.")
+      .def_static("patterned", [] { return kPatternedDiabolo; })
+      .def_static("green", [] { return kGreenDiabolo; })
+      .def_readonly("mass", &Properties::mass, "[kg]")
+      .def_readonly("diameter", &Properties::diameter, "Of the cups [m].")
+      .def_readonly("length", &Properties::length, "Along the axle [m].")
+      .def_readonly("axle_radius", &Properties::axle_radius, "Where the string runs [m].")
+      .def("__repr__", [](const Properties& p) {
+        return py::str("DiaboloProperties(mass={!r}, diameter={!r}, length={!r}, axle_radius={!r})")
+            .format(p.mass, p.diameter, p.length, p.axle_radius);
+      });
+}
+
+void bind_calibration(py::module_& module) {
+  py::class_<Calibration>(
+      module, "Calibration",
+      "How the rigid bodies of a Motive take become the tips and the diabolo of a recording.")
+      .def_static("published", &published_calibration,
+                  "Of the red diabolo with the sticks of July 2020; the default.")
+      .def_static("blue", &blue_calibration, "Of the blue diabolo; its tips are only estimates.")
+      .def_static("load", &load_calibration, "path"_a, Unlocked(),
+                  "Reads a file of the schema diabolo.calibration/1.")
+      .def("save", &save_calibration, "path"_a, Unlocked(), "Writes it, whole or not at all.")
+      .def("to_json", &write_calibration, "The text of its file.");
+}
+
+}  // namespace
+
+void bind_recording(py::module_& module) {
+  py::register_exception<RecordingError>(module, "RecordingError", PyExc_ValueError).attr("__doc__") =
+      "What is wrong with a recording, a calibration or one of their files.";
+  bind_properties(module);
+  bind_calibration(module);
+  bind_motive(module);
+
+  py::class_<Recording> cls(module, "Recording", R"(A recorded play: stick tips and diabolo over N samples.
+
+World frame: x forward (away from the player), y left, z up. Arrays are read-only views; a dropout is NaN. To
+make one from arrays, hand over `time` [s] of the shape (N,), positions [m] of the shape (N, 3) and, if known,
+orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or along the stick outwards.)");
+  cls.def(py::init(&make), "time"_a, "left"_a, "right"_a, "diabolo"_a, "rate"_a, py::kw_only(),
+          "diabolo_orientation"_a = py::none(), "left_orientation"_a = py::none(),
+          "right_orientation"_a = py::none(), "name"_a = "recording", "properties"_a = kRedDiabolo,
+          "string_length"_a = kPublishedStringLength);
+  cls.def_static("load", &load_recording, "path"_a, "calibration"_a = published_calibration(), Unlocked(),
+                 "Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.");
+  cls.def("save", &save_tidy, "path"_a, Unlocked(),
+          "Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all.");
+  cls.def("cut", &cut, "first"_a, "last"_a, "Rows first to last, both included.");
+  cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
+          "The recording at another rate [Hz]; dropouts are not bridged.");
+  cls.def("spin", &spin, "signed"_a = true,
+          "Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the "
+          "published rule, which counts turning of the axle too.");
+  cls.def_readonly("name", &Recording::name);
+  cls.def_readonly("rate", &Recording::rate, "Nominal sampling rate [Hz].");
+  cls.def_readonly("string_length", &Recording::string_length, "[m]");
+  cls.def_property_readonly("properties", [](const Recording& r) { return r.properties; });
+  cls.def_property_readonly(
+      "frame",
+      [](const py::object& self) {
+        const Recording& r = self.cast<const Recording&>();
+        return view(r.frame.data(), {static_cast<py::ssize_t>(r.frame.size())}, self);
+      },
+      "Number of each sample in its take, shape (N,).");
+  cls.def_property_readonly(
+      "time",
+      [](const py::object& self) {
+        const Recording& r = self.cast<const Recording&>();
+        return view(r.time.data(), {r.time.size()}, self);
+      },
+      "[s], shape (N,).");
+  bind_track(cls, "left", &Recording::left, "Left stick tip [m], shape (N, 3).");
+  bind_track(cls, "right", &Recording::right, "Right stick tip [m], shape (N, 3).");
+  bind_track(cls, "diabolo", &Recording::diabolo, "Centre of the axle [m], shape (N, 3).");
+  bind_orientation(cls, "diabolo_orientation", &Recording::diabolo_orientation,
+                   "Unit quaternions x, y, z, w, shape (N, 4), or None; body x is the spin axis.");
+  bind_orientation(
+      cls, "left_orientation", &Recording::left_orientation,
+      "Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards.");
+  bind_orientation(
+      cls, "right_orientation", &Recording::right_orientation,
+      "Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards.");
+  cls.def("__len__", &Recording::size);
+  cls.def("__repr__", [](const Recording& r) {
+    return py::str("<Recording '{}': {} samples at {:g} Hz>").format(r.name, r.size(), r.rate);
+  });
+  module.def("load_recording", &load_recording, "path"_a, "calibration"_a = published_calibration(),
+             Unlocked(), "The same as Recording.load.");
+}
+
+}  // namespace diabolo::python

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""The command `diabolo`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from .. import __version__
+from . import convert, demo, evaluate, info, simulate
+
+DESCRIPTION = """\
+Simulate diabolo play, and find out how far a simulation is off.
+
+A recording is a file that holds the motion of the two stick tips and of the diabolo: an export of OptiTrack
+Motive, or a tidy CSV with a JSON file beside it.
+"""
+
+EXAMPLES = """\
+begin here:
+  diabolo demo --out demo              evaluate on the recordings that come with the package; draw pictures
+  diabolo info TAKE.csv                what is in a recording
+  diabolo evaluate TAKE.csv            how far the models are off on it
+"""
+
+
+class Parser(argparse.ArgumentParser):
+    """Complains in one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
+def make_parser() -> argparse.ArgumentParser:
+    parser = Parser(
+        prog="diabolo",
+        description=DESCRIPTION,
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="version", version=f"diabolo {__version__}")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
+    for command in (demo, evaluate, simulate, info, convert):
+        command.add_parser(commands)
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit status: 0, 2 for bad input, 130 after Ctrl-C."""
+    try:
+        parsed = make_parser().parse_args(arguments)
+        parsed.run(parsed)
+        sys.stdout.flush()
+    except (ValueError, ArithmeticError, OSError) as error:
+        if isinstance(error, BrokenPipeError):  # such as `diabolo info TAKE.csv | head -1`
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 0
+        print(f"diabolo: {_sentence(error)}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("diabolo: interrupted", file=sys.stderr)
+        return 130
+    return 0
+
+
+def _sentence(error: Exception) -> str:
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"{error.filename}: {error.strerror}"
+    return " ".join(str(error).split())

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""What several commands understand: recordings with excerpts, models, calibrations, progress."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from .._core import Calibration, Model, load_recording
+from ..evaluation import DEFAULT_MODELS, Excerpt
+
+RECORDING_HELP = "a Motive export or a tidy recording; NAME.csv:0-180 takes the rows 0 to 180 of it only"
+
+
+def add_command(
+    commands: Any,
+    name: str,
+    *,
+    run: Callable[[argparse.Namespace], None],
+    summary: str,
+    text: str,
+    example: str,
+) -> argparse.ArgumentParser:
+    """A subcommand whose help teaches it by example."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        name,
+        help=summary,
+        description=text,
+        epilog=f"example:\n{example}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def add_calibration(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--calibration",
+        metavar="FILE",
+        help="where tips and diabolo sit in the rigid bodies of Motive exports (diabolo.calibration/1); "
+        "default: the published calibration of the red diabolo",
+    )
+
+
+def split_excerpt(text: str) -> tuple[str, tuple[int, int] | None]:
+    """The file and the rows of NAME.csv:0-180; a file that has such a name itself comes first."""
+    match = re.fullmatch(r"(.+):(\d+)-(\d+)", text)
+    if match is None or Path(text).exists():
+        return text, None
+    return match[1], (int(match[2]), int(match[3]))
+
+
+def read_calibration(path: str | None) -> Calibration:
+    return Calibration.published() if path is None else Calibration.load(path)
+
+
+def read_excerpt(text: str, calibration: Calibration) -> Excerpt:
+    """The recording that an argument names, and its rows."""
+    path, rows = split_excerpt(text)
+    recording = load_recording(path, calibration)
+    first, last = rows if rows is not None else (0, len(recording) - 1)
+    recording.cut(first, last)  # complains about rows that are not there
+    return Excerpt(recording, first, last)
+
+
+def read_model(text: str) -> Model:
+    if text in DEFAULT_MODELS:
+        return Model.named(text)
+    if not Path(text).exists():
+        raise ValueError(f"model {text}: no such file; expected {', '.join(DEFAULT_MODELS)} or a model file")
+    return Model.load(text)
+
+
+@contextmanager
+def progress_bar(description: str) -> Iterator[Callable[[float], None]]:
+    """A function to call with the fraction done; it draws a bar where there is a terminal."""
+    from tqdm import tqdm
+
+    layout = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}"
+    with tqdm(
+        total=1.0, desc=description, bar_format=layout, leave=False, disable=None, file=sys.stderr
+    ) as bar:
+
+        def report(fraction: float) -> None:
+            bar.update(fraction - bar.n)
+
+        yield report

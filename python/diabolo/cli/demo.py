@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo demo`: the main job on recordings that come with the package."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from .._core import Model, load_recording
+from ..evaluation import DEFAULT_MODELS, Evaluation, Excerpt, predict
+from . import evaluate, files
+from .arguments import add_command
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(
+        commands,
+        "demo",
+        run=run,
+        summary="evaluate on recordings that come with the package, and draw pictures",
+        text="Evaluate the models on recordings that come with the package: print the table of errors,\n"
+        "and draw one recording, measured and predicted, and the error against the time after the start.",
+        example="  diabolo demo --out demo",
+    )
+    parser.add_argument(
+        "--out", metavar="DIR", default="diabolo-demo", help="folder for the pictures; default: diabolo-demo"
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the figures as JSON; - is standard output")
+
+
+def packaged_recordings() -> list[Path]:
+    """The recordings that come with the package: made by the project's own plant, not by its predictor."""
+    with resources.as_file(resources.files("diabolo") / "recordings") as folder:
+        return sorted(folder.glob("*.csv"))
+
+
+def run(arguments: argparse.Namespace) -> None:
+    from . import plots
+
+    folder = Path(arguments.out)
+    if folder.exists() and not folder.is_dir():
+        raise ValueError(f"{folder}: a file; expected a folder")
+    trajectory, errors = folder / "trajectory.png", folder / "errors.png"
+    plots.check(trajectory)
+    paths = packaged_recordings()
+    if not paths:
+        raise ValueError("this installation of diabolo came without its recordings")
+    folder.mkdir(parents=True, exist_ok=True)
+    files.check_outputs([arguments.json, trajectory, errors], paths)
+    recordings = [load_recording(path) for path in paths]
+    excerpts = [Excerpt(take, 0, len(take) - 1) for take in recordings]
+    models = [Model.named(name) for name in DEFAULT_MODELS]
+    table = evaluate.evaluate_excerpts(excerpts, models)
+    horizons = evaluate.evaluate_excerpts(excerpts, models, starts_every=0.1)
+    shown = recordings[0]
+    plots.draw_trajectory(trajectory, shown, {model.name: predict(shown, model) for model in models})
+    plots.draw_errors(errors, horizons, excerpts, models)
+    files.write_json(arguments.json, Evaluation(table.rows, horizons.horizons).to_dict())
+    if arguments.json != files.STDOUT:
+        print(evaluate.text_of(table))
+        print(f"\n{shown.name}, measured and predicted: {trajectory}")
+        print(f"error against the time after the start: {errors}")

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo evaluate`: how far models are off on recordings."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from .._core import Model
+from ..evaluation import DEFAULT_HORIZONS, DEFAULT_MODELS, Evaluation, Excerpt, TableRow, evaluate
+from . import files
+from .arguments import (
+    RECORDING_HELP,
+    add_calibration,
+    add_command,
+    progress_bar,
+    read_calibration,
+    read_excerpt,
+    read_model,
+    split_excerpt,
+)
+from .tables import format_table
+
+TABLE_NOTE = """\
+mean distance between predicted and recorded diabolo [m]; one prediction from the first row, as in the paper
+baseline: the diabolo rests at the lowest point of the string; a model that loses to it has explained nothing
+program: the authors' program, run again on the same rows; printed: the figure in the paper"""
+
+HORIZON_NOTE = """\
+distance between predicted and recorded diabolo [m] at a time after the start, over many starts
+baseline: the diabolo rests at the lowest point of the string; intervals: of the mean, by block bootstrap"""
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(
+        commands,
+        "evaluate",
+        run=run,
+        summary="show how far models are off on recordings",
+        text="Predict the diabolo of each recording from the motion of its stick tips, and show how far the\n"
+        "predictions are off.",
+        example="  diabolo evaluate throw_1.csv z_hop_1.csv:0-180\n"
+        "  diabolo evaluate *.csv --starts every=0.1 --model consistent --plot errors.png",
+    )
+    parser.add_argument("recordings", metavar="RECORDING", nargs="+", help=RECORDING_HELP)
+    parser.add_argument(
+        "--model",
+        metavar="NAME",
+        action="append",
+        help="published, paper, consistent or a model file; may be repeated; default: the three names",
+    )
+    parser.add_argument(
+        "--starts",
+        metavar="WHERE",
+        default="first",
+        help="first: one prediction from the first row, as in the paper's table (default); every=0.1: "
+        "predictions from a start each 0.1 s, compared after "
+        + ", ".join(f"{h:g}" for h in DEFAULT_HORIZONS)
+        + " s",
+    )
+    add_calibration(parser)
+    parser.add_argument("--json", metavar="FILE", help="write the figures as JSON; - is standard output")
+    parser.add_argument(
+        "--plot", metavar="FILE", help="draw error against time after the start (.png, .pdf, .svg)"
+    )
+    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default 0: all that help")
+    parser.add_argument(
+        "--seed", metavar="N", type=int, default=1, help="of the bootstrap intervals; default 1"
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    starts_every = parse_starts(arguments.starts)
+    for name in ("threads", "seed"):
+        if getattr(arguments, name) < 0:
+            raise ValueError(f"--{name} {getattr(arguments, name)}: expected 0 or more")
+    models = [read_model(text) for text in arguments.model or DEFAULT_MODELS]
+    inputs = [split_excerpt(text)[0] for text in arguments.recordings]
+    inputs += [text for text in arguments.model or () if text not in DEFAULT_MODELS]
+    inputs += [arguments.calibration] if arguments.calibration else []
+    files.check_outputs([arguments.json, arguments.plot], inputs)
+    if arguments.plot is not None:
+        from . import plots
+
+        plots.check(arguments.plot)
+    calibration = read_calibration(arguments.calibration)
+    excerpts = [read_excerpt(text, calibration) for text in arguments.recordings]
+    result = evaluate_excerpts(
+        excerpts, models, starts_every=starts_every, seed=arguments.seed, threads=arguments.threads
+    )
+    if arguments.plot is not None:
+        plots.draw_errors(arguments.plot, result, excerpts, models)
+    files.write_json(arguments.json, result.to_dict())
+    if arguments.json != files.STDOUT:
+        print(text_of(result))
+
+
+def parse_starts(text: str) -> float | None:
+    """Seconds between starts; None for the first row only."""
+    if text == "first":
+        return None
+    try:
+        seconds = float(text.removeprefix("every="))
+    except ValueError:
+        seconds = 0.0
+    if not text.startswith("every=") or not 0.0 < seconds < float("inf"):
+        raise ValueError(f"--starts {text}: expected first, or every=SECONDS as in every=0.1")
+    return seconds
+
+
+def evaluate_excerpts(
+    excerpts: list[Excerpt],
+    models: list[Model],
+    *,
+    starts_every: float | None = None,
+    seed: int = 1,
+    threads: int = 0,
+) -> Evaluation:
+    """As diabolo.evaluate, with a progress bar; an excerpt of all rows counts as the recording."""
+    takes = [e.recording if (e.first, e.last) == (0, len(e.recording) - 1) else e for e in excerpts]
+    with progress_bar("evaluating") as progress:
+        return evaluate(
+            takes, models, starts_every=starts_every, seed=seed, threads=threads, progress=progress
+        )
+
+
+def text_of(result: Evaluation) -> str:
+    return _table_text(result) if result.rows else _horizon_text(result)
+
+
+def _table_text(result: Evaluation) -> str:
+    models = list(dict.fromkeys(row.model for row in result.rows))
+    excerpts: dict[tuple[str, tuple[int, int]], list[TableRow]] = {}
+    for row in result.rows:
+        excerpts.setdefault((row.recording, row.frames), []).append(row)
+    lines = []
+    for (name, frames), rows in excerpts.items():
+        errors = [next(_number(row) for row in rows if row.model == model) for model in models]
+        program = rows[0].program_error
+        paper = rows[0].paper_error
+        lines.append(
+            [
+                name,
+                f"{frames[0]}-{frames[1]}",
+                *errors,
+                f"{rows[0].baseline_error:.3f}",
+                "" if program is None else f"{program:.3f}",
+                "" if paper is None else f"{paper:.2f}",
+            ]
+        )
+    header = ["recording", "rows", *models, "baseline", "program", "printed"]
+    return f"{format_table(header, lines)}\n\n{TABLE_NOTE}"
+
+
+def _number(row: TableRow) -> str:
+    if row.error is None:
+        return f"diverged at {row.score.diverged:.2f} s"
+    return f"{row.error:.3f}"
+
+
+def _horizon_text(result: Evaluation) -> str:
+    blocks = []
+    for recording in dict.fromkeys(row.recording for row in result.horizons):
+        rows = [row for row in result.horizons if row.recording == recording]
+        lines = []
+        for horizon in dict.fromkeys(row.score.horizon for row in rows):
+            at_horizon = [row for row in rows if row.score.horizon == horizon]
+            entries = [(row.model, row.score.model, row.score.failed) for row in at_horizon]
+            entries.append(("baseline", at_horizon[0].score.baseline, 0))
+            for index, (name, summary, failed) in enumerate(entries):
+                first = [f"{horizon:g} s", str(at_horizon[0].score.windows)] if index == 0 else ["", ""]
+                lines.append([*first, name, *_summary_cells(summary), f"{failed} diverged" if failed else ""])
+        header = ["after", "starts", "model", "mean", "95 % interval", "median", "90 % below", ""]
+        blocks.append(f"{recording}\n{format_table(header, lines, left=3)}")
+    return "\n\n".join([*blocks, HORIZON_NOTE])
+
+
+def _summary_cells(summary: Any) -> list[str]:
+    if summary is None:
+        return ["-", "", "-", "-"]
+    interval = summary.mean_ci95
+    return [
+        f"{summary.mean:.3f}",
+        f"{interval.low:.3f} to {interval.high:.3f}" if interval else "too few starts",
+        f"{summary.median:.3f}",
+        f"{summary.percentile_90:.3f}",
+    ]

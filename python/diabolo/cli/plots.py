@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: MIT
+"""Pictures; the only module that needs matplotlib."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._core import Model, Recording, baseline
+from ..evaluation import ALL_RECORDINGS, Evaluation, Excerpt, HorizonRow, position_errors, predict
+from ..rollout import Rollout
+from .files import whole_file
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+BASELINE_STYLE: dict[str, Any] = {"color": "0.45", "linestyle": "--", "linewidth": 1.5}
+MEASURED_STYLE: dict[str, Any] = {"color": "black", "linewidth": 1.8}
+LOST = 1.0
+"""Position errors beyond this [m] are not drawn: there the prediction has lost the diabolo."""
+
+
+def check(path: str | Path) -> None:
+    """Raise ValueError where there is no matplotlib, or it cannot write such a file."""
+    try:
+        from matplotlib.figure import Figure
+    except ModuleNotFoundError as error:
+        raise ValueError(f"{path}: to draw it, install matplotlib (pip install 'diabolo[plot]')") from error
+    known = Figure().canvas.get_supported_filetypes()
+    if Path(path).suffix.removeprefix(".") not in known:
+        raise ValueError(f"{path}: expected a name that ends in .png, .pdf or .svg")
+
+
+def draw_errors(path: str | Path, result: Evaluation, excerpts: list[Excerpt], models: list[Model]) -> None:
+    """Error against the time after the start: over many starts, or of the one prediction."""
+    figure = _horizon_figure(result) if result.horizons else _first_start_figure(excerpts, models)
+    _save(figure, path)
+
+
+def draw_trajectory(path: str | Path, recording: Recording, predictions: dict[str, Rollout]) -> None:
+    """Measured and predicted trajectory, seen from behind the player, and height over time."""
+    figure, axes = _panels(3, columns=3, width=4.6)
+    side, sideways, height = axes
+    time = recording.time - recording.time[0]
+    measured = recording.diabolo
+    side.plot(measured[:, 1], measured[:, 2], label="measured", **MEASURED_STYLE)
+    sideways.plot(time, measured[:, 1], **MEASURED_STYLE)
+    height.plot(time, measured[:, 2], **MEASURED_STYLE)
+    for index, (name, predicted) in enumerate(predictions.items()):
+        style: dict[str, Any] = {"color": _color(name, index), "linewidth": 1.3}
+        side.plot(predicted.states[:, 1], predicted.states[:, 2], label=name, **style)
+        sideways.plot(time, predicted.states[:, 1], **style)
+        height.plot(time, predicted.states[:, 2], **style)
+    side.plot(recording.left[:, 1], recording.left[:, 2], color="0.75", linewidth=1.0, label="stick tips")
+    side.plot(recording.right[:, 1], recording.right[:, 2], color="0.75", linewidth=1.0)
+    side.set(title="seen from behind the player", xlabel="y, to the left [m]", ylabel="z, up [m]")
+    side.set_aspect("equal", adjustable="datalim")
+    side.invert_xaxis()
+    side.legend(fontsize="small")
+    sideways.set(title="sideways", xlabel="time [s]", ylabel="y [m]")
+    height.set(title="height", xlabel="time [s]", ylabel="z [m]")
+    figure.suptitle(f"{recording.name}: the diabolo, measured and predicted from its first row")
+    _save(figure, path)
+
+
+def _horizon_figure(result: Evaluation) -> Figure:
+    names = list(dict.fromkeys(row.recording for row in result.horizons))
+    if ALL_RECORDINGS in names:
+        names = [ALL_RECORDINGS, *[name for name in names if name != ALL_RECORDINGS]]
+    figure, axes = _panels(len(names), share_y=True)
+    for panel, name in zip(axes, names, strict=True):
+        rows = [row for row in result.horizons if row.recording == name and row.score.model is not None]
+        _draw_horizons(panel, rows)
+        panel.set(title=name, xlabel="time after the start [s]", ylabel="mean position error [m]")
+    axes[0].legend(fontsize="small")
+    return figure
+
+
+def _draw_horizons(panel: Axes, rows: list[HorizonRow]) -> None:
+    """On logarithmic axes, where 0.1 s is seen as well as 2 s."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator
+
+    models = list(dict.fromkeys(row.model for row in rows))
+    for index, model in enumerate(models):
+        own = [row.score for row in rows if row.model == model]
+        color = _color(model, index)
+        summaries = [score.model for score in own if score.model is not None]
+        horizons = [score.horizon for score in own]
+        panel.plot(horizons, [s.mean for s in summaries], "o-", color=color, label=model)
+        banded = [
+            (h, s.mean_ci95) for h, s in zip(horizons, summaries, strict=True) if s.mean_ci95 is not None
+        ]
+        panel.fill_between(
+            [h for h, _ in banded],
+            [max(interval.low, 1e-4) for _, interval in banded],
+            [interval.high for _, interval in banded],
+            color=color,
+            alpha=0.18,
+            linewidth=0.0,
+        )
+    own = [row.score for row in rows if row.model == models[0]] if models else []
+    means = [(score.horizon, score.baseline.mean) for score in own if score.baseline is not None]
+    panel.plot([h for h, _ in means], [mean for _, mean in means], label="baseline", **BASELINE_STYLE)
+    panel.set_xscale("log")
+    panel.set_yscale("log")
+    horizons = sorted({row.score.horizon for row in rows})
+    panel.set_xticks(horizons, [f"{h:g}" for h in horizons])
+    panel.minorticks_off()
+    panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    panel.yaxis.set_major_formatter(FormatStrFormatter("%g"))
+    panel.grid(alpha=0.25)
+
+
+def _first_start_figure(excerpts: list[Excerpt], models: list[Model]) -> Figure:
+    figure, axes = _panels(len(excerpts))
+    for panel, excerpt in zip(axes, excerpts, strict=True):
+        take = excerpt.recording.cut(excerpt.first, excerpt.last)
+        time = take.time - take.time[0]
+        for index, model in enumerate(models):
+            error = position_errors(take, predict(take, model))
+            panel.plot(time, error, color=_color(model.name, index), label=model.name)
+        panel.plot(
+            time, np.linalg.norm(baseline(take) - take.diabolo, axis=1), label="baseline", **BASELINE_STYLE
+        )
+        rows = "" if len(take) == len(excerpt.recording) else f", rows {excerpt.first} to {excerpt.last}"
+        panel.set(title=take.name + rows, xlabel="time after the start [s]", ylabel="position error [m]")
+        panel.set_ylim(0.0, min(panel.get_ylim()[1], LOST))
+        panel.grid(alpha=0.25)
+    axes[0].legend(fontsize="small")
+    return figure
+
+
+def _panels(
+    count: int, columns: int = 3, width: float = 4.2, share_y: bool = False
+) -> tuple[Figure, list[Any]]:
+    from matplotlib.figure import Figure
+
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    figure = Figure(figsize=(max(6.4, width * columns), 3.9 * rows), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False, sharey=share_y).flat)
+    for unused in axes[count:]:
+        unused.remove()
+    return figure, axes[:count]
+
+
+def _color(model: str, index: int) -> str:
+    """The three models by name keep their colours from picture to picture."""
+    known = {"published": "tab:orange", "paper": "tab:green", "consistent": "tab:blue"}
+    others = ["tab:red", "tab:purple", "tab:brown", "tab:pink", "tab:olive", "tab:cyan"]
+    return known.get(model, others[index % len(others)])
+
+
+def _save(figure: Figure, path: str | Path) -> None:
+    with whole_file(path) as temporary:
+        figure.savefig(temporary, dpi=130)

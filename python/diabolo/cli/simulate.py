@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo simulate`: a predicted play as a tidy recording."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import DiaboloProperties, Model, Recording, Spheroid, TipMotion
+from ..enums import StringState
+from ..evaluation import predict
+from ..motions import MOTIONS
+from ..rollout import rollout
+from . import files
+from .arguments import (
+    RECORDING_HELP,
+    add_calibration,
+    add_command,
+    read_calibration,
+    read_excerpt,
+    read_model,
+    split_excerpt,
+)
+
+RATE = 120.0  # of a built-in motion [Hz]
+STEPS_PER_SAMPLE = 8
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(
+        commands,
+        "simulate",
+        run=run,
+        summary="write a predicted play as a tidy recording",
+        text="Predict the diabolo from a motion of the stick tips, that of a recording or a built-in one,\n"
+        "and write tips and diabolo as a tidy recording (TIDY.csv, with TIDY.json beside it).",
+        example="  diabolo simulate swing.csv --motion swing\n"
+        "  diabolo simulate predicted.csv --on throw_1.csv",
+    )
+    parser.add_argument("tidy", metavar="TIDY.csv", help="what to write")
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("--on", metavar="RECORDING", help=f"the tips of {RECORDING_HELP}")
+    source.add_argument(
+        "--motion", choices=MOTIONS, help="a built-in motion, the diabolo hanging at rest before"
+    )
+    parser.add_argument(
+        "--model",
+        metavar="NAME",
+        default="consistent",
+        help="published, paper, consistent (default) or a model file",
+    )
+    parser.add_argument("--duration", metavar="S", type=float, help="of a built-in motion [s]; default 5")
+    parser.add_argument(
+        "--spin", metavar="W", type=float, help="at the start of a built-in motion [rad/s]; default 100"
+    )
+    add_calibration(parser)
+    parser.add_argument("--json", metavar="FILE", help="write a summary as JSON; - is standard output")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    target = Path(arguments.tidy)
+    if target.suffix != ".csv":
+        raise ValueError(f"{target}: expected a name that ends in .csv")
+    inputs = [split_excerpt(arguments.on)[0]] if arguments.on else []
+    inputs += [arguments.calibration] if arguments.calibration else []
+    files.check_outputs([target, target.with_suffix(".json"), arguments.json], inputs)
+    model = read_model(arguments.model)
+    if arguments.on:
+        if arguments.duration is not None or arguments.spin is not None:
+            raise ValueError("--duration and --spin belong to --motion; a recording has its own")
+        played, string_states = on_recording(arguments, model)
+    else:
+        duration = 5.0 if arguments.duration is None else arguments.duration
+        spin = 100.0 if arguments.spin is None else arguments.spin
+        played, string_states = on_motion(arguments.motion, model, duration, spin, target.stem)
+    played.save(target)
+    shares = {state.name.lower(): float(np.mean(string_states == state)) for state in StringState}
+    height = played.diabolo[:, 2]
+    found = {
+        "schema": "diabolo.simulate/1",
+        "file": str(target),
+        "model": model.name,
+        "samples": len(played),
+        "duration_s": float(played.time[-1] - played.time[0]),
+        "height_m": [float(height.min()), float(height.max())],
+        "string_state_share": shares,
+    }
+    files.write_json(arguments.json, found)
+    if arguments.json != files.STDOUT:
+        states = ", ".join(
+            f"{100.0 * share:.0f} % {name.replace('_', ' ')}" for name, share in shares.items()
+        )
+        print(
+            f"{target}: {len(played)} samples, {found['duration_s']:.2f} s, "
+            f"the diabolo between {height.min():.2f} and {height.max():.2f} m high; string: {states}"
+        )
+
+
+def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording, NDArray[np.uint8]]:
+    """The recording from the first row that a prediction can start from, its diabolo predicted."""
+    excerpt = read_excerpt(arguments.on, read_calibration(arguments.calibration))
+    take = excerpt.recording.cut(excerpt.first, excerpt.last)
+    predicted = predict(take, model)
+    known = ~np.isnan(predicted.states[:, 0])
+    first = int(np.argmax(known))
+    take = take.cut(first, len(take) - 1)
+    # Where a tip is missing, the one that the prediction went by in its place.
+    left, right, _, _ = TipMotion.of_recording(take, model.interpolation).at(take.time - take.time[0])
+    return (
+        _recording(
+            take.name,
+            take.time,
+            np.where(take.left_valid[:, np.newaxis], take.left, left),
+            np.where(take.right_valid[:, np.newaxis], take.right, right),
+            predicted.states[first:],
+            take.rate,
+            take.properties,
+            take.string_length,
+        ),
+        predicted.string_states[first:],
+    )
+
+
+def on_motion(
+    name: str, model: Model, duration: float, spin: float, title: str
+) -> tuple[Recording, NDArray[np.uint8]]:
+    """A built-in motion, from a diabolo that hangs at rest below the tips."""
+    if not math.isfinite(spin):
+        raise ValueError(f"--spin {spin}: expected a finite number")
+    tips = MOTIONS[name](duration)
+    length = model.parameters.string_length
+    start = tips.at(0.0)
+    spheroid = Spheroid(start[0], start[1], length)
+    hanging = spheroid.center - np.array([0.0, 0.0, spheroid.semi_minor])
+    initial = np.concatenate([hanging, np.zeros(3), [spin]])
+    samples = int(duration * RATE)
+    result = rollout(
+        model,
+        initial,
+        tips,
+        dt=1.0 / (RATE * STEPS_PER_SAMPLE),
+        steps=samples * STEPS_PER_SAMPLE,
+        record_every=STEPS_PER_SAMPLE,
+        string_state=StringState.ON_STRING,
+    )
+    time = np.arange(samples + 1) / RATE
+    left, right, _, _ = tips.at(time)
+    states = np.vstack([initial, result.states])
+    codes = np.concatenate([[np.uint8(StringState.ON_STRING)], result.string_states])
+    p = model.parameters
+    properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
+    return _recording(title, time, left, right, states, RATE, properties, length), codes
+
+
+def _recording(
+    name: str,
+    time: NDArray[np.float64],
+    left: NDArray[np.float64],
+    right: NDArray[np.float64],
+    states: NDArray[np.float64],
+    rate: float,
+    properties: DiaboloProperties,
+    string_length: float,
+) -> Recording:
+    """With orientations that turn about world -x by the spin, body x along world x."""
+    angle = np.concatenate([[0.0], np.cumsum(states[:-1, 6])]) / rate
+    zero = np.zeros_like(angle)
+    orientation = np.stack([-np.sin(angle / 2.0), zero, zero, np.cos(angle / 2.0)], axis=1)
+    return Recording(
+        time,
+        left,
+        right,
+        states[:, :3],
+        rate,
+        diabolo_orientation=orientation,
+        name=name,
+        properties=properties,
+        string_length=string_length,
+    )

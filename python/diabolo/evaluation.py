@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: MIT
+"""How far models are off on recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._core import HorizonScore, Model, Recording
+from .rollout import Rollout
+
+DEFAULT_MODELS = ("published", "paper", "consistent")
+DEFAULT_HORIZONS = (0.1, 0.25, 0.5, 1.0, 2.0)
+SCHEMA = "diabolo.evaluation/1"
+
+ALL_RECORDINGS = "all recordings"
+"""The name under which HorizonRow gives the errors over several recordings together."""
+
+
+class Excerpt(NamedTuple):
+    """Some rows of a recording, first and last included."""
+
+    recording: Recording
+    first: int
+    last: int
+
+
+class TableRow(NamedTuple):
+    """One model on one excerpt, by the recipe of the paper's table; errors are mean distances [m]."""
+
+    recording: str
+    frames: tuple[int, int]
+    """Rows of the recording, both included."""
+    model: str
+    error: float | None
+    """None where the prediction diverged."""
+    baseline_error: float
+    """Of the lowest-point baseline over the same rows: what a model has to beat."""
+    paper_error: float | None
+    """As the paper prints it; None where its table has no such excerpt."""
+    program_error: float | None
+    """Of the authors' program, run again."""
+    score: _core.ExcerptScore
+    """The same, and how many rows were compared."""
+
+
+class HorizonRow(NamedTuple):
+    """One model at one horizon, over many starts."""
+
+    recording: str
+    model: str
+    score: HorizonScore
+
+
+class Evaluation(NamedTuple):
+    """What `evaluate` gives."""
+
+    rows: list[TableRow]
+    horizons: list[HorizonRow]
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON, of the schema diabolo.evaluation/1: errors in metres, horizons in seconds."""
+        return {
+            "schema": SCHEMA,
+            "rows": [_table_entry(row) for row in self.rows],
+            "horizons": [_horizon_entry(row) for row in self.horizons],
+        }
+
+
+def evaluate(
+    recordings: Recording | Excerpt | Iterable[Recording | Excerpt],
+    models: Model | str | Iterable[Model | str] = DEFAULT_MODELS,
+    *,
+    starts_every: float | None = None,
+    horizons: Sequence[float] = DEFAULT_HORIZONS,
+    start: Literal["fair", "published"] = "fair",
+    seed: int = 1,
+    threads: int = 0,
+    progress: Callable[[float], None] | None = None,
+) -> Evaluation:
+    """Compare predictions with recordings.
+
+    recordings: Recording, or Excerpt of one.
+    models: Model, or "published", "paper", "consistent".
+    starts_every: by default one prediction from the first row of each recording (and of the excerpt of it
+        that the paper's table has), by the paper's recipe. Given [s], predictions from a start each so often,
+        compared at `horizons` [s], for each recording and, where there are several, for all together.
+    start: how the state at such a start is found: "fair", from the rows up to it, the same for every model;
+        or "published", by the rules of the authors' program, which look one row ahead.
+    seed: of the bootstrap intervals. threads: 0 takes all that help. progress: called with the fraction done.
+
+        evaluate(load_recording("throw_1.csv")).rows[0].error  # [m]
+    """
+    given = [recordings] if isinstance(recordings, (Recording, Excerpt)) else list(recordings)
+    wanted = [models] if isinstance(models, (Model, str)) else list(models)
+    chosen = [Model.named(model) if isinstance(model, str) else model for model in wanted]
+    if threads < 0:
+        raise ValueError(f"threads: {threads}; expected 0 (all that help) or more")
+    report = progress or (lambda fraction: None)
+    if starts_every is None:
+        return Evaluation(_table(given, chosen, report), [])
+
+    groups = [(_label(take), [_whole(take)]) for take in given]
+    if len(groups) > 1:
+        groups.append((ALL_RECORDINGS, [take for _, takes in groups for take in takes]))
+    rows: list[HorizonRow] = []
+    jobs = [(model, name, group) for model in chosen for name, group in groups]
+    for index, (model, name, group) in enumerate(jobs):
+
+        def report_part(fraction: float, done: int = index) -> None:
+            report((done + fraction) / len(jobs))
+
+        scores = _core.score_horizons(
+            group, model, starts_every, list(horizons), start, seed, 1 if threads == 1 else 2, report_part
+        )
+        rows += [HorizonRow(name, model.name, score) for score in scores]
+    report(1.0)
+    return Evaluation([], rows)
+
+
+def predict(
+    recording: Recording,
+    model: Model | str = "consistent",
+    *,
+    row: int | None = None,
+    start: Literal["fair", "published"] = "published",
+) -> Rollout:
+    """Predict the diabolo at each row of a recording from its state at one row and the recorded tips.
+
+    row: where to start; by default the first one from which the authors' program could.
+    start: as for `evaluate`. Rows before the start are NaN; `time` is that of the recording.
+    """
+    chosen = Model.named(model) if isinstance(model, str) else model
+    states, string_states = _core.predict(recording, chosen, row, start)
+    return Rollout(np.asarray(recording.time), states, string_states)
+
+
+def position_errors(recording: Recording, predicted: Rollout) -> NDArray[np.float64]:
+    """Distance from the recorded to the predicted diabolo [m], shape (N,); NaN where one is missing."""
+    distance: NDArray[np.float64] = np.linalg.norm(predicted.states[:, :3] - recording.diabolo, axis=1)
+    return distance
+
+
+def _whole(take: Recording | Excerpt) -> Recording:
+    return take if isinstance(take, Recording) else take.recording.cut(take.first, take.last)
+
+
+def _label(take: Recording | Excerpt) -> str:
+    return take.name if isinstance(take, Recording) else f"{take.recording.name}:{take.first}-{take.last}"
+
+
+def _table(
+    given: list[Recording | Excerpt], models: list[Model], report: Callable[[float], None]
+) -> list[TableRow]:
+    rows: list[TableRow] = []
+    for index, take in enumerate(given):
+        per_model = [_scores(take, model) for model in models]
+        first = take.first if isinstance(take, Excerpt) else 0
+        rows += [_table_row(score, first) for scores in zip(*per_model, strict=True) for score in scores]
+        report((index + 1) / len(given))
+    return rows
+
+
+def _scores(take: Recording | Excerpt, model: Model) -> list[_core.ExcerptScore]:
+    if isinstance(take, Excerpt):
+        return [_core.score_excerpt(_whole(take), model)]
+    return _core.score_excerpts(take, model)
+
+
+def _table_row(score: _core.ExcerptScore, first: int) -> TableRow:
+    of_paper = first == 0  # all excerpts of the paper's table begin there
+    return TableRow(
+        score.recording,
+        (first, first + score.rows - 1),
+        score.model,
+        score.error,
+        score.baseline_error,
+        score.paper_error if of_paper else None,
+        score.program_error if of_paper else None,
+        score,
+    )
+
+
+def _table_entry(row: TableRow) -> dict[str, Any]:
+    return {
+        "recording": row.recording,
+        "frames": list(row.frames),
+        "model": row.model,
+        "mean_error_m": row.error,
+        "baseline_m": row.baseline_error,
+        "paper_m": row.paper_error,
+        "program_m": row.program_error,
+        "start_row": row.frames[0] + row.score.start_row,
+        "rows_scored": row.score.scored,
+        "rows_skipped": row.score.skipped,
+        "duration_s": row.score.duration,
+        "diverged_s": row.score.diverged,
+    }
+
+
+def _horizon_entry(row: HorizonRow) -> dict[str, Any]:
+    score = row.score
+    return {
+        "recording": row.recording,
+        "model": row.model,
+        "horizon_s": score.horizon,
+        "windows": score.windows,
+        **_summary(score.model),
+        "failed": score.failed,
+        "missed_catches": score.missed_catches,
+        "baseline": _summary(score.baseline),
+        "advantage_m": score.advantage,
+        "advantage_ci95_m": _interval(score.advantage_ci95),
+    }
+
+
+def _summary(summary: _core.ErrorSummary | None) -> dict[str, Any]:
+    return {
+        "mean_m": summary.mean if summary else None,
+        "median_m": summary.median if summary else None,
+        "p90_m": summary.percentile_90 if summary else None,
+        "ci95_m": _interval(summary.mean_ci95) if summary else None,
+    }
+
+
+def _interval(interval: _core.Interval | None) -> list[float] | None:
+    return [interval.low, interval.high] if interval else None

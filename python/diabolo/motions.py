@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""Simple motions of the stick tips, to try things on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import TipMotion
+
+HEIGHT, FORWARD, HALF_SPAN = 1.0, 0.5, 0.3  # where the hands rest [m]
+_RATE = 240.0  # samples of a motion per second
+
+
+def hold(duration: float) -> TipMotion:
+    """Both tips rest, 0.6 m apart."""
+    return _motion(duration, lambda t: (0.0 * t, 0.0 * t, 0.0 * t))
+
+
+def swing(duration: float) -> TipMotion:
+    """Both tips sway sideways by 5 cm, 0.6 times a second, and the diabolo swings below them."""
+    return _motion(duration, lambda t: (0.05 * _fade_in(t) * np.sin(2.0 * np.pi * 0.6 * t), 0.0 * t, 0.0 * t))
+
+
+def beat(duration: float) -> TipMotion:
+    """The right tip goes up by 8 cm and the left one down, 1.6 times a second, as to speed the diabolo up."""
+    return _motion(duration, lambda t: (0.0 * t, 0.08 * _fade_in(t) * np.sin(2.0 * np.pi * 1.6 * t), 0.0 * t))
+
+
+def throw(duration: float) -> TipMotion:
+    """After a second the tips part, within 0.25 s, until the string is almost straight."""
+
+    def shifts(
+        t: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        s = np.clip((t - 1.0) / 0.25, 0.0, 1.0)
+        return 0.0 * t, 0.0 * t, 0.415 * s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+
+    return _motion(duration, shifts)
+
+
+MOTIONS: dict[str, Callable[[float], TipMotion]] = {
+    "hold": hold,
+    "swing": swing,
+    "beat": beat,
+    "throw": throw,
+}
+"""The motions by name; each takes its duration [s]."""
+
+
+def _fade_in(t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """From 0 to 1 within half a second, at rest at both ends."""
+    s = np.clip(t / 0.5, 0.0, 1.0)
+    return s**2 * (3.0 - 2.0 * s)
+
+
+def _motion(
+    duration: float,
+    shifts: Callable[
+        [NDArray[np.float64]], tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+    ],
+) -> TipMotion:
+    """`shifts` gives, at times [s]: both tips to the left, right tip up and left tip down, both apart [m]."""
+    if not 0.0 < duration <= 3600.0:
+        raise ValueError(f"duration: {duration} s; expected more than 0, at most an hour")
+    time = np.linspace(0.0, duration, int(np.ceil(duration * _RATE)) + 1)
+    sideways, tilt, apart = shifts(time)
+    forward = np.full_like(time, FORWARD)
+    left = np.stack([forward, HALF_SPAN + sideways + apart, HEIGHT - tilt], axis=1)
+    right = np.stack([forward, -HALF_SPAN + sideways - apart, HEIGHT + tilt], axis=1)
+    return TipMotion(time, left, right, "spline")
