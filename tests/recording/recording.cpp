@@ -50,7 +50,7 @@ TEST_CASE("Steps are even within a tenth of a period") {
   Recording recording;
   recording.rate = 100.0;
   recording.time.resize(5);
-  recording.time << 0.0, 0.01, 0.0205, 0.04, 0.041;
+  recording.time << 0.0, 0.01, 0.0209, 0.0320, 0.0408;  // steps of 10, 10.9, 11.1 and 8.8 ms
   CHECK(recording.steps_evenly(0));
   CHECK(recording.steps_evenly(1));
   CHECK(!recording.steps_evenly(2));
