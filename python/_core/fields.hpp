@@ -77,8 +77,11 @@ void bind_copies(py::class_<Fields>& cls, const ToDict& to_dict, const FromDict&
   cls.def(
       "__deepcopy__", [](const Fields& fields, const py::dict&) { return fields; }, py::arg("memo"));
   cls.def(
-      "__eq__", [to_dict](const Fields& a, const Fields& b) { return to_dict(a).equal(to_dict(b)); },
-      py::is_operator());
+      "__eq__",
+      [to_dict](const Fields& a, const py::object& other) {
+        return py::isinstance<Fields>(other) && to_dict(a).equal(to_dict(other.cast<const Fields&>()));
+      },
+      py::arg("other"));
   cls.def(py::pickle(to_dict, from_dict));
 }
 

@@ -49,7 +49,7 @@ void bind_model(py::module_& module) {
     Model(Parameters(), string_elasticity=StringElasticity.of_stiffness(600.0))
 
 Parameters, and effects beyond the paper by keyword; an effect left out, or None, has the amplitude zero and
-changes nothing. Wherever a Model is to be simulated, Parameters will do.
+changes nothing. Where a Model is to be simulated, Parameters will do.
 
 The rest matters where a recording is to be predicted: `interpolation` says how its tips are read between the
 samples, as in diabolo.Interpolation; string length, mass and axle radius are the recording's unless the model
@@ -92,7 +92,6 @@ says that its own count.)");
   cls.def("to_dict", &to_dict, "The keyword arguments that make the model again.");
   cls.def("__repr__", [](const Model& m) { return call_text("Model", to_dict(m), to_dict(from_dict({}))); });
   bind_copies(cls, &to_dict, &from_dict);
-  py::implicitly_convertible<Parameters<double>, Model>();
 }
 
 }  // namespace diabolo::python

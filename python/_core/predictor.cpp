@@ -74,6 +74,10 @@ void bind_predictor(py::module_& module) {
     predictor.step(state, left0, right0, left1, right1, dt=1e-3)
 
 It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().)")
+      .def(py::init([](const Parameters<double>& parameters, const py::kwargs& effects) {
+             return make({.name = {}, .parameters = parameters, .effects = {}}, effects);
+           }),
+           "parameters"_a)
       .def(py::init(&make), "model"_a)
       .def_property_readonly(
           "parameters", [](const Simulator& p) { return p.parameters(); }, "A copy.")

@@ -203,7 +203,8 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
           "diabolo_orientation"_a = py::none(), "left_orientation"_a = py::none(),
           "right_orientation"_a = py::none(), "name"_a = "recording", "properties"_a = kRedDiabolo,
           "string_length"_a = kPublishedStringLength);
-  cls.def_static("load", &load_recording, "path"_a, "calibration"_a = published_calibration(), Unlocked(),
+  cls.def_static("load", &load_recording, "path"_a,
+                 py::arg_v("calibration", published_calibration(), "Calibration.published()"), Unlocked(),
                  "Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.");
   cls.def("save", &save_tidy, "path"_a, Unlocked(),
           "Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all.");
@@ -246,8 +247,9 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   cls.def("__repr__", [](const Recording& r) {
     return py::str("<Recording '{}': {} samples at {:g} Hz>").format(r.name, r.size(), r.rate);
   });
-  module.def("load_recording", &load_recording, "path"_a, "calibration"_a = published_calibration(),
-             Unlocked(), "The same as Recording.load.");
+  module.def("load_recording", &load_recording, "path"_a,
+             py::arg_v("calibration", published_calibration(), "Calibration.published()"), Unlocked(),
+             "The same as Recording.load.");
 }
 
 }  // namespace diabolo::python

@@ -104,13 +104,13 @@ follow `interpolation`, as in diabolo.Interpolation: 'linear', 'spline' or 'held
            [](const Motion& m) {
              return py::str("TipMotion({} instants from {:.4g} to {:.4g} s, '{}')")
                  .format(m.times.size(), m.motion.begin(), m.motion.end(),
-                         choice_to_python(m.interpolation).attr("value"));
+                         py::object(choice_to_python(m.interpolation).attr("value")));
            })
       .def(py::pickle(
           [](const Motion& m) {
             return py::make_tuple(Array(static_cast<py::ssize_t>(m.times.size()), m.times.data()),
                                   from_rows(m.left), from_rows(m.right),
-                                  choice_to_python(m.interpolation).attr("value"));
+                                  py::object(choice_to_python(m.interpolation).attr("value")));
           },
           [](const py::tuple& t) {
             return std::make_shared<Motion>(

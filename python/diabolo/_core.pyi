@@ -2,5 +2,1102 @@
 Compiled core of diabolo: the header-only C++ library, bound for Python.
 """
 from __future__ import annotations
-__all__: list[str] = list()
+import collections.abc
+import numpy
+import numpy.typing
+import os
+import typing
+__all__: list[str] = ['Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'HorizonScore', 'Interval', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'State', 'StepStatus', 'StringElasticity', 'TipMotion', 'baseline', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+class ParameterInfo:
+    """
+    Name, unit and range of a numeric parameter.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def maximum(self) -> float:
+        ...
+    @property
+    def meaning(self) -> str:
+        ...
+    @property
+    def minimum(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def unit(self) -> str:
+        ...
+class Parameters:
+    """
+    Everything that the predictor can be told.
+    
+        Parameters(string_length=1.4)              # ours: an inextensible string, the default
+        Parameters.paper(axle_radius=0.007)        # the rules of the paper's text
+        Parameters.published()                     # the authors' program
+    
+    Keywords set fields; a rule is chosen by a member of its enumeration or by its name. A value out of its range
+    is a ValueError that names the field, the value and the range.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def consistent(**kwargs) -> Parameters:
+        """
+        Inextensible massless string without friction; results converge as the step goes to zero.
+        """
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every numeric field (ParameterInfo).
+        """
+    @staticmethod
+    def paper(**kwargs) -> Parameters:
+        """
+        The rules of the paper's text with its errata corrected.
+        """
+    @staticmethod
+    def published(**kwargs) -> Parameters:
+        """
+        The authors' program, rule by rule, with the settings of its evaluation.
+        """
+    def __copy__(self) -> Parameters:
+        ...
+    def __deepcopy__(self, memo: dict) -> Parameters:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def replace(self, **kwargs) -> Parameters:
+        """
+        A copy with other values in the given fields.
+        """
+    def to_dict(self) -> dict:
+        """
+        All fields by name; Parameters(**fields) builds them again.
+        """
+    @property
+    def axle_radius(self) -> float:
+        """
+        radius of the axle [m]; within [0.0001, 0.1]
+        """
+    @axle_radius.setter
+    def axle_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def cap_scale(self) -> float:
+        """
+        paper: part of the spheroid's motion that caps the pull [1]; within [0.0, 1.0]
+        """
+    @cap_scale.setter
+    def cap_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def catch_distance(self) -> float:
+        """
+        a catch needs the diabolo this close to the line of the tips [m]; within [0.0, 1.0]
+        """
+    @catch_distance.setter
+    def catch_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def catch_slack(self) -> float:
+        """
+        a catch needs tips no closer than the string length minus this [m]; within [0.0, 20.0]
+        """
+    @catch_slack.setter
+    def catch_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def dissipation_rate(self) -> float:
+        """
+        decay of the velocity while on the string [1/s]; within [0.0, 1000.0]
+        """
+    @dissipation_rate.setter
+    def dissipation_rate(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def flight_rule(self) -> str:
+        """
+        when the diabolo leaves the string and comes back to it, as in diabolo.FlightRule: 'published' 'paper' 'slack'
+        """
+    @flight_rule.setter
+    def flight_rule(self, arg1: str) -> None:
+        ...
+    @property
+    def flying_distance(self) -> float:
+        """
+        paper's c_F [m]; within [0.0, 1.0]
+        """
+    @flying_distance.setter
+    def flying_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def gravity(self) -> float:
+        """
+        acceleration of gravity, downwards [m/s^2]; within [0.0, 100.0]
+        """
+    @gravity.setter
+    def gravity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def integrator(self) -> str:
+        """
+        of the free motion, as in diabolo.Integrator: 'euler' 'parabolic'
+        """
+    @integrator.setter
+    def integrator(self, arg1: str) -> None:
+        ...
+    @property
+    def loose_distance(self) -> float:
+        """
+        paper's c_L [m]; within [0.0, 1.0]
+        """
+    @loose_distance.setter
+    def loose_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def mass(self) -> float:
+        """
+        mass of the diabolo [kg]; within [0.001, 10.0]
+        """
+    @mass.setter
+    def mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def mu_acceleration(self) -> float:
+        """
+        paper: spin per growth of the right strand [rad/m]; within [0.0, 10000.0]
+        """
+    @mu_acceleration.setter
+    def mu_acceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def mu_deceleration(self) -> float:
+        """
+        paper: spin per shrinking of the right strand [rad/m]; within [0.0, 10000.0]
+        """
+    @mu_deceleration.setter
+    def mu_deceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def normal_rule(self) -> str:
+        """
+        which direction counts as the spheroid's normal, as in diabolo.NormalRule: 'published' 'true'
+        """
+    @normal_rule.setter
+    def normal_rule(self, arg1: str) -> None:
+        ...
+    @property
+    def per_step(self) -> bool:
+        """
+        apply the factors as if every step were a reference step, so that the motion depends on the step
+        """
+    @per_step.setter
+    def per_step(self, arg1: bool) -> None:
+        ...
+    @property
+    def planar(self) -> bool:
+        """
+        keep the diabolo in the plane through its start square to plane_normal
+        """
+    @planar.setter
+    def planar(self, arg1: bool) -> None:
+        ...
+    @property
+    def plane_normal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        unit vector, shape (3,)
+        """
+    @plane_normal.setter
+    def plane_normal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def projection(self) -> str:
+        """
+        where a diabolo outside the spheroid is put back, as in diabolo.Projection: 'radial' 'closest_point'
+        """
+    @projection.setter
+    def projection(self, arg1: str) -> None:
+        ...
+    @property
+    def pull_scale(self) -> float:
+        """
+        paper: part of the correction that becomes velocity, before the cap [1]; within [0.0, 1.0]
+        """
+    @pull_scale.setter
+    def pull_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def pull_scale_after_cap(self) -> float:
+        """
+        paper: damping of the pull after the cap, per reference step [1]; within [0.0, 1.0]
+        """
+    @pull_scale_after_cap.setter
+    def pull_scale_after_cap(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def reference_step(self) -> float:
+        """
+        step that the per-step factors are stated for [s]; within [1e-06, 0.1]
+        """
+    @reference_step.setter
+    def reference_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def release_when_overstretched(self) -> bool:
+        """
+        let go where the tips are farther apart than the string, instead of holding the diabolo
+        """
+    @release_when_overstretched.setter
+    def release_when_overstretched(self, arg1: bool) -> None:
+        ...
+    @property
+    def spin_coupling(self) -> float:
+        """
+        rate at which slip on the axle is worn off [1/s]; within [0.0, 1000.0]
+        """
+    @spin_coupling.setter
+    def spin_coupling(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def spin_rule(self) -> str:
+        """
+        how passing string drives the spin, as in diabolo.SpinRule: 'slip' 'length_change'
+        """
+    @spin_rule.setter
+    def spin_rule(self, arg1: str) -> None:
+        ...
+    @property
+    def string_law(self) -> str:
+        """
+        how the string acts on the diabolo, as in diabolo.StringLaw: 'pull_velocity' 'inextensible'
+        """
+    @string_law.setter
+    def string_law(self, arg1: str) -> None:
+        ...
+    @property
+    def string_length(self) -> float:
+        """
+        length of the string between the tips [m]; within [0.05, 20.0]
+        """
+    @string_length.setter
+    def string_length(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def thin_rule(self) -> str:
+        """
+        what happens to the pull when the spheroid is thin, as in diabolo.ThinRule: 'published' 'paper'
+        """
+    @thin_rule.setter
+    def thin_rule(self, arg1: str) -> None:
+        ...
+    @property
+    def thin_slack(self) -> float:
+        """
+        the spheroid is thin when the tips are farther apart than L minus this [m]; within [0.0, 20.0]
+        """
+    @thin_slack.setter
+    def thin_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class StringElasticity:
+    """
+    A string that stretches.
+    
+    Its tension is stiffness times extension plus damping times the extension's rate, while positive. The
+    amplitude is the compliance, so that zero, the default, is the rigid string.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    @staticmethod
+    def of_stiffness(stiffness: typing.SupportsFloat | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> StringElasticity:
+        """
+        Stiffness [N/m] and damping [N s/m] of the path length.
+        """
+    def __copy__(self) -> StringElasticity:
+        ...
+    def __deepcopy__(self, memo: dict) -> StringElasticity:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def compliance(self) -> float:
+        """
+        extension of the path length per tension [m/N]; within [0.0, 1.0]
+        """
+    @compliance.setter
+    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def damping(self) -> float:
+        """
+        tension per rate of the path length [N s/m]; within [0.0, 10000.0]
+        """
+    @damping.setter
+    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class Model:
+    """
+    Everything that decides a prediction.
+    
+        Model(Parameters(), string_elasticity=StringElasticity.of_stiffness(600.0))
+    
+    Parameters, and effects beyond the paper by keyword; an effect left out, or None, has the amplitude zero and
+    changes nothing. Where a Model is to be simulated, Parameters will do.
+    
+    The rest matters where a recording is to be predicted: `interpolation` says how its tips are read between the
+    samples, as in diabolo.Interpolation; string length, mass and axle radius are the recording's unless the model
+    says that its own count.
+    """
+    __hash__: typing.ClassVar[None] = None
+    name: str
+    own_axle_radius: bool
+    own_mass: bool
+    parameters: Parameters
+    string_elasticity: StringElasticity
+    @staticmethod
+    def consistent() -> Model:
+        """
+        Ours: an inextensible string of the recording's length, tips on a smooth path.
+        """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> Model:
+        """
+        Reads a model file (JSON) of the schema diabolo.model/1.
+        """
+    @staticmethod
+    def named(name: str) -> Model:
+        """
+        'published', 'paper' or 'consistent'.
+        """
+    @staticmethod
+    def paper() -> Model:
+        """
+        The rules of the paper's text: its own string of 1.45 m, held tips.
+        """
+    @staticmethod
+    def published() -> Model:
+        """
+        The authors' program with the settings of its evaluation: its own string of 1.46 m, held tips.
+        """
+    def __copy__(self) -> Model:
+        ...
+    def __deepcopy__(self, memo: dict) -> Model:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, parameters: Parameters = ..., *, name: str = 'custom', interpolation: str = 'spline', own_string_length: bool = False, own_mass: bool = False, own_axle_radius: bool = False, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def save(self, path: os.PathLike | str | bytes) -> None:
+        """
+        Writes a model file, whole or not at all.
+        """
+    def to_dict(self) -> dict:
+        """
+        The keyword arguments that make the model again.
+        """
+    @property
+    def interpolation(self) -> str:
+        """
+        How the tips of a recording are read between its samples, as in diabolo.Interpolation.
+        """
+    @interpolation.setter
+    def interpolation(self, arg1: str) -> None:
+        ...
+    @property
+    def own_string_length(self) -> bool:
+        """
+        Whether parameters.string_length counts, whatever a recording says.
+        """
+    @own_string_length.setter
+    def own_string_length(self, arg0: bool) -> None:
+        ...
+class State:
+    """
+    State of the diabolo, a point mass that spins.
+    
+    `position` [m] and `velocity` [m/s] have the shape (3,), world frame: x forward (away from the player), y left,
+    z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
+    string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.
+    """
+    def __copy__(self) -> State:
+        ...
+    def __deepcopy__(self, memo: dict) -> State:
+        ...
+    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (0.0, 0.0, 0.0), spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, string_state: typing.Any = 'loose') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_array(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Position, velocity and spin, shape (7,).
+        """
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Centre [m], shape (3,).
+        """
+    @position.setter
+    def position(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def spin(self) -> float:
+        """
+        [rad/s]
+        """
+    @spin.setter
+    def spin(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def string_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Mean acceleration by the string over the last step [m/s^2], shape (3,).
+        """
+    @property
+    def string_state(self) -> int:
+        """
+        A StringState; its number or its name may be assigned.
+        """
+    @string_state.setter
+    def string_state(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        [m/s], shape (3,).
+        """
+    @velocity.setter
+    def velocity(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+class RecordingError(ValueError):
+    """
+    What is wrong with a recording, a calibration or one of their files.
+    """
+class DiaboloProperties:
+    """
+    What a diabolo is like.
+    """
+    @staticmethod
+    def blue() -> DiaboloProperties:
+        """
+        The blue one, which runs on a bearing.
+        """
+    @staticmethod
+    def green() -> DiaboloProperties:
+        ...
+    @staticmethod
+    def patterned() -> DiaboloProperties:
+        ...
+    @staticmethod
+    def red() -> DiaboloProperties:
+        """
+        The paper's red diabolo, without markers.
+        """
+    def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex, diameter: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, axle_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0065) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def axle_radius(self) -> float:
+        """
+        Where the string runs [m].
+        """
+    @property
+    def diameter(self) -> float:
+        """
+        Of the cups [m].
+        """
+    @property
+    def length(self) -> float:
+        """
+        Along the axle [m].
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg]
+        """
+class Calibration:
+    """
+    How the rigid bodies of a Motive take become the tips and the diabolo of a recording.
+    """
+    @staticmethod
+    def blue() -> Calibration:
+        """
+        Of the blue diabolo; its tips are only estimates.
+        """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> Calibration:
+        """
+        Reads a file of the schema diabolo.calibration/1.
+        """
+    @staticmethod
+    def published() -> Calibration:
+        """
+        Of the red diabolo with the sticks of July 2020; the default.
+        """
+    def save(self, path: os.PathLike | str | bytes) -> None:
+        """
+        Writes it, whole or not at all.
+        """
+    def to_json(self) -> str:
+        """
+        The text of its file.
+        """
+class MotiveBody:
+    """
+    A rigid body of a Motive take, in the frame of the motion capture.
+    """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of the body's origin [m], shape (N, 3); NaN in a dropout.
+        """
+    @property
+    def quaternion(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Body to capture frame, x, y, z, w, shape (N, 4); NaN in a dropout.
+        """
+class MotiveTake:
+    """
+    A take as OptiTrack Motive exports it, with nothing interpreted.
+    """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> MotiveTake:
+        """
+        Reads a Motive export (CSV).
+        """
+    @property
+    def bodies(self) -> list[MotiveBody]:
+        """
+        List of MotiveBody.
+        """
+    @property
+    def rate(self) -> float:
+        """
+        [Hz]
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        [s], shape (N,).
+        """
+class Recording:
+    """
+    A recorded play: stick tips and diabolo over N samples.
+    
+    World frame: x forward (away from the player), y left, z up. Arrays are read-only views; a dropout is NaN. To
+    make one from arrays, hand over `time` [s] of the shape (N,), positions [m] of the shape (N, 3) and, if known,
+    orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or along the stick outwards.
+    """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
+        """
+        Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.
+        """
+    def __init__(self, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], diabolo: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, *, diabolo_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, left_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.46) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def cut(self, first: typing.SupportsInt | typing.SupportsIndex, last: typing.SupportsInt | typing.SupportsIndex) -> Recording:
+        """
+        Rows first to last, both included.
+        """
+    def resample(self, rate: typing.SupportsFloat | typing.SupportsIndex) -> Recording:
+        """
+        The recording at another rate [Hz]; dropouts are not bridged.
+        """
+    def save(self, path: os.PathLike | str | bytes) -> None:
+        """
+        Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all.
+        """
+    def spin(self, signed: bool = True) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the published rule, which counts turning of the axle too.
+        """
+    @property
+    def diabolo(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Centre of the axle [m], shape (N, 3).
+        """
+    @property
+    def diabolo_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        Unit quaternions x, y, z, w, shape (N, 4), or None; body x is the spin axis.
+        """
+    @property
+    def diabolo_valid(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        False marks a dropout, shape (N,).
+        """
+    @property
+    def frame(self) -> numpy.typing.NDArray[numpy.int64]:
+        """
+        Number of each sample in its take, shape (N,).
+        """
+    @property
+    def left(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Left stick tip [m], shape (N, 3).
+        """
+    @property
+    def left_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards.
+        """
+    @property
+    def left_valid(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        False marks a dropout, shape (N,).
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def properties(self) -> DiaboloProperties:
+        ...
+    @property
+    def rate(self) -> float:
+        """
+        Nominal sampling rate [Hz].
+        """
+    @property
+    def right(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Right stick tip [m], shape (N, 3).
+        """
+    @property
+    def right_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards.
+        """
+    @property
+    def right_valid(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        False marks a dropout, shape (N,).
+        """
+    @property
+    def string_length(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        [s], shape (N,).
+        """
+class Spheroid:
+    """
+    The points that a diabolo reaches when the string is taut.
+    
+    The stick tips are its foci, the string's length is its major axis: every point on it has the path length
+    |p - left| + |p - right| == string_length. Methods take points of the shape (..., 3) [m] and give arrays of
+    the shape (...) or (..., 3); a point with a NaN (a dropout) gives NaN.
+    """
+    def __init__(self, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_length: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        """
+        Tips, each of the shape (3,) [m], and string length [m].
+        """
+    def __repr__(self) -> str:
+        ...
+    def closest_point(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The closest points of the surface [m].
+        """
+    def normal(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Outward unit normals of the confocal surfaces through the points.
+        """
+    def path_gradient(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Derivative of the path length with respect to the point.
+        """
+    def path_length(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        |p - left| + |p - right| [m].
+        """
+    def published_normal(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The unit vectors that the published program takes for the normals.
+        """
+    def radial_point(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Where the rays from the centre leave the spheroid [m] (the published program's projection).
+        """
+    def signed_distance(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Distance to the surface [m], positive inside (the paper's s).
+        """
+    @property
+    def axis(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Unit vector from the right tip to the left one, shape (3,).
+        """
+    @property
+    def center(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Midpoint of the tips, shape (3,) [m].
+        """
+    @property
+    def left(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Left tip, shape (3,) [m].
+        """
+    @property
+    def overstretched(self) -> bool:
+        """
+        Whether the tips are farther apart than the string is long.
+        """
+    @property
+    def right(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Right tip, shape (3,) [m].
+        """
+    @property
+    def semi_major(self) -> float:
+        """
+        Half the string's length [m].
+        """
+    @property
+    def semi_minor(self) -> float:
+        """
+        Radius across the axis [m].
+        """
+    @property
+    def string_length(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def tip_distance(self) -> float:
+        """
+        Distance between the tips [m].
+        """
+class TipMotion:
+    """
+    Motion of the two stick tips, given at increasing instants.
+    
+    `times` [s] has the shape (M,), `left` and `right` [m] the shape (M, 3), world frame: x forward (away from the
+    player), y left, z up. Before the first and after the last instant the tips rest. Between two instants they
+    follow `interpolation`, as in diabolo.Interpolation: 'linear', 'spline' or 'held'.
+    """
+    @staticmethod
+    def of_recording(recording: Recording, interpolation: str = 'spline') -> TipMotion:
+        """
+        Motion of a recording's tips, time zero at its first row; gaps in a tip's track are filled, and rows before both tips are seen, or after, are left out.
+        """
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], typing.Any]:
+        ...
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], interpolation: str = 'linear') -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
+        """
+        Left tips [m], right tips [m], left and right velocities [m/s] at times of any shape (...): four arrays of the shape (..., 3).
+        """
+    @property
+    def begin(self) -> float:
+        """
+        First instant [s].
+        """
+    @property
+    def end(self) -> float:
+        """
+        Last instant [s].
+        """
+    @property
+    def interpolation(self) -> str:
+        ...
+    @property
+    def left(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Left tips [m], shape (M, 3).
+        """
+    @property
+    def right(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Right tips [m], shape (M, 3).
+        """
+    @property
+    def times(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Instants [s], shape (M,).
+        """
+class StepStatus:
+    """
+    What happened in one step.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def caught(self) -> bool:
+        """
+        The string was under a flying diabolo again.
+        """
+    @property
+    def overstretched(self) -> bool:
+        """
+        The tips were farther apart than the string: the diabolo is held between them.
+        """
+    @property
+    def snapped_taut(self) -> bool:
+        """
+        The string came taut within the step.
+        """
+class Predictor:
+    """
+    Predicts the diabolo from the motion of the stick tips.
+    
+        predictor = Predictor(Parameters())
+        predictor = Predictor(Parameters(), string_elasticity=StringElasticity.of_stiffness(600.0))
+        predictor.step(state, left0, right0, left1, right1, dt=1e-3)
+    
+    It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().
+    """
+    @typing.overload
+    def __init__(self, parameters: Parameters, **kwargs) -> None:
+        ...
+    @typing.overload
+    def __init__(self, model: Model, **kwargs) -> None:
+        ...
+    def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None) -> StepStatus:
+        """
+        Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
+        each of the shape (3,) [m].
+        
+        `velocities` [m/s] are those of left0, right0, left1, right1; without them the tips go straight at constant
+        speed. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.
+        """
+    @property
+    def parameters(self) -> Parameters:
+        """
+        A copy.
+        """
+class ExcerptScore:
+    """
+    Position error of one rollout over a recording, as the paper's table counts it.
+    """
+    @property
+    def baseline_error(self) -> float:
+        """
+        Of the lowest-point baseline [m].
+        """
+    @property
+    def diverged(self) -> float | None:
+        """
+        When the prediction left the world [s], or None.
+        """
+    @property
+    def duration(self) -> float:
+        """
+        From the start to the last row compared [s].
+        """
+    @property
+    def error(self) -> float | None:
+        """
+        Mean distance to the recorded diabolo [m]; None where the prediction diverged.
+        """
+    @property
+    def model(self) -> str:
+        """
+        Name.
+        """
+    @property
+    def motion(self) -> str:
+        """
+        As the paper calls it; empty where it has no such excerpt.
+        """
+    @property
+    def paper_error(self) -> float | None:
+        """
+        As the paper prints it [m], or None.
+        """
+    @property
+    def program_error(self) -> float | None:
+        """
+        Of the authors' program, run again [m], or None.
+        """
+    @property
+    def recording(self) -> str:
+        """
+        Name of the take.
+        """
+    @property
+    def rows(self) -> int:
+        """
+        Of the excerpt.
+        """
+    @property
+    def scored(self) -> int:
+        """
+        Rows compared.
+        """
+    @property
+    def skipped(self) -> int:
+        """
+        Rows after the start whose diabolo, or the one before, is missing.
+        """
+    @property
+    def start_row(self) -> int:
+        """
+        0 unless the diabolo or a tip is missing there.
+        """
+class Interval:
+    """
+    From low to high.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def high(self) -> float:
+        ...
+    @property
+    def low(self) -> float:
+        ...
+class ErrorSummary:
+    """
+    What a set of position errors looks like.
+    """
+    @property
+    def mean(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def mean_ci95(self) -> Interval | None:
+        """
+        Block-bootstrap interval of the mean [m]; None where the errors are too few to tell.
+        """
+    @property
+    def median(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def percentile_90(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def windows(self) -> int:
+        """
+        How many errors.
+        """
+class HorizonScore:
+    """
+    Position errors at one horizon, over all starts.
+    """
+    @property
+    def advantage(self) -> float | None:
+        """
+        How much smaller the model's error is than the baseline's in the same window, mean [m].
+        """
+    @property
+    def advantage_ci95(self) -> Interval | None:
+        ...
+    @property
+    def baseline(self) -> ErrorSummary | None:
+        """
+        Of the lowest-point baseline, over all windows.
+        """
+    @property
+    def failed(self) -> int:
+        """
+        Of these: the prediction diverged; not in `model`.
+        """
+    @property
+    def horizon(self) -> float:
+        """
+        After the start [s].
+        """
+    @property
+    def missed_catches(self) -> int:
+        """
+        Of these: predicted in flight below the tips, so never caught.
+        """
+    @property
+    def model(self) -> ErrorSummary | None:
+        """
+        ErrorSummary, or None where nothing could be compared.
+        """
+    @property
+    def windows(self) -> int:
+        """
+        Starts that could be compared.
+        """
+def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
+    """
+def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
+    """
+    The same as Recording.load.
+    """
+def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
+    """
+    See diabolo.predict.
+    """
+def rollout(models: collections.abc.Sequence[Model], initial: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, record_every: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+    """
+    See diabolo.rollout, which checks and broadcasts what it hands over.
+    """
+def rollout_gradient(model: Model, initial: State, tips: TipMotion, with_respect_to: collections.abc.Sequence[str], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+    """
+    See diabolo.rollout_gradient.
+    """
+def score_excerpt(recording: Recording, model: Model) -> ExcerptScore:
+    """
+    See diabolo.evaluate.
+    """
+def score_excerpts(recording: Recording, model: Model) -> list[ExcerptScore]:
+    """
+    See diabolo.evaluate.
+    """
+def score_horizons(recordings: collections.abc.Sequence[Recording], model: Model, starts_every: typing.SupportsFloat | typing.SupportsIndex, horizons: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], start: str, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> list[HorizonScore]:
+    """
+    See diabolo.evaluate.
+    """
+def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsIndex, start: str = 'fair', signed_spin: bool = True) -> State:
+    """
+    State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program.
+    """
 __version__: str = '0.1.0'

@@ -70,7 +70,7 @@ def rollout(
         fall = rollout(Parameters(), [0, 0, -0.4, 0, 0, 0, 100], tips, steps=1000)
         fall.states[-1]  # a second later
     """
-    models = [model] if isinstance(model, (Model, Parameters)) else list(model)
+    models = [_model(one) for one in ([model] if isinstance(model, (Model, Parameters)) else model)]
     motions = [tips] if isinstance(tips, TipMotion) else list(tips)
     states = np.asarray(initial, dtype=np.float64)
     codes = _codes(string_state)
@@ -151,7 +151,7 @@ def rollout_gradient(
     if steps < 0:
         raise ValueError(f"steps: {steps}; must not be negative")
     final, final_string_state, derivatives = _core.rollout_gradient(
-        model,
+        _model(model),
         _core.State(state[:3], state[3:6], float(state[6]), string_state),
         tips,
         list(with_respect_to),
@@ -161,6 +161,10 @@ def rollout_gradient(
         _checked_threads(threads),
     )
     return RolloutGradient(final, StringState(final_string_state), derivatives)
+
+
+def _model(given: AnyModel) -> Model:
+    return given if isinstance(given, Model) else Model(given)
 
 
 def _is_sequence(given: object) -> bool:

@@ -80,7 +80,7 @@ def read_model(text: str) -> Model:
 @contextmanager
 def progress_bar(description: str) -> Iterator[Callable[[float], None]]:
     """A function to call with the fraction done; it draws a bar where there is a terminal."""
-    from tqdm import tqdm
+    from tqdm import tqdm  # type: ignore[import-untyped]
 
     layout = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}"
     with tqdm(

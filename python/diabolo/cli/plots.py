@@ -74,7 +74,9 @@ def _horizon_figure(result: Evaluation) -> Figure:
     for panel, name in zip(axes, names, strict=True):
         rows = [row for row in result.horizons if row.recording == name and row.score.model is not None]
         _draw_horizons(panel, rows)
-        panel.set(title=name, xlabel="time after the start [s]", ylabel="mean position error [m]")
+        panel.set(title=name, xlabel="time after the start [s]")
+        if panel.get_subplotspec().is_first_col():
+            panel.set_ylabel("mean position error [m]")
     axes[0].legend(fontsize="small")
     return figure
 
@@ -104,6 +106,7 @@ def _draw_horizons(panel: Axes, rows: list[HorizonRow]) -> None:
     own = [row.score for row in rows if row.model == models[0]] if models else []
     means = [(score.horizon, score.baseline.mean) for score in own if score.baseline is not None]
     panel.plot([h for h, _ in means], [mean for _, mean in means], label="baseline", **BASELINE_STYLE)
+    panel.fill_between([], [], color="0.5", alpha=0.3, linewidth=0.0, label="95 % interval")
     panel.set_xscale("log")
     panel.set_yscale("log")
     horizons = sorted({row.score.horizon for row in rows})
