@@ -120,13 +120,14 @@ scalars stress: # Every law with every scalar; long random runs. With assertions
 	  $(ctest) --test-dir $(BUILD)/heavy -L $@; \
 	else echo "No test in tests/$@ yet."; fi
 
-bench: build-benchmarks ## Run every benchmark, and print what each header costs to compile
-	@for program in $(BUILD)/bench/benchmarks/bench_*; do [ ! -x "$$program" ] || "$$program"; done
-	@$(PYTHON) benchmarks/compile_time.py
+# With MuJoCo where `make mujoco` has installed it, with instruction counts where valgrind is found.
+run_benchmarks = $(VENV)/bin/python benchmarks/run_all.py $(BUILD)/bench/benchmarks
 
-check-benchmarks: build-benchmarks # Every benchmark runs; its figures are not looked at.
-	@for program in $(BUILD)/bench/benchmarks/bench_*; do \
-	  [ ! -x "$$program" ] || "$$program" --benchmark_min_time=0.001; done
+bench: build-benchmarks $(VENV)/.created ## Run every benchmark and write docs/benchmarks.md
+	@$(run_benchmarks) docs/benchmarks.md --json $(BUILD)/bench/benchmarks.json
+
+check-benchmarks: build-benchmarks $(VENV)/.created # Every benchmark runs; its figures are not looked at.
+	@$(run_benchmarks) $(BUILD)/bench/check/benchmarks.md --brief
 
 build-benchmarks:
 	@$(packages) build bench
