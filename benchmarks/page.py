@@ -192,8 +192,9 @@ def page(results: dict[str, Any]) -> str:
         for name, entry in sorted(results["loader"].items())
     ]
     noise = (
-        f"worst of {results['repetitions']} repetitions over their median: {100 * statistics.median(spreads):.0f} % "
-        f"for half of the figures, {100 * max(spreads):.0f} % for the worst of them"
+        f"worst of {results['repetitions']} repetitions over their median: "
+        f"{100 * statistics.median(spreads):.0f} % for half of the figures, "
+        f"{100 * max(spreads):.0f} % for the worst of them"
     )
     headers = sorted(results["compile"]["seconds"].items(), key=lambda item: -item[1])
     return f"""# Benchmarks
@@ -252,7 +253,7 @@ runs: `{PROGRAMS}/bench_batch`. Valgrind knows no AVX-512, so that nothing is co
 
 ## Cost in the number of steps
 
-`{PROGRAMS}/bench_step --benchmark_filter='rollout/consistent/double/beat'`, `{PROGRAMS}/bench_batch`.
+`{PROGRAMS}/bench_step --benchmark_filter=rollout/consistent/double/beat`, `{PROGRAMS}/bench_batch`.
 
 {linear(results)[0]}
 
