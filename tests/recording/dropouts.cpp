@@ -31,12 +31,21 @@ TEST_CASE("Holding changes no valid sample, and holding twice changes nothing mo
   }
 }
 
+namespace {
+
+/// One mark per digit, 1 being valid.
+Marks marks(const std::string& digits) {
+  Marks result(static_cast<Eigen::Index>(digits.size()));
+  for (std::size_t i = 0; i < digits.size(); ++i) result[static_cast<Eigen::Index>(i)] = digits[i] == '1';
+  return result;
+}
+
+}  // namespace
+
 TEST_CASE("Dropouts widen by the asked number of samples") {
-  const Marks valid = (Marks(9) << true, true, true, true, false, true, true, true, true).finished();
+  const Marks valid = marks("111101111");
   CHECK((widen_dropouts(valid, 0) == valid).all());
-  CHECK((widen_dropouts(valid, 1) ==
-         (Marks(9) << true, true, true, false, false, false, true, true, true).finished())
-            .all());
+  CHECK((widen_dropouts(valid, 1) == marks("111000111")).all());
   CHECK((widen_dropouts(valid, 2) == widen_dropouts(widen_dropouts(valid, 1), 1)).all());
   CHECK(!widen_dropouts(valid, 100).any());
 }
