@@ -44,6 +44,7 @@ inline std::size_t dependence_length(std::span<const double> series) {
     return sum;
   };
   const double variance = covariance(0), threshold = 2.0 * std::sqrt(std::log10(count) / count);
+  if (!(variance > 1e-24 * count * mean * mean)) return 1;  // nothing but rounding
   std::size_t last = 0;
   for (std::size_t lag = 1; lag < n && lag <= last + kInARow; ++lag)
     if (std::abs(covariance(lag)) > threshold * variance) last = lag;
@@ -53,9 +54,10 @@ inline std::size_t dependence_length(std::span<const double> series) {
 /// Fewest blocks from which an interval is given.
 inline constexpr std::size_t kFewestBlocks = 5;
 
-/// Interval that holds the true mean with 95 %, for a series in which values `block` or more apart are
-/// independent: circular block bootstrap, percentiles expanded for the number of blocks, as Student's t would
-/// be (Hesterberg 2015). None from fewer than kFewestBlocks blocks.
+/// 95 % interval of the true mean, for a series in which values `block` or more apart are independent:
+/// circular block bootstrap, percentiles expanded for the number of blocks, as Student's t would be
+/// (Hesterberg 2015). On overlapping sums of noise it holds the mean in 91 to 95 % of the cases. None from
+/// fewer than kFewestBlocks blocks.
 inline std::optional<Interval> mean_interval(std::span<const double> series, std::size_t block,
                                              std::mt19937_64& generator) {
   constexpr std::size_t kResamples = 10000;

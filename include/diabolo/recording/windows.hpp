@@ -42,7 +42,8 @@ inline std::vector<bool> in_long_gap(const Track& tip, const Eigen::VectorXd& ti
 
 /// The windows of a recording, the same for every model. A start is every row a multiple of `starts_every`
 /// [s] after row 0 at which both kinds of Start are known; a horizon [s] can be compared where the diabolo is
-/// seen in the row nearest to it, at most half a period off, and no tip has a long gap from start to there.
+/// seen in the row nearest to it (the earlier of two), at most half a period off, and no tip has a long gap
+/// from start to there.
 inline std::vector<PredictionWindow> prediction_windows(const Recording& recording, const StartStates& starts,
                                                         const Eigen::VectorXd& times, double starts_every,
                                                         const std::vector<double>& horizons) {
@@ -55,7 +56,9 @@ inline std::vector<PredictionWindow> prediction_windows(const Recording& recordi
   const auto nearest = [&](double time) {
     const double* const begin = times.data();
     const Eigen::Index after = std::lower_bound(begin, begin + size, time) - begin;
-    return after == size || (after > 0 && time - times[after - 1] < times[after] - time) ? after - 1 : after;
+    return after == size || (after > 0 && time - times[after - 1] <= times[after] - time + kSameInstant)
+               ? after - 1
+               : after;
   };
 
   std::vector<PredictionWindow> windows;
@@ -68,7 +71,7 @@ inline std::vector<PredictionWindow> prediction_windows(const Recording& recordi
     PredictionWindow window{start, {}, start};
     for (const double horizon : horizons) {
       const Eigen::Index row = nearest(times[start] + horizon);
-      const bool there = std::abs(times[row] - times[start] - horizon) <= 0.5 / recording.rate;
+      const bool there = std::abs(times[row] - times[start] - horizon) <= 0.5 / recording.rate + kSameInstant;
       const bool comparable = there && row > start && recording.diabolo.valid[row] &&
                               gaps[static_cast<std::size_t>(row)] == gaps[static_cast<std::size_t>(start)];
       window.rows.push_back(comparable ? std::optional(row) : std::nullopt);
