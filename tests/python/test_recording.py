@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: MIT
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import motive_text
+
+import diabolo
+from diabolo import Calibration, DiaboloProperties, Recording, RecordingError, TipMotion
+
+
+def with_dropouts(played: Recording) -> Recording:
+    """A dropout of the diabolo in rows 10 to 12, of the left tip in row 20."""
+    left, diabolo_track = played.left.copy(), played.diabolo.copy()
+    diabolo_track[10:13] = np.nan
+    left[20, 1] = np.nan
+    return Recording(
+        played.time,
+        left,
+        played.right,
+        diabolo_track,
+        played.rate,
+        diabolo_orientation=played.diabolo_orientation,
+        name="holes",
+        properties=DiaboloProperties(0.2, 0.1, 0.12, 0.007),
+        string_length=1.3,
+    )
+
+
+def test_arrays_become_a_recording_with_dropouts(played: Recording) -> None:
+    recording = with_dropouts(played)
+    assert len(recording) == len(played) == recording.time.shape[0]
+    assert np.flatnonzero(~recording.diabolo_valid).tolist() == [10, 11, 12]
+    assert np.flatnonzero(~recording.left_valid).tolist() == [20]
+    assert np.isnan(recording.left[20]).all() and np.isnan(recording.diabolo[10:13]).all()
+    assert recording.left_orientation is None and recording.diabolo_orientation is not None
+    assert (recording.name, recording.rate, recording.string_length) == ("holes", 120.0, 1.3)
+    assert recording.properties.mass == 0.2
+    assert repr(recording) == "<Recording 'holes': 481 samples at 120 Hz>"
+
+
+def test_arrays_are_read_only_views(played: Recording) -> None:
+    track = played.cut(0, 99).diabolo  # outlives its recording
+    assert track.shape == (100, 3) and track.flags.c_contiguous and not track.flags.writeable
+    with pytest.raises(ValueError, match="read-only"):
+        track[0, 0] = 1.0
+    np.testing.assert_array_equal(track, played.diabolo[:100])
+
+
+def test_cuts_include_both_rows(played: Recording) -> None:
+    part = played.cut(5, 9)
+    assert part.frame.tolist() == [5, 6, 7, 8, 9]
+    np.testing.assert_array_equal(part.diabolo, played.diabolo[5:10])
+    with pytest.raises(RecordingError, match="rows 0 to 481; expected 0 <= first <= last < 481"):
+        played.cut(0, 481)
+
+
+def test_tidy_files_hold_everything(played: Recording, tmp_path: Path) -> None:
+    recording = with_dropouts(played)
+    recording.save(tmp_path / "holes.csv")
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["holes.csv", "holes.json"]
+    again = Recording.load(tmp_path / "holes.csv")
+    for name in ("time", "left", "right", "diabolo", "diabolo_orientation", "left_valid", "diabolo_valid"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(recording, name))
+    assert (again.name, again.string_length) == ("holes", 1.3)
+    assert repr(again.properties) == repr(recording.properties)
+
+
+def test_motive_files_are_calibrated(played: Recording, motive_file: Path) -> None:
+    take = diabolo.load_recording(motive_file)
+    for name in ("left", "right", "diabolo"):
+        np.testing.assert_allclose(getattr(take, name), getattr(played, name), atol=1e-7)
+    np.testing.assert_allclose(take.spin()[:-1], played.spin()[:-1], atol=1e-3)
+    assert take.string_length == 1.46 and take.name == "take"
+
+
+def test_another_calibration_moves_the_tips(played: Recording, motive_file: Path, tmp_path: Path) -> None:
+    path = tmp_path / "calibration.json"
+    Calibration.published().save(path)
+    numbers = json.loads(path.read_text())
+    x, y, z = numbers["left"]["point"]
+    numbers["left"]["point"] = [x + 0.01, y, z]
+    path.write_text(json.dumps(numbers))
+    moved = Recording.load(motive_file, Calibration.load(path))
+    shift = np.linalg.norm(moved.left - played.left, axis=1)
+    np.testing.assert_allclose(shift, 0.01, atol=1e-6)
+    np.testing.assert_allclose(moved.right, played.right, atol=1e-7)
+
+
+def test_spin_has_a_sign_unless_it_is_not_asked_for(played: Recording) -> None:
+    orientation = played.diabolo_orientation
+    assert orientation is not None
+    mirrored = Recording(
+        played.time,
+        played.left,
+        played.right,
+        played.diabolo,
+        120.0,
+        diabolo_orientation=orientation * [-1, 1, 1, 1],
+    )
+    assert played.spin()[0] == pytest.approx(100.0, abs=1e-6)
+    np.testing.assert_allclose(mirrored.spin()[:-1], -played.spin()[:-1], atol=1e-6)
+    np.testing.assert_allclose(mirrored.spin(signed=False)[:-1], np.abs(played.spin()[:-1]), atol=1e-6)
+    assert np.isnan(played.spin()[-1])
+
+
+def test_resampling_keeps_the_motion(played: Recording) -> None:
+    half = played.resample(60.0)
+    assert half.rate == 60.0 and len(half) == 241
+    np.testing.assert_allclose(half.diabolo, played.diabolo[::2], atol=1e-12)
+
+
+def test_the_tips_of_a_recording_are_a_motion(played: Recording) -> None:
+    motion = TipMotion.of_recording(played)
+    left, right, _, _ = motion.at(played.time)
+    np.testing.assert_allclose(left, played.left, atol=1e-12)
+    np.testing.assert_allclose(right, played.right, atol=1e-12)
+    filled = TipMotion.of_recording(with_dropouts(played), "linear")
+    expected = 0.5 * (played.left[19] + played.left[21])
+    np.testing.assert_allclose(filled.at(played.time[20])[0], expected, atol=1e-12)
+
+
+def test_start_states_are_those_of_the_motion(played: Recording) -> None:
+    state = diabolo.start_state(played, 60)
+    speed = 60.0 * (played.diabolo[61] - played.diabolo[59])
+    np.testing.assert_array_equal(state.position, played.diabolo[60])
+    np.testing.assert_allclose(state.velocity, speed, atol=0.02)
+    assert state.string_state == diabolo.StringState.ON_STRING
+    with pytest.raises(ValueError, match="row 0 cannot be a start"):
+        diabolo.start_state(played, 0)
+    assert diabolo.start_state(played, 0, "published").string_state == diabolo.StringState.LOOSE
+    with pytest.raises(ValueError, match="row 481; expected 0 to 480"):
+        diabolo.start_state(played, 481)
+    with pytest.raises(ValueError, match="'first'; expected 'fair' or 'published'"):
+        diabolo.start_state(played, 60, "first")
+
+
+def test_bad_arrays_are_refused(played: Recording) -> None:
+    good = (played.time, played.left, played.right, played.diabolo)
+    with pytest.raises(ValueError, match=r"left: shape \(3, 3\); expected \(481, 3\)"):
+        Recording(played.time, played.left[:3], played.right, played.diabolo, 120.0)
+    with pytest.raises(ValueError, match="rate 100 Hz, but the times step by"):
+        Recording(*good, 100.0)
+    with pytest.raises(ValueError, match="expected increasing times"):
+        Recording(played.time[::-1], *good[1:], 120.0)
+    with pytest.raises(ValueError, match="diabolo_orientation, row 0: quaternion of norm 2"):
+        Recording(*good, 120.0, diabolo_orientation=np.full((481, 4), 1.0))
+    with pytest.raises(ValueError, match="mass"):
+        DiaboloProperties(-1.0, 0.1, 0.1)
+
+
+def test_bad_files_are_named(played: Recording, tmp_path: Path) -> None:
+    path = tmp_path / "bad.csv"
+    with pytest.raises(RecordingError, match="bad.csv: there is no such file"):
+        Recording.load(path)
+    path.write_text(motive_text(played).replace("0.300000,", "0.3x,", 1))
+    with pytest.raises(RecordingError, match="bad.csv, line "):
+        Recording.load(path)
+    path.write_text("a,b\n1,2\n")
+    with pytest.raises(RecordingError, match="expected a Motive export .* or a tidy recording"):
+        Recording.load(path)
+    with pytest.raises(RecordingError, match="expected a name that ends in .csv"):
+        played.save(tmp_path / "tidy.txt")
+    with pytest.raises(RecordingError, match="cannot be written"):
+        played.save(tmp_path / "no" / "tidy.csv")
+    assert [file.name for file in tmp_path.iterdir()] == ["bad.csv"]
+
+
+def test_the_real_recordings_are_read(real_recordings: Path) -> None:
+    takes = sorted((real_recordings / "2020-07-11_basic_physics").glob("*.csv"))
+    assert takes
+    for path in takes:
+        recording = Recording.load(path)
+        assert recording.rate == 120.0 and recording.diabolo_valid.mean() > 0.9
+        assert np.nanmax(recording.spin()) > 50.0

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: MIT
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from diabolo import (
+    Model,
+    Parameters,
+    Predictor,
+    State,
+    StringElasticity,
+    StringState,
+    TipMotion,
+    motions,
+    rollout,
+)
+
+DT = 1e-3
+SWING = motions.swing(2.0)
+BEAT = motions.beat(2.0)
+CENTRE = np.array([0.5, 0.0, 1.0])
+
+
+def initial_states(count: int, seed: int) -> NDArray[np.float64]:
+    """Somewhere below the tips, moving and spinning somehow."""
+    print(f"seed {seed}")
+    random = np.random.default_rng(seed)
+    position = CENTRE + random.uniform([-0.1, -0.2, -0.6], [0.1, 0.2, -0.2], size=(count, 3))
+    velocity = random.normal(scale=0.5, size=(count, 3))
+    return np.hstack([position, velocity, random.uniform(-200.0, 200.0, size=(count, 1))])
+
+
+def step_by_step(
+    predictor: Predictor, initial: NDArray[np.float64], tips: TipMotion, steps: int
+) -> tuple[NDArray[np.float64], list[int]]:
+    left, right, left_velocity, right_velocity = tips.at(DT * np.arange(steps + 1))
+    state = State(initial[:3], initial[3:6], initial[6])
+    states, string_states = [], []
+    for i in range(steps):
+        velocities = (left_velocity[i], right_velocity[i], left_velocity[i + 1], right_velocity[i + 1])
+        predictor.step(state, left[i], right[i], left[i + 1], right[i + 1], DT, velocities)
+        states.append(state.to_array())
+        string_states.append(int(state.string_state))
+    return np.array(states), string_states
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        Model(),
+        Model(string_elasticity=StringElasticity.of_stiffness(600.0, 2.0)),
+        Model.paper(),
+        Model.published(),
+    ],
+    ids=["consistent", "elastic", "paper", "published"],
+)
+def test_a_batch_is_what_single_steps_are(model: Model) -> None:
+    initial = initial_states(9, seed=4)
+    batch = rollout(model, initial, SWING, steps=500)
+    predictor = Predictor(model)
+    for i in range(len(initial)):
+        states, string_states = step_by_step(predictor, initial[i], SWING, 500)
+        # Vector instructions may round otherwise; a taut string forgets that, and nothing here is chaotic.
+        np.testing.assert_allclose(batch.states[i], states, rtol=1e-7, atol=1e-7)
+        np.testing.assert_array_equal(batch.string_states[i], string_states)
+
+
+@given(count=st.integers(1, 20), threads=st.integers(1, 5), seed=st.integers(0, 2**32 - 1))
+def test_neither_threads_nor_neighbours_matter(count: int, threads: int, seed: int) -> None:
+    initial = initial_states(count, seed)
+    together = rollout(Parameters(), initial, BEAT, steps=300, record_every=100, threads=threads)
+    alone = rollout(Parameters(), initial[-1], BEAT, steps=300, record_every=100, threads=1)
+    np.testing.assert_array_equal(together.states[-1], alone.states)
+    all_cores = rollout(Parameters(), initial, BEAT, steps=300, record_every=100, threads=0)
+    np.testing.assert_array_equal(together.states, all_cores.states)
+    np.testing.assert_array_equal(together.string_states, all_cores.string_states)
+
+
+def test_shapes_and_types() -> None:
+    batch = rollout(Parameters(), initial_states(3, seed=5), SWING, steps=100, record_every=20)
+    assert (
+        batch.time.shape == (5,) and batch.states.shape == (3, 5, 7) and batch.string_states.shape == (3, 5)
+    )
+    assert batch.states.dtype == np.float64 and batch.states.flags.c_contiguous
+    assert batch.string_states.dtype == np.uint8
+    np.testing.assert_allclose(batch.time, [0.02, 0.04, 0.06, 0.08, 0.1])
+    single = rollout(Parameters(), initial_states(3, seed=5)[0], SWING, steps=100, record_every=20)
+    assert single.states.shape == (5, 7) and single.string_states.shape == (5,)
+    np.testing.assert_array_equal(single.states, batch.states[0])
+
+
+def test_frames_are_taken_from_the_same_motion() -> None:
+    initial = initial_states(2, seed=6)
+    every = rollout(Parameters(), initial, SWING, steps=588)
+    some = rollout(Parameters(), initial, SWING, steps=588, record_every=7 * 12)
+    np.testing.assert_array_equal(some.states, every.states[:, 83::84])
+
+
+def test_the_tips_decide_how_long_it_lasts() -> None:
+    assert rollout(Parameters(), initial_states(1, seed=7)[0], SWING).states.shape == (2000, 7)
+    assert rollout(Parameters(), initial_states(1, seed=7)[0], SWING, dt=0.3e-3).time[-1] <= 2.0
+    later = rollout(Parameters(), initial_states(1, seed=7)[0], SWING, begin=1.5)
+    assert later.states.shape == (500, 7)
+
+
+def test_a_rollout_goes_on_where_another_ended() -> None:
+    whole = rollout(Parameters(), initial_states(1, seed=8)[0], SWING, steps=1000)
+    half = whole.states[499]
+    rest = rollout(
+        Parameters(), half, SWING, begin=0.5, steps=500, string_state=int(whole.string_states[499])
+    )
+    np.testing.assert_allclose(rest.states, whole.states[500:], atol=1e-8)
+
+
+def test_models_tips_and_string_states_may_differ() -> None:
+    initial = initial_states(2, seed=9)
+    models: list[Model | Parameters] = [Parameters(string_length=1.4), Model.paper()]
+    tips = [SWING, BEAT]
+    batch = rollout(models, initial, tips, steps=200, string_state=["loose", "flying"])
+    for i, name in enumerate(("loose", "flying")):
+        alone = rollout(models[i], initial[i], tips[i], steps=200, string_state=name)
+        np.testing.assert_array_equal(batch.states[i], alone.states)
+        np.testing.assert_array_equal(batch.string_states[i], alone.string_states)
+    assert batch.string_states[1, 0] != batch.string_states[0, 0] or not np.array_equal(*batch.states)
+
+
+def test_one_state_serves_many_models() -> None:
+    lengths = [1.40, 1.45, 1.50]
+    initial = initial_states(1, seed=10)[0]
+    batch = rollout([Parameters(string_length=length) for length in lengths], initial, SWING, steps=2000)
+    assert batch.states.shape == (3, 2000, 7)
+    lowest = batch.states[:, :, 2].min(axis=1)
+    assert np.all(np.diff(lowest) < -0.02)  # the longer the string, the lower the diabolo
+
+
+def test_nothing_in_nothing_out() -> None:
+    empty = rollout(Parameters(), np.zeros((0, 7)), SWING, steps=10)
+    assert empty.states.shape == (0, 10, 7)
+    assert rollout(Parameters(), initial_states(2, seed=1), SWING, steps=0).states.shape == (2, 0, 7)
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        ({"initial": np.zeros((2, 6))}, r"initial: shape \(2, 6\); expected \(7,\) or \(N, 7\)"),
+        ({"initial": np.full((2, 7), np.nan)}, "initial: nan at index 0"),
+        ({"dt": 0.0}, "dt: 0"),
+        ({"dt": float("nan"), "steps": 5}, "dt: nan"),
+        ({"steps": -1}, "steps: -1"),
+        ({"record_every": 0}, "record_every: 0; must be at least 1"),
+        ({"steps": 10, "record_every": 3}, "steps: 10; expected a multiple of record_every, which is 3"),
+        ({"threads": -1}, "threads: -1"),
+        ({"string_state": "away"}, "'away'; expected one of on_string, loose, flying"),
+        ({"string_state": 3}, "string_state: 3"),
+        ({"string_state": [0, 1, 2]}, "string_state: 3 given for 3 rollouts|initial: 2 given for 3 rollouts"),
+        ({"string_state": np.zeros((2, 2), int)}, r"string_state: shape \(2, 2\)"),
+        ({"model": [Parameters()] * 3}, "initial: 2 given for 3 rollouts; expected 1 or 3"),
+        ({"tips": []}, "empty sequence"),
+        ({"begin": float("inf")}, "steps|begin"),
+    ],
+)
+def test_bad_input_is_named(change: dict[str, object], text: str) -> None:
+    arguments: dict[str, object] = {
+        "model": Parameters(),
+        "initial": np.zeros((2, 7)),
+        "tips": SWING,
+        "steps": 6,
+        **change,
+    }
+    with pytest.raises(ValueError, match=text):
+        rollout(**arguments)  # type: ignore[arg-type]
+
+
+def test_what_is_not_finite_does_not_travel_on() -> None:
+    initial = np.zeros((3, 7))
+    initial[1, 3] = 1e308
+    with pytest.raises(FloatingPointError, match="rollout 1: the state is no longer finite at frame"):
+        rollout(Parameters(), initial, SWING, dt=1.0, steps=20, string_state="flying")
+
+
+def test_ctrl_c_ends_it_at_once_and_other_threads_run_on() -> None:
+    initial = initial_states(2000, seed=11)
+    delays = []
+    for _ in range(3):
+        pressed: list[float] = []
+
+        def press(pressed: list[float] = pressed) -> None:
+            pressed.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        timer = threading.Timer(0.1, press)  # runs only where the interpreter's lock is free
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            rollout(Parameters(), initial, SWING, steps=10_000_000, record_every=10_000_000)
+        delays.append(time.monotonic() - pressed[0])
+        timer.join()
+    print(f"delays: {delays} s")
+    assert min(delays) < 0.2
+
+
+def test_string_states_are_those_of_the_enumeration() -> None:
+    result = rollout(Parameters(), initial_states(5, seed=12), SWING)
+    assert set(np.unique(result.string_states)) <= {int(state) for state in StringState}
+    assert np.any(result.string_states == StringState.ON_STRING)
