@@ -153,7 +153,6 @@ TEST_CASE("a dual in single precision agrees with one in double precision") {
   const F x = F::variable(1.3F, 0);
   const Dual<double, 1> exact = Dual<double, 1>::variable(double(1.3F), 0);
   const F single = sqrt(x) * exp(-x) / (F(1.0) + x * x);
-  const Dual<double, 1> wide =
-      sqrt(exact) * exp(-exact) / (Dual<double, 1>(1.0) + exact * exact);
+  const Dual<double, 1> wide = sqrt(exact) * exp(-exact) / (Dual<double, 1>(1.0) + exact * exact);
   CHECK(double(single.gradient[0]) == Approx(wide.gradient[0]).epsilon(1e-5));
 }

@@ -134,8 +134,9 @@ TEST_CASE("effects of amplitude zero change no bit, under any preset") {
     CHECK(difference(play(Predictor<double, Creep>(parameters)), plain) == 0.0);
     CHECK(difference(play(Predictor<double, Brake>(parameters)), plain) == 0.0);
     CHECK(difference(play(Predictor<double, SpinDrag>(parameters)), plain) == 0.0);
-    CHECK(difference(play(Predictor<double, Wind, TipOffset, Creep, Brake, SpinDrag, StringElasticity>(parameters)), plain) ==
-          0.0);
+    CHECK(difference(
+              play(Predictor<double, Wind, TipOffset, Creep, Brake, SpinDrag, StringElasticity>(parameters)),
+              plain) == 0.0);
   }
 }
 
@@ -221,7 +222,8 @@ TEST_CASE("a contact impulse acts while the string is taut") {
 
 TEST_CASE("spin drag acts in every state") {
   for (const auto preset : kPresets)
-    for (const StringState string_state : {StringState::kOnString, StringState::kLoose, StringState::kFlying}) {
+    for (const StringState string_state :
+         {StringState::kOnString, StringState::kLoose, StringState::kFlying}) {
       Predictor<double, SpinDrag>::Set set;
       set.get<SpinDrag>().deceleration = 20.0;
       Numbers parameters = preset();

@@ -24,10 +24,16 @@ using Number = ValueOf<P>;
 /// A random number of any size and sign, or a special one.
 template <class T>
 T any_number(Random& random) {
-  constexpr T kSpecial[] = {T(0), T(-0.0), T(1), std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min(),
-                            std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity()};
+  constexpr T kSpecial[] = {T(0),
+                            T(-0.0),
+                            T(1),
+                            std::numeric_limits<T>::max(),
+                            std::numeric_limits<T>::denorm_min(),
+                            std::numeric_limits<T>::infinity(),
+                            -std::numeric_limits<T>::infinity()};
   if (random.chance(0.2)) return kSpecial[random.index(7)];
-  return static_cast<T>(random.log_uniform(1e-20, 1e20) * (random.chance(0.5) ? 1.0 : -1.0));
+  const double sign = random.chance(0.5) ? 1.0 : -1.0;
+  return static_cast<T>(sign * random.log_uniform(1e-20, 1e20));
 }
 
 /// Calls `check(x, y)` with many pairs of packs.
@@ -85,7 +91,8 @@ TEMPLATE_TEST_CASE("each lane has the bits of the scalar operation", "", Double2
 
 TEMPLATE_TEST_CASE("comparisons and choices go lane by lane", "", Double2, Double4, Double8, Float8) {
   for_many<TestType>([](const TestType& x, const TestType& y) {
-    const auto less = x < y, greater = x > y, at_most = x <= y, at_least = x >= y, equal = x == y, other = x != y;
+    const auto less = x<y, greater = x> y, at_most = x <= y, at_least = x >= y, equal = x == y,
+               other = x != y;
     const TestType chosen = select(less, x, y), low = minimum(x, y), size = absolute(x);
     bool some = false, every = true, good = true;
     for (int i = 0; i < ScalarTraits<TestType>::kLanes; ++i) {

@@ -13,7 +13,8 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr StringState kOn = StringState::kOnString, kLoose = StringState::kLoose, kFlying = StringState::kFlying;
+constexpr StringState kOn = StringState::kOnString, kLoose = StringState::kLoose,
+                      kFlying = StringState::kFlying;
 constexpr double kStep = 1e-3;
 
 using Numbers = Parameters<double>;
@@ -29,7 +30,9 @@ Tips<double> level(double distance) {
   return tips;
 }
 
-Spheroid<double> spheroid_of(const Tips<double>& tips, double length) { return {tips.left, tips.right, length}; }
+Spheroid<double> spheroid_of(const Tips<double>& tips, double length) {
+  return {tips.left, tips.right, length};
+}
 
 State<double> at_rest(const Vector& position, StringState string_state) {
   State<double> state;
@@ -58,7 +61,9 @@ TEST_CASE("every preset: from the string to loose, well inside the spheroid") {
   for (const Preset preset : kPresets) {
     const Numbers parameters = preset();
     const Spheroid<double> s = spheroid_of(tips, parameters.string_length);
-    const auto below = [&](double inside) { return Vector(s.center() - Vector(0.0, 0.0, s.semi_minor() - inside)); };
+    const auto below = [&](double inside) {
+      return Vector(s.center() - Vector(0.0, 0.0, s.semi_minor() - inside));
+    };
     CHECK(after_step(parameters, at_rest(below(0.011), kOn), tips) == kLoose);
     CHECK(after_step(parameters, at_rest(below(0.3), kOn), tips) == kLoose);
     CHECK(after_step(parameters, at_rest(below(0.011), kLoose), tips) == kLoose);
@@ -154,7 +159,8 @@ TEST_CASE("published: state, then constraint, then spin, in the order of the rec
     const double g = 9.8, a = parameters.string_length / 2.0;
     Vector p = start.position + start.velocity * kStep - Vector(0.0, 0.0, 0.5 * g * kStep * kStep);
     Vector v = start.velocity - Vector(0.0, 0.0, g * kStep);
-    const StringState expected_state = published_string_state<double>(start.string_state, p, after, parameters);
+    const StringState expected_state =
+        published_string_state<double>(start.string_state, p, after, parameters);
     double spin = start.spin;
     if (expected_state == kOn) {
       ++constrained;
@@ -168,7 +174,8 @@ TEST_CASE("published: state, then constraint, then spin, in the order of the rec
         return Vector(((x - center - along) / b + along / a).normalized());
       };
       const double along = axis.dot(p - center), across = (p - center - axis * along).norm();
-      const Vector put = center + (p - center) / std::sqrt(along * along / (a * a) + across * across / (b * b));
+      const Vector put =
+          center + (p - center) / std::sqrt(along * along / (a * a) + across * across / (b * b));
       const Vector n = published_normal(put), n_before = published_normal(p);
       double pull_size = -(put - p).dot(n) / kStep * 0.13;
       Vector pull = pull_size > 0.0 ? Vector(n * -pull_size) : Vector(Vector::Zero());
@@ -261,10 +268,13 @@ TEST_CASE("an overstretched string lets the diabolo swing on when the tips come 
   bool was_overstretched = false;
   for (int i = 0; i < 2000; ++i) {
     const auto distance = [](int k) { return 1.3 + 0.3 * std::sin(0.005 * k); };
-    was_overstretched = predictor.step(state, level(distance(i)), level(distance(i + 1)), kStep).overstretched || was_overstretched;
+    was_overstretched =
+        predictor.step(state, level(distance(i)), level(distance(i + 1)), kStep).overstretched ||
+        was_overstretched;
     REQUIRE(state.position.allFinite());
     const Spheroid<double> s = spheroid_of(level(distance(i + 1)), 1.45);
-    if (!s.overstretched() && !(state.string_state == kFlying)) CHECK(s.path_length(state.position) < 1.45 * (1.0 + 1.1e-10));
+    if (!s.overstretched() && !(state.string_state == kFlying))
+      CHECK(s.path_length(state.position) < 1.45 * (1.0 + 1.1e-10));
   }
   CHECK(was_overstretched);
 }
@@ -276,7 +286,8 @@ TEST_CASE("planar motion stays in its plane") {
     for (int i = 0; i < 30; ++i) {
       Numbers parameters = preset();
       parameters.planar = true;
-      parameters.plane_normal = Eigen::AngleAxisd(random.uniform(-0.5, 0.5), Vector::UnitZ()) * Vector::UnitX();
+      parameters.plane_normal =
+          Eigen::AngleAxisd(random.uniform(-0.5, 0.5), Vector::UnitZ()) * Vector::UnitX();
       const Predictor<double> predictor(parameters);
       const SmoothTips player = SmoothTips::random(random, random.uniform(0.1, 1.0), 0.15, 8.0);
       State<double> state;
@@ -314,7 +325,8 @@ TEST_CASE("planar motion of tips in the plane is the full motion") {
 }
 
 TEST_CASE("spin follows the string that passes: its sign and its rate") {
-  // A pull of the right hand lengthens the right strand: the axle's surface under the string moves to the right.
+  // A pull of the right hand lengthens the right strand: the axle's surface under the string moves to the
+  // right.
   for (const Preset preset : kPresets) {
     Numbers parameters = preset();
     if (preset == kPresets[0]) parameters.spin_coupling = 20.0;
@@ -371,7 +383,8 @@ TEST_CASE("lanes go their own ways, with the bits of scalars") {
       double values[4][32];
       for (int lane = 0; lane < 4; ++lane) {
         int i = 0;
-        Numbers::for_each(scalars[lane], [&](const ParameterInfo&, double& field) { values[lane][i++] = field; });
+        Numbers::for_each(scalars[lane],
+                          [&](const ParameterInfo&, double& field) { values[lane][i++] = field; });
       }
       int i = 0;
       Parameters<P>::for_each(packed, [&](const ParameterInfo&, P& field) {
@@ -409,10 +422,12 @@ TEST_CASE("lanes go their own ways, with the bits of scalars") {
       };
       bool same = true;
       for (int step = 0; step < 200; ++step) {
-        const StepStatus<P> status = together.step(state, gather(step * kStep), gather((step + 1) * kStep), P(kStep));
+        const StepStatus<P> status =
+            together.step(state, gather(step * kStep), gather((step + 1) * kStep), P(kStep));
         for (int lane = 0; lane < 4; ++lane) {
-          const StepStatus<double> alone = Predictor<double>(scalars[lane]).step(
-              states[lane], players[lane].at(step * kStep), players[lane].at((step + 1) * kStep), kStep);
+          const StepStatus<double> alone = Predictor<double>(scalars[lane])
+                                               .step(states[lane], players[lane].at(step * kStep),
+                                                     players[lane].at((step + 1) * kStep), kStep);
           for (int k = 0; k < 3; ++k)
             same = same && state.position[k][lane] == states[lane].position[k] &&
                    state.velocity[k][lane] == states[lane].velocity[k] &&

@@ -25,9 +25,9 @@ TEST_CASE("the cap is the speed of a centre that moves inwards") {
   const auto cap = [&](const Vector& shift) {
     return pull_cap(before, spheroid_at(kOrigin + shift, 0.4), kDown, kStep);
   };
-  CHECK(cap({0.0, 0.0, 2e-3}) == Approx(2.0));              // upwards, against the outward normal
+  CHECK(cap({0.0, 0.0, 2e-3}) == Approx(2.0));                // upwards, against the outward normal
   CHECK(cap({0.0, 0.0, -2e-3}) == Approx(0.0).margin(1e-9));  // the diabolo is left behind
-  CHECK(cap({3e-3, 0.0, 4e-3}) == Approx(5.0));             // whole speed, as published
+  CHECK(cap({3e-3, 0.0, 4e-3}) == Approx(5.0));               // whole speed, as published
   CHECK(cap({3e-3, 0.0, -4e-3}) == Approx(0.0).margin(1e-9));
   CHECK(cap(Vector::Zero()) == 0.0);
 }

@@ -32,6 +32,12 @@ class Random {
     return {r * std::cos(angle), r * std::sin(angle), z};
   }
 
+  /// In any direction, its length evenly distributed in the logarithm.
+  diabolo::Vector3<double> arrow(double shortest, double longest) {
+    const double length = log_uniform(shortest, longest);
+    return direction() * length;
+  }
+
   /// A rotation about any axis, by any angle.
   Eigen::Matrix3d rotation() {
     const diabolo::Vector3<double> axis = direction();

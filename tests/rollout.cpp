@@ -15,7 +15,8 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// A player's motion, sampled.
-TipMotion<double> sampled(const SmoothTips& player, double begin, double end, double interval, Interpolation how) {
+TipMotion<double> sampled(const SmoothTips& player, double begin, double end, double interval,
+                          Interpolation how) {
   std::vector<double> times;
   std::vector<Vector> left, right;
   for (double t = begin; t <= end; t += interval) {
@@ -44,15 +45,16 @@ TEST_CASE("a rollout is the loop over the steps, and shows each of them") {
 
   State<double> expected = start;
   std::size_t calls = 0;
-  const State<double> last = rollout(kPredictor, start, motion, steps,
-                                     [&](std::size_t i, double time, const State<double>& state, const auto&) {
-                                       ++calls;
-                                       CHECK(i == calls);
-                                       CHECK(time == steps.time(i));
-                                       kPredictor.step(expected, motion.at(steps.time(i - 1)), motion.at(time), steps.dt);
-                                       CHECK(state.position == expected.position);
-                                       CHECK(state.velocity == expected.velocity);
-                                     });
+  const State<double> last =
+      rollout(kPredictor, start, motion, steps,
+              [&](std::size_t i, double time, const State<double>& state, const auto&) {
+                ++calls;
+                CHECK(i == calls);
+                CHECK(time == steps.time(i));
+                kPredictor.step(expected, motion.at(steps.time(i - 1)), motion.at(time), steps.dt);
+                CHECK(state.position == expected.position);
+                CHECK(state.velocity == expected.velocity);
+              });
   CHECK(calls == 500);
   CHECK(last.position == expected.position);
   CHECK(rollout(kPredictor, start, motion, steps).position == last.position);
@@ -90,7 +92,8 @@ TEST_CASE("times are counted, not summed") {
 
 TEST_CASE("steps that cannot be taken are refused") {
   const State<double> start;
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
   for (const double dt : {0.0, -1e-3, nan, infinity}) {
     CHECK_THROWS_AS(rollout(kPredictor, start, resting_tips(), {0.0, dt, 1}), std::invalid_argument);
     CHECK_THROWS_WITH((Steps{0.0, dt, 1}.validate()), Contains("dt: ") && Contains("positive"));

@@ -19,9 +19,7 @@ struct SmoothTip {
   Vector acceleration(double t) const { return -amplitude.cwiseProduct(sines(t, 0.0)) * rate * rate; }
 
  private:
-  Vector sines(double t, double ahead) const {
-    return (phase.array() + (rate * t + ahead)).sin().matrix();
-  }
+  Vector sines(double t, double ahead) const { return (phase.array() + (rate * t + ahead)).sin().matrix(); }
 };
 
 /// Both tips of a player who moves them smoothly, as exact functions of time.
@@ -31,8 +29,10 @@ struct SmoothTips {
   static SmoothTips random(Random& random, double distance, double amplitude, double fastest_rate) {
     SmoothTips tips;
     const diabolo::Vector3<double> half(0.0, 0.5 * distance, 0.0), center(0.0, 0.0, 1.0);
-    tips.left = {center + half, random.vector(amplitude), random.vector(M_PI), random.uniform(1.0, fastest_rate)};
-    tips.right = {center - half, random.vector(amplitude), random.vector(M_PI), random.uniform(1.0, fastest_rate)};
+    tips.left = {center + half, random.vector(amplitude), random.vector(M_PI),
+                 random.uniform(1.0, fastest_rate)};
+    tips.right = {center - half, random.vector(amplitude), random.vector(M_PI),
+                  random.uniform(1.0, fastest_rate)};
     return tips;
   }
 
@@ -96,7 +96,8 @@ struct TautReference {
   void make_consistent() {
     const Vector l = position - tips.left.position(time), r = position - tips.right.position(time);
     const Vector e1 = l.normalized(), e2 = r.normalized(), gradient = e1 + e2;
-    const double rate = e1.dot(velocity - tips.left.velocity(time)) + e2.dot(velocity - tips.right.velocity(time));
+    const double rate =
+        e1.dot(velocity - tips.left.velocity(time)) + e2.dot(velocity - tips.right.velocity(time));
     velocity -= gradient * (rate / gradient.squaredNorm());
   }
 };

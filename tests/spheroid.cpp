@@ -15,8 +15,8 @@ using Vector = Vector3<double>;
 namespace {
 
 /// Tip distances over string length: coinciding, close, any, nearly taut, taut.
-constexpr double kRatios[] = {0.0,       1e-12,      1e-8,       1e-4, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99,
-                              1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9, 1.0 - 1e-12};
+constexpr double kRatios[] = {0.0, 1e-12, 1e-8, 1e-4,       0.1,        0.3,        0.5,
+                              0.7, 0.9,   0.99, 1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9, 1.0 - 1e-12};
 
 struct Shape {
   Vector left, right;
@@ -30,9 +30,7 @@ Shape random_shape(Random& random, double ratio) {
   return {center + half, center - half, length};
 }
 
-Shape random_shape(Random& random) {
-  return random_shape(random, kRatios[random.index(std::size(kRatios))]);
-}
+Shape random_shape(Random& random) { return random_shape(random, kRatios[random.index(std::size(kRatios))]); }
 
 double path(const Shape& shape, const Vector& p) {
   return (p - shape.left).norm() + (p - shape.right).norm();
@@ -132,8 +130,8 @@ TEST_CASE("the path's gradient is its derivative, of norm 2 cos(half the angle b
       CHECK(gradient[k] ==
             Approx((path(shape, point + step) - path(shape, point - step)) / (2.0 * h)).margin(1e-7));
     }
-    const double angle = std::acos(std::clamp(
-        (shape.left - point).normalized().dot((shape.right - point).normalized()), -1.0, 1.0));
+    const double angle = std::acos(
+        std::clamp((shape.left - point).normalized().dot((shape.right - point).normalized()), -1.0, 1.0));
     CHECK(gradient.norm() == Approx(2.0 * std::cos(0.5 * angle)).margin(1e-7));
     CHECK(spheroid.normal(point).norm() == Approx(1.0));
     if (gradient.norm() > 1e-6) CHECK(spheroid.normal(point).isApprox(gradient.normalized(), 1e-9));
@@ -161,12 +159,12 @@ TEST_CASE("the closest point is that of an independent search") {
     for (int i = 0; i < 20; ++i) {
       const Shape shape = random_shape(random, ratio);
       const Spheroid<double> spheroid = shape.spheroid();
-      const Vector anywhere = spheroid.center() + random.direction() * (shape.length * random.uniform(0.0, 2.0));
+      const Vector anywhere = spheroid.center() + random.arrow(0.1, 2.0) * shape.length;
       check_closest(shape, anywhere);
       check_closest(shape, random.reachable(spheroid, 0.0));
       const Vector on_surface = random.reachable(spheroid, 1.0);
       check_closest(shape, on_surface);
-      check_closest(shape, on_surface + random.direction() * random.log_uniform(1e-14, 1e-2));
+      check_closest(shape, on_surface + random.arrow(1e-14, 1e-2));
     }
 }
 
@@ -239,7 +237,7 @@ TEST_CASE("the signed distance changes no faster than the point moves") {
   for (int i = 0; i < 3000; ++i) {
     const Shape shape = random_shape(random);
     const Spheroid<double> spheroid = shape.spheroid();
-    const Vector p = random.vector(1.5), q = p + random.direction() * random.log_uniform(1e-6, 1.0);
+    const Vector p = random.vector(1.5), q = p + random.arrow(1e-6, 1.0);
     const double change = std::abs(spheroid.signed_distance(p) - spheroid.signed_distance(q));
     worst = std::max(worst, change - (p - q).norm());
   }
@@ -251,7 +249,7 @@ TEST_CASE("the radial point is on the surface and on the ray from the centre") {
   for (int i = 0; i < 500; ++i) {
     const Shape shape = random_shape(random);
     const Spheroid<double> spheroid = shape.spheroid();
-    const Vector offset = random.direction() * random.log_uniform(1e-3, 3.0);
+    const Vector offset = random.arrow(1e-3, 3.0);
     const Vector point = spheroid.center() + offset, radial = spheroid.radial_point(point);
     CAPTURE(shape.left.transpose(), shape.right.transpose(), shape.length, point.transpose());
     CHECK(path(shape, radial) == Approx(shape.length).epsilon(0).margin(1e-12));
@@ -285,7 +283,7 @@ TEST_CASE("the derivative of every answer agrees with central differences") {
   Random random(20);
   for (int i = 0; i < 200; ++i) {
     const Shape shape = random_shape(random, random.uniform(0.05, 0.95));
-    const Vector point = shape.spheroid().center() + random.direction() * random.uniform(0.2, 2.0);
+    const Vector point = shape.spheroid().center() + random.arrow(0.2, 2.0);
     if (std::abs(shape.spheroid().signed_distance(point)) < 0.02) continue;  // its kink
     const Vector from_center = point - shape.spheroid().center(), axis = shape.spheroid().axis();
     if ((from_center - axis * axis.dot(from_center)).norm() < 0.1) continue;  // the axis is a cut locus

@@ -13,8 +13,8 @@ constexpr StringState kStates[] = {StringState::kOnString, StringState::kLoose, 
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("a diabolo starts at rest at the origin, between the cups of a loose string", "", double, float,
-                   (Dual<double, 3>), (Pack<double, 4>)) {
+TEMPLATE_TEST_CASE("a diabolo starts at rest at the origin, between the cups of a loose string", "", double,
+                   float, (Dual<double, 3>), (Pack<double, 4>)) {
   const State<TestType> state;
   for (int k = 0; k < 3; ++k) {
     CHECK(all(state.position[k] == TestType(0)));

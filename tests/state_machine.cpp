@@ -11,7 +11,8 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr StringState kOn = StringState::kOnString, kLoose = StringState::kLoose, kFlying = StringState::kFlying;
+constexpr StringState kOn = StringState::kOnString, kLoose = StringState::kLoose,
+                      kFlying = StringState::kFlying;
 constexpr double kLength = 1.45;
 
 /// Level tips at height 1 m, y axis through them, the given distance apart.
@@ -48,7 +49,8 @@ TEST_CASE("height above the tips has the sign of the side of their plane with wo
     const double height = normal.dot(point - right);
     CHECK(height_above_tips(point, left, right) == Approx(height).margin(1e-15));
     CHECK(height_above_tips(point, right, left) == Approx(height).margin(1e-15));
-    CHECK(height_above_tips<double>(point + Vector(0.7, 0.0, 0.0), left, right) == Approx(height).margin(1e-15));
+    CHECK(height_above_tips<double>(point + Vector(0.7, 0.0, 0.0), left, right) ==
+          Approx(height).margin(1e-15));
   }
 }
 
@@ -125,8 +127,8 @@ TEST_CASE("paper: no transition but those of the figure, from anywhere") {
     const double distance = random.chance(0.5) ? random.uniform(0.0, 1.4) : random.uniform(1.4, kLength);
     const Vector center = random.vector(0.3), half = random.direction() * (0.5 * distance);
     const Spheroid<double> s(center + half, center - half, kLength);
-    const Vector point = random.chance(0.3) ? Vector(center + half * random.uniform(-1.0, 1.0) + random.vector(0.05))
-                                            : Vector(random.reachable(s) + random.vector(0.1));
+    const Vector on_line = center + half * random.uniform(-1.0, 1.0), reachable = random.reachable(s);
+    const Vector point = (random.chance(0.3) ? on_line : reachable) + random.vector(0.07);
     const StringState from = static_cast<StringState>(random.index(3)), to = paper(from, point, s);
     ++seen[static_cast<int>(from)][static_cast<int>(to)];
     const double depth = s.signed_distance(point);
@@ -151,7 +153,7 @@ TEST_CASE("published: over the tips the diabolo flies, whatever it did before") 
   const Spheroid<double> s = level(0.5);
   for (const StringState state : {kOn, kLoose, kFlying}) {
     CHECK(published(state, {0.0, 0.1, 1.01}, s) == kFlying);
-    CHECK(published(state, {0.2, 0.1, 1.01}, s) == kFlying);   // within the ball of the tips
+    CHECK(published(state, {0.2, 0.1, 1.01}, s) == kFlying);  // within the ball of the tips
     CHECK(published(state, {0.3, 0.1, 1.01}, s) == (state == kFlying ? kFlying : kLoose));
     CHECK(published(state, {0.0, 0.1, 1.3}, s) == (state == kFlying ? kFlying : kLoose));  // above the ball
   }

@@ -26,9 +26,10 @@ struct StepCase {
   }
 
   /// Both tips from here on with constant velocities.
-  void move(const Vector& left, const Vector& right, const Vector& left_velocity, const Vector& right_velocity) {
-    begin = {left, right, left_velocity, right_velocity};
-    end = {Vector(left + left_velocity * dt), Vector(right + right_velocity * dt), left_velocity, right_velocity};
+  void move(const diabolo::Tips<double>& from) {
+    begin = end = from;
+    end.left += from.left_velocity * dt;
+    end.right += from.right_velocity * dt;
   }
 
   /// Path length of a position with the tips at the end.

@@ -189,7 +189,8 @@ TEST_CASE("the hint changes nothing, in whatever order the motion is read") {
 }
 
 TEST_CASE("bad input is refused in a sentence") {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
   const Vector p(0.0, 0.0, 1.0);
   const auto build = [&](std::vector<double> times, std::vector<Vector> left, std::vector<Vector> right) {
     return TipMotion<double>(std::move(times), left, right, Interpolation::kSpline);
@@ -202,7 +203,8 @@ TEST_CASE("bad input is refused in a sentence") {
   CHECK_THROWS_WITH(build({0.0, -1.0}, {p, p}, {p, p}), Contains("instant 1"));
   CHECK_THROWS_WITH(build({0.0, nan}, {p, p}, {p, p}), Contains("instant 1") && Contains("finite"));
   CHECK_THROWS_WITH(build({-infinity, 0.0}, {p, p}, {p, p}), Contains("instant 0"));
-  CHECK_THROWS_WITH(build({0.0, 1.0}, {p, {0.0, nan, 0.0}}, {p, p}), Contains("instant 1") && Contains("tip"));
+  CHECK_THROWS_WITH(build({0.0, 1.0}, {p, {0.0, nan, 0.0}}, {p, p}),
+                    Contains("instant 1") && Contains("tip"));
   CHECK_THROWS_WITH(build({0.0, 1.0}, {p, p}, {{infinity, 0.0, 0.0}, p}), Contains("instant 0"));
   CHECK_THROWS_AS(build({}, {}, {}), std::invalid_argument);
 }

@@ -29,7 +29,9 @@ Tips<double> level(double distance) {
   return tips;
 }
 
-double path_length(const Vector& p, const Tips<double>& tips) { return (p - tips.left).norm() + (p - tips.right).norm(); }
+double path_length(const Vector& p, const Tips<double>& tips) {
+  return (p - tips.left).norm() + (p - tips.right).norm();
+}
 
 /// The lowest point of the taut, not yet stretched string.
 State<double> hanging(const Tips<double>& tips, double length) {
@@ -68,7 +70,8 @@ TEST_CASE("numbers out of their range are refused by effect and field") {
   };
   CHECK_NOTHROW(refused(0.0, 0.0)());
   CHECK_NOTHROW(refused(1.0, 1e4)());
-  CHECK_THROWS_WITH(refused(-1e-9, 0.0)(), StartsWith("string_elasticity compliance: ") && Contains("[0, 1] m/N"));
+  CHECK_THROWS_WITH(refused(-1e-9, 0.0)(),
+                    StartsWith("string_elasticity compliance: ") && Contains("[0, 1] m/N"));
   CHECK_THROWS_WITH(refused(1.001, 0.0)(), StartsWith("string_elasticity compliance: "));
   CHECK_THROWS_WITH(refused(0.1, -1.0)(), StartsWith("string_elasticity damping: "));
   CHECK_THROWS_WITH(refused(std::nan(""), 0.0)(), StartsWith("string_elasticity compliance: nan"));
@@ -86,7 +89,8 @@ TEST_CASE("a diabolo at rest stretches the string by compliance times tension") 
       // T = m g / (2 cos of half the angle between the strands), at the stretched place itself.
       const double drop = 1.0 - state.position.z(), strand = std::hypot(0.5 * distance, drop);
       const double tension = kMass * kStandardGravity * strand / (2.0 * drop);
-      CHECK(path_length(state.position, tips) - 1.45 == Approx(tension / stiffness).epsilon(1e-6).margin(2e-10));
+      CHECK(path_length(state.position, tips) - 1.45 ==
+            Approx(tension / stiffness).epsilon(1e-6).margin(2e-10));
       CHECK(state.string_acceleration.z() == Approx(kStandardGravity).epsilon(1e-6));
     }
 }
@@ -193,7 +197,8 @@ TEST_CASE("elastic motion converges to its equation with the second order of the
     const double h = kDuration / fine_steps;
     for (int i = 0; i < fine_steps; ++i) {
       const double t = i * h;
-      const Vector a1 = acceleration(p, v, t), v2 = v + a1 * (0.5 * h), a2 = acceleration(p + v * (0.5 * h), v2, t + 0.5 * h);
+      const Vector a1 = acceleration(p, v, t), v2 = v + a1 * (0.5 * h),
+                   a2 = acceleration(p + v * (0.5 * h), v2, t + 0.5 * h);
       const Vector v3 = v + a2 * (0.5 * h), a3 = acceleration(p + v2 * (0.5 * h), v3, t + 0.5 * h);
       const Vector v4 = v + a3 * h, a4 = acceleration(p + v3 * h, v4, t + h);
       p += (v + 2.0 * v2 + 2.0 * v3 + v4) * (h / 6.0);
@@ -205,7 +210,8 @@ TEST_CASE("elastic motion converges to its equation with the second order of the
       const Elastic predictor = elastic(stiffness, damping);
       State<double> state = start;
       for (int i = 0; i < steps; ++i)
-        predictor.step(state, player.at(i * kDuration / steps), player.at((i + 1) * kDuration / steps), kDuration / steps);
+        predictor.step(state, player.at(i * kDuration / steps), player.at((i + 1) * kDuration / steps),
+                       kDuration / steps);
       return (state.position - p).norm();
     };
     const double coarse = error(500), fine = error(1000);
@@ -224,7 +230,8 @@ TEST_CASE("ever stiffer strings give the rigid string's motion") {
     parameters.mass = kMass;
     const auto final = [&](const auto& predictor) {
       State<double> state = start;
-      for (int i = 0; i < 500; ++i) predictor.step(state, player.at(i * 1e-3), player.at((i + 1) * 1e-3), 1e-3);
+      for (int i = 0; i < 500; ++i)
+        predictor.step(state, player.at(i * 1e-3), player.at((i + 1) * 1e-3), 1e-3);
       return state.position;
     };
     const Vector rigid = final(Predictor<double>(parameters));
@@ -260,7 +267,8 @@ TEST_CASE("at amplitude zero every preset gives the plain predictor's bits") {
         const StepStatus<double> one = plain.step(a, now, next, 1e-3), two = neutral.step(b, now, next, 1e-3);
         same = same && a.position == b.position && a.velocity == b.velocity && a.spin == b.spin &&
                a.string_state == b.string_state && a.string_acceleration == b.string_acceleration &&
-               one.caught == two.caught && one.snapped_taut == two.snapped_taut && one.overstretched == two.overstretched;
+               one.caught == two.caught && one.snapped_taut == two.snapped_taut &&
+               one.overstretched == two.overstretched;
       }
       CHECK(same);
     }
@@ -277,11 +285,13 @@ TEST_CASE("under the published rules a compliant string hangs as far down as its
     const double tension = kMass * parameters.gravity * strand / (2.0 * drop);
     CAPTURE(stiffness);
     // Its projection is radial and its step explicit: a few percent.
-    CHECK(path_length(state.position, tips) - parameters.string_length == Approx(tension / stiffness).epsilon(0.05));
+    CHECK(path_length(state.position, tips) - parameters.string_length ==
+          Approx(tension / stiffness).epsilon(0.05));
   }
 }
 
-TEST_CASE("under the paper's and the published rules compliance keeps every motion finite and near the string") {
+TEST_CASE(
+    "under the paper's and the published rules compliance keeps every motion finite and near the string") {
   Random random(705);
   for (const auto preset : {&Numbers::paper, &Numbers::published})
     for (int episode = 0; episode < 20; ++episode) {

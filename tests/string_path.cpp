@@ -43,7 +43,9 @@ TEST_CASE("gradient and rates are the derivatives of the length") {
     const StringPath<double> path(diabolo, tips);
     if (path.left_length < 0.1 || path.right_length < 0.1) continue;
     const double h = 1e-5;  // speeds up to 5 m/s, strands above 0.1 m: error (5 h / 0.1)^2 * 5 = 1e-6
-    const auto length = [&](const Vector& p, double t) { return StringPath<double>(p, moved(tips, t)).length(); };
+    const auto length = [&](const Vector& p, double t) {
+      return StringPath<double>(p, moved(tips, t)).length();
+    };
     for (int k = 0; k < 3; ++k) {
       const Vector step = Vector::Unit(k) * h;
       CHECK(path.gradient()[k] ==
@@ -60,7 +62,7 @@ TEST_CASE("the discrete gradient's product with a displacement is exactly the ch
   Random random(62);
   for (int i = 0; i < 500; ++i) {
     const Tips<double> tips = random_tips(random);
-    const Vector from = random.vector(1.0), to = from + random.direction() * random.log_uniform(1e-9, 2.0);
+    const Vector from = random.vector(1.0), to = from + random.arrow(1e-9, 2.0);
     const StringPath<double> a(from, tips), b(to, tips);
     const double change = discrete_gradient(a, b).dot(to - from);
     CHECK(change == Approx(b.length() - a.length()).epsilon(0).margin(4e-15));  // rounding of lengths of 1 m

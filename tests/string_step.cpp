@@ -65,7 +65,7 @@ TEST_CASE("a step resolves a soft spring and no rigid string") {
 TEST_CASE("an inelastic string leaves no rate of the path and no push across it") {
   Random random(73);
   for (int i = 0; i < 100; ++i) {
-    const Vector velocity = random.vector(5.0), gradient = random.direction() * random.uniform(0.1, 2.0);
+    const Vector velocity = random.vector(5.0), gradient = random.arrow(0.1, 2.0);
     const double tip_rate = random.uniform(-2.0, 2.0), rate = gradient.dot(velocity) + tip_rate;
     const Vector after = without_path_rate(velocity, gradient, rate);
     // 1e-12 keeps the division regular: with |gradient| >= 0.1 it leaves 1e-10 of the rate.

@@ -20,10 +20,11 @@ StepCase random_case(Random& random) {
   StepCase scene;
   scene.dt = random.log_uniform(2e-4, 5e-3);
   scene.length = random.uniform(0.5, 2.0);
-  const Vector center = random.vector(0.5), half = random.direction() * (random.uniform(0.0, 0.49) * scene.length);
-  scene.move(center + half, center - half, random.vector(1.0), random.vector(1.0));
+  const double half_distance = random.uniform(0.0, 0.49) * scene.length;
+  const Vector center = random.vector(0.5), half = random.direction() * half_distance;
+  scene.move({center + half, center - half, random.vector(1.0), random.vector(1.0)});
   scene.position = random.reachable({scene.begin.left, scene.begin.right, scene.length});
-  scene.velocity = random.direction() * random.log_uniform(1e-2, 5.0);
+  scene.velocity = random.arrow(1e-2, 5.0);
   return scene;
 }
 
@@ -52,7 +53,8 @@ TEST_CASE("a diabolo that hangs at rest stays there, and the string carries it")
       CHECK(now.velocity.norm() < 1e-9);
       CHECK((result.string_acceleration - Vector(0.0, 0.0, kStandardGravity)).norm() < 1e-6);
       // Each strand bears m g / (2 cos of half the angle between them).
-      const Vector e1 = (scene.begin.left - start).normalized(), e2 = (scene.begin.right - start).normalized();
+      const Vector e1 = (scene.begin.left - start).normalized(),
+                   e2 = (scene.begin.right - start).normalized();
       const double cosine = 0.5 * (e1 + e2).norm();
       const double tension = result.string_acceleration.norm() / (e1 + e2).norm();
       CHECK(tension == Approx(kStandardGravity / (2.0 * cosine)).epsilon(1e-7));
@@ -74,8 +76,9 @@ TEST_CASE("a captured diabolo ends on the taut string or within reach of the sla
     slack += !result.taut;
     snaps += result.snapped_taut;
     CHECK(result.slack == Approx(-excess).margin(1e-5));  // near the end, says the field
-    if (result.snapped_taut) CHECK((scene.position - scene.begin.left).norm() +
-                                       (scene.position - scene.begin.right).norm() < scene.length);
+    if (result.snapped_taut)
+      CHECK((scene.position - scene.begin.left).norm() + (scene.position - scene.begin.right).norm() <
+            scene.length);
   }
   CHECK(taut > 1000);
   CHECK(slack > 1000);
@@ -90,7 +93,8 @@ TEST_CASE("the string pulls only inwards, along the plane of its strands") {
     const StepCase scene = random_case(random);
     const StringStepResult<double> result = advance(scene);
     if (!result.taut) {
-      CHECK(result.string_acceleration.isZero(0.0));
+      // Caught and slack again within the step: what it gave in the catch.
+      if (!result.snapped_taut) CHECK(result.string_acceleration.isZero(0.0));
       continue;
     }
     const StringPath<double> path(result.position, scene.end);
@@ -156,10 +160,12 @@ TEST_CASE("without compliance the elastic step gives the bits of the rigid one")
   Random random(126);
   for (int i = 0; i < 5000; ++i) {
     const StepCase scene = random_case(random);
-    const StringStepResult<double> rigid = advance(scene), elastic = advance_on_string<true>(scene.step(), true);
+    const StringStepResult<double> rigid = advance(scene),
+                                   elastic = advance_on_string<true>(scene.step(), true);
     const bool same = rigid.position == elastic.position && rigid.velocity == elastic.velocity &&
-                      rigid.string_acceleration == elastic.string_acceleration && rigid.passed == elastic.passed &&
-                      rigid.taut == elastic.taut && rigid.snapped_taut == elastic.snapped_taut;
+                      rigid.string_acceleration == elastic.string_acceleration &&
+                      rigid.passed == elastic.passed && rigid.taut == elastic.taut &&
+                      rigid.snapped_taut == elastic.snapped_taut;
     CHECK(same);
   }
 }

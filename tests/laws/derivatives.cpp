@@ -7,7 +7,8 @@ using namespace rollout_derivatives;
 
 namespace {
 
-Play random_play(Random& random, double distance, double height, const Vector& velocity, StringState string_state) {
+Play random_play(Random& random, double distance, double height, const Vector& velocity,
+                 StringState string_state) {
   Play play;
   play.parameters.dissipation_rate = 0.1;
   play.parameters.spin_coupling = 2.0;
@@ -40,10 +41,10 @@ TEST_CASE("derivatives of swings on the taut string") {
 TEST_CASE("derivatives of hops, across slack and snap") {
   Random random(901);
   Tally tally;
-  for (int i = 0; i < 12; ++i)
-    compare(random_play(random, random.uniform(0.1, 0.8), random.uniform(0.02, 0.15), {0.0, 0.0, 1.0},
-                        StringState::kLoose),
-            tally);
+  for (int i = 0; i < 12; ++i) {
+    const double distance = random.uniform(0.1, 0.8), height = random.uniform(0.02, 0.15);
+    compare(random_play(random, distance, height, {0.0, 0.0, 1.0}, StringState::kLoose), tally);
+  }
   CAPTURE(tally.worst, tally.kinks);
   CHECK(tally.events.snaps > 8);
   CHECK(tally.compared > 130);
@@ -75,7 +76,7 @@ TEST_CASE("derivatives of throws, across the catch") {
     const Tips<double> begin = play.player.at(0.0);
     const Vector over = (begin.left + begin.right) / 2.0 + Vector(0.0, random.uniform(-0.3, 0.3), 0.2);
     play.inputs.head<3>() = over;
-    play.inputs.segment<3>(3) = Vector(0.0, random.uniform(-0.3, 0.3), random.uniform(-2.0, 0.5));
+    play.inputs.segment<3>(3) = Vector{0.0, random.uniform(-0.3, 0.3), random.uniform(-2.0, 0.5)};
     play.steps = 400;
     compare(play, tally, 1e-6);
   }
@@ -97,6 +98,7 @@ TEST_CASE("at amplitude zero the derivative is that of the smallest amplitude") 
     const Outputs difference = (values(play, little) - values(play, play.inputs)) / 1e-5;
     CHECK(difference.head<6>().norm() > 1e-3);
     for (int j = 0; j < 6; ++j)
-      CHECK(dual[static_cast<std::size_t>(j)].gradient[10] == Approx(difference[j]).margin(2e-3 * difference.norm()));
+      CHECK(dual[static_cast<std::size_t>(j)].gradient[10] ==
+            Approx(difference[j]).margin(2e-3 * difference.norm()));
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of an elastic string's motion with respect to its compliance and damping, at amplitude zero too.
+// Derivatives of an elastic string's motion with respect to its compliance and damping, at amplitude zero
+// too.
 
 #include "catch.hpp"
 #include "diabolo/dual.hpp"
@@ -23,12 +24,14 @@ Vector3<Scalar> swing(const SmoothTips& player, const Vector& start, const Scala
   const auto cast = [](const Vector& v) { return Vector3<Scalar>(Scalar(v[0]), Scalar(v[1]), Scalar(v[2])); };
   const auto tips_at = [&](double t) {
     const Tips<double> tips = player.at(t);
-    return Tips<Scalar>{cast(tips.left), cast(tips.right), cast(tips.left_velocity), cast(tips.right_velocity)};
+    return Tips<Scalar>{cast(tips.left), cast(tips.right), cast(tips.left_velocity),
+                        cast(tips.right_velocity)};
   };
   State<Scalar> state;
   state.position = cast(start);
   state.string_state = StringState::kOnString;
-  for (int i = 0; i < 500; ++i) predictor.step(state, tips_at(i * 1e-3), tips_at((i + 1) * 1e-3), Scalar(1e-3));
+  for (int i = 0; i < 500; ++i)
+    predictor.step(state, tips_at(i * 1e-3), tips_at((i + 1) * 1e-3), Scalar(1e-3));
   return state.position;
 }
 
@@ -61,7 +64,8 @@ TEST_CASE("a rigid string's derivative with respect to the compliance is not zer
     const Vector3<D> dual = swing<D>(play.player, play.start, D::variable(0.0, 0), D(0.0));
     const double h = 1e-8;
     const Vector difference =
-        (swing<double>(play.player, play.start, h, 0.0) - swing<double>(play.player, play.start, 0.0, 0.0)) / h;
+        (swing<double>(play.player, play.start, h, 0.0) - swing<double>(play.player, play.start, 0.0, 0.0)) /
+        h;
     CHECK(difference.norm() > 0.1);
     // Positions solved to 1e-10 m or better, over 1e-8.
     CHECK((gradient(dual, 0) - difference).norm() < 1e-2 * difference.norm());

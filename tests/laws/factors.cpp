@@ -107,7 +107,8 @@ TEST_CASE("the paper's and the published dissipation act in each step on the str
 }
 
 TEST_CASE("a pull in time constants is the same for every step, per step it is not") {
-  // Tips rise at 1 m/s from under a diabolo that hangs: the speed that 0.2 s of pull give, by the number of steps.
+  // Tips rise at 1 m/s from under a diabolo that hangs: the speed that 0.2 s of pull give, by the number of
+  // steps.
   const auto speed_after = [](bool per_step, int steps) {
     Numbers parameters = Numbers::published();
     parameters.per_step = per_step;

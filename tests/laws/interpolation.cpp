@@ -39,7 +39,8 @@ TEST_CASE("held, straight and spline tips converge to the exact tips' motion") {
     start.position = spheroid.closest_point(spheroid.center() + Vector(0.2, 0.1, -1.0));
     const double dt = 1.0 / 3840.0;
     const auto final = [&](double rate, Interpolation how) {
-      return rollout(predictor, start, sampled(player, rate, how), {0.0, dt, static_cast<std::size_t>(kDuration / dt)});
+      return rollout(predictor, start, sampled(player, rate, how),
+                     {0.0, dt, static_cast<std::size_t>(kDuration / dt)});
     };
     State<double> exact = start;
     for (int i = 0; i < static_cast<int>(kDuration / dt); ++i)
@@ -52,9 +53,11 @@ TEST_CASE("held, straight and spline tips converge to the exact tips' motion") {
     CHECK(error(1920.0, Interpolation::kHeld) < 0.25 * error(120.0, Interpolation::kHeld));
     CHECK(error(1920.0, Interpolation::kHeld) < 5e-3);
     // Straight lines: second order. A cubic spline: fourth.
-    CHECK(error(120.0, Interpolation::kLinear) / error(480.0, Interpolation::kLinear) == Approx(16.0).epsilon(0.1));
+    CHECK(error(120.0, Interpolation::kLinear) / error(480.0, Interpolation::kLinear) ==
+          Approx(16.0).epsilon(0.1));
     CHECK(error(480.0, Interpolation::kLinear) < 1e-6);
-    CHECK(error(120.0, Interpolation::kSpline) / error(480.0, Interpolation::kSpline) == Approx(256.0).epsilon(0.1));
+    CHECK(error(120.0, Interpolation::kSpline) / error(480.0, Interpolation::kSpline) ==
+          Approx(256.0).epsilon(0.1));
     CHECK(error(120.0, Interpolation::kSpline) < 1e-9);
   }
 }

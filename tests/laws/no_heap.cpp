@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "diabolo/effects/all.hpp"
 #include "diabolo/dual.hpp"
+#include "diabolo/effects/all.hpp"
 #include "diabolo/pack.hpp"
 #include "smooth_tips.hpp"
 
@@ -40,8 +40,12 @@ void* counted(std::size_t size, std::size_t alignment) {
 [[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
 
 using namespace diabolo;
 using Vector = Vector3<double>;
@@ -59,7 +63,8 @@ long allocations_of(const Parameters<Scalar>& parameters) {
     const SmoothTips player = SmoothTips::random(random, random.uniform(0.0, 1.5), 0.4, 15.0);
     const auto tips_at = [&](double t) {
       const Tips<double> tips = player.at(t);
-      return Tips<Scalar>{cast(tips.left), cast(tips.right), cast(tips.left_velocity), cast(tips.right_velocity)};
+      return Tips<Scalar>{cast(tips.left), cast(tips.right), cast(tips.left_velocity),
+                          cast(tips.right_velocity)};
     };
     State<Scalar> state;
     state.position = cast(random.vector(0.7));

@@ -19,9 +19,10 @@ Play piece(Random& random, const Parameters<double>& parameters, StringState str
   const double outside = string_state == StringState::kOnString ? -2e-3 : 0.3;
   const Vector position = spheroid.center() + random.vector(0.1).cwiseProduct(Vector(1.0, 1.0, 0.0)) -
                           Vector(0.0, 0.0, spheroid.semi_minor() - outside);
-  const Vector velocity = string_state == StringState::kOnString ? Vector(0.2, 0.1, -0.5) : Vector(0.2, 0.1, 0.4);
-  play.inputs << position, velocity, 60.0, parameters.string_length, parameters.gravity, parameters.spin_coupling,
-      parameters.dissipation_rate, 0.0, 1.0;
+  const Vector velocity =
+      string_state == StringState::kOnString ? Vector(0.2, 0.1, -0.5) : Vector(0.2, 0.1, 0.4);
+  play.inputs << position, velocity, 60.0, parameters.string_length, parameters.gravity,
+      parameters.spin_coupling, parameters.dissipation_rate, 0.0, 1.0;
   return play;
 }
 
@@ -29,7 +30,8 @@ Play piece(Random& random, const Parameters<double>& parameters, StringState str
 
 TEST_CASE("derivatives on the string, loose and in flight") {
   for (const auto preset : {&Parameters<double>::paper, &Parameters<double>::published})
-    for (const StringState string_state : {StringState::kOnString, StringState::kLoose, StringState::kFlying}) {
+    for (const StringState string_state :
+         {StringState::kOnString, StringState::kLoose, StringState::kFlying}) {
       Random random(910);
       Tally tally;
       for (int i = 0; i < 6; ++i) compare(piece(random, preset(), string_state), tally);

@@ -21,10 +21,11 @@ using Inputs = Eigen::Matrix<double, kInputs, 1>;
 using Outputs = Eigen::Matrix<double, 7, 1>;  ///< position, velocity, spin
 using D = Dual<double, kInputs>;
 
-inline constexpr const char* kNames[kInputs] = {"position x",     "position y",        "position z",   "velocity x",
-                                                "velocity y",     "velocity z",        "spin",         "string length",
-                                                "gravity",        "spin coupling",     "dissipation",  "left tip's height",
-                                                "right tip's swing"};
+inline constexpr const char* kNames[kInputs] = {
+    "position x",       "position y",    "position z",  "velocity x",
+    "velocity y",       "velocity z",    "spin",        "string length",
+    "gravity",          "spin coupling", "dissipation", "left tip's height",
+    "right tip's swing"};
 
 /// A play, as a function of its inputs.
 struct Play {
@@ -46,9 +47,11 @@ std::array<Scalar, 7> run(const Play& play, const std::array<Scalar, kInputs>& x
   Parameters<Scalar> parameters;
   parameters.copy_rules(play.parameters);
   std::vector<double> fields;
-  Parameters<double>::for_each(play.parameters, [&](const ParameterInfo&, const double& f) { fields.push_back(f); });
+  Parameters<double>::for_each(play.parameters,
+                               [&](const ParameterInfo&, const double& f) { fields.push_back(f); });
   std::size_t next_field = 0;
-  Parameters<Scalar>::for_each(parameters, [&](const ParameterInfo&, Scalar& f) { f = Scalar(fields[next_field++]); });
+  Parameters<Scalar>::for_each(parameters,
+                               [&](const ParameterInfo&, Scalar& f) { f = Scalar(fields[next_field++]); });
   parameters.string_length = x[7];
   parameters.gravity = x[8];
   parameters.spin_coupling = x[9];
@@ -101,8 +104,8 @@ struct Tally {
   Events events;
 };
 
-/// Compares every derivative of one play. Where the difference quotients of two steps disagree, the play has a
-/// kink nearby (a diabolo about to be caught or not); it is counted and left out.
+/// Compares every derivative of one play. Where the difference quotients of two steps disagree, the play has
+/// a kink nearby (a diabolo about to be caught or not); it is counted and left out.
 inline void compare(const Play& play, Tally& tally, double step = 1e-5) {
   std::array<D, kInputs> x;
   for (int k = 0; k < kInputs; ++k) x[static_cast<std::size_t>(k)] = D::variable(play.inputs[k], k);

@@ -33,7 +33,8 @@ void check_rollouts_of_scalar() {
   const TipMotion<Scalar> motion_of_scalar(times, left_of_scalar, right_of_scalar, Interpolation::kSpline);
   const auto check = [&](const Parameters<double>& p, const Parameters<Scalar>& q) {
     const State<double> expected = rollout(Predictor<double>(p), start, motion, {0.0, 1e-3, 500});
-    const State<Scalar> state = rollout(Predictor<Scalar>(q), start_of_scalar, motion_of_scalar, {0.0, 1e-3, 500});
+    const State<Scalar> state =
+        rollout(Predictor<Scalar>(q), start_of_scalar, motion_of_scalar, {0.0, 1e-3, 500});
     // Double: a dual divides by multiplying with the inverse. Float: 500 steps of 6e-8 * 1.5 m over 1 ms
     // would be 0.05 m/s if they all added up.
     const double margin = sizeof(ValueOf<Scalar>) == 8 ? 1e-9 : 5e-3;

@@ -7,4 +7,6 @@
 
 using namespace diabolo;
 
-TEST_CASE("a dual over a pack rolls out to the motion that double gives") { check_rollouts_of_scalar<Dual<Pack<double, 4>, 1>>(); }
+TEST_CASE("a dual over a pack rolls out to the motion that double gives") {
+  check_rollouts_of_scalar<Dual<Pack<double, 4>, 1>>();
+}

@@ -6,6 +6,10 @@
 
 using namespace diabolo;
 
-TEST_CASE("a pack of doubles rolls out to the motion that double gives") { check_rollouts_of_scalar<Pack<double, 4>>(); }
+TEST_CASE("a pack of doubles rolls out to the motion that double gives") {
+  check_rollouts_of_scalar<Pack<double, 4>>();
+}
 
-TEST_CASE("a pack of floats rolls out to the motion that double gives") { check_rollouts_of_scalar<Pack<float, 8>>(); }
+TEST_CASE("a pack of floats rolls out to the motion that double gives") {
+  check_rollouts_of_scalar<Pack<float, 8>>();
+}

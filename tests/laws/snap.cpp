@@ -23,7 +23,8 @@ struct Hop {
 };
 
 double path_length(const Hop& hop, double time) {
-  const Vector p = hop.position + hop.velocity * time - Vector(0.0, 0.0, 0.5 * kStandardGravity * time * time);
+  const Vector p =
+      hop.position + hop.velocity * time - Vector(0.0, 0.0, 0.5 * kStandardGravity * time * time);
   return (p - hop.tips.left.position(time)).norm() + (p - hop.tips.right.position(time)).norm();
 }
 
@@ -48,7 +49,8 @@ Hop random_hop(Random& random) {
     TautReference reference;
     reference.tips = hop.tips;
     reference.time = high;
-    reference.position = hop.position + hop.velocity * high - Vector(0.0, 0.0, 0.5 * kStandardGravity * high * high);
+    reference.position =
+        hop.position + hop.velocity * high - Vector(0.0, 0.0, 0.5 * kStandardGravity * high * high);
     reference.velocity = hop.velocity - Vector(0.0, 0.0, kStandardGravity * high);
     reference.make_consistent();  // an inelastic catch is this projection
     if (reference.advance(kDuration, 1e-4) < 1.0) continue;
@@ -71,7 +73,8 @@ Outcome run(const Hop& hop, int steps) {
   Outcome outcome;
   const double dt = kDuration / steps;
   for (int i = 0; i < steps; ++i) {
-    const StepStatus<double> status = predictor.step(state, hop.tips.at(i * dt), hop.tips.at((i + 1) * dt), dt);
+    const StepStatus<double> status =
+        predictor.step(state, hop.tips.at(i * dt), hop.tips.at((i + 1) * dt), dt);
     if (status.snapped_taut) {
       if (outcome.snaps++ == 0) outcome.snap_end = (i + 1) * dt;
     }
@@ -90,7 +93,8 @@ TEST_CASE("the string snaps taut once, in the right step") {
     for (const int steps : {100, 500, 1000}) {
       const double dt = kDuration / steps;
       const Outcome outcome = run(hop, steps);
-      // Caught at the very end of a step, the string may be some nm slack after it and snap in the next one too.
+      // Caught at the very end of a step, the string may be some nm slack after it and snap in the next one
+      // too.
       CHECK(outcome.snaps >= 1);
       CHECK(outcome.snaps <= 2);
       // Tips move on straight lines within a step: dt^2 * acceleration / 8 away, at some m/s.
@@ -142,7 +146,8 @@ TEST_CASE("a catch is inelastic along the string and free across it") {
 }
 
 TEST_CASE("a pull through a slack string throws the diabolo only from where it is taut") {
-  // The tips rise at 2 m/s under a string with 0.1 m of slack: until taut the diabolo falls, then it goes along.
+  // The tips rise at 2 m/s under a string with 0.1 m of slack: until taut the diabolo falls, then it goes
+  // along.
   const Predictor<double> predictor(Parameters<double>::consistent());
   const double dt = 1e-3, speed = 2.0, slack = 0.1;
   const auto tips_at = [&](double t) {
@@ -155,9 +160,11 @@ TEST_CASE("a pull through a slack string throws the diabolo only from where it i
   state.position = Vector(0.0, 0.0, 1.0 - 0.5 * kLength + slack);
   double snapped = -1.0;
   for (int i = 0; i < 100; ++i)
-    if (predictor.step(state, tips_at(i * dt), tips_at((i + 1) * dt), dt).snapped_taut) snapped = (i + 1) * dt;
+    if (predictor.step(state, tips_at(i * dt), tips_at((i + 1) * dt), dt).snapped_taut)
+      snapped = (i + 1) * dt;
   // slack = speed t + g t^2 / 2
-  const double expected = (std::sqrt(speed * speed + 2.0 * kStandardGravity * slack) - speed) / kStandardGravity;
+  const double expected =
+      (std::sqrt(speed * speed + 2.0 * kStandardGravity * slack) - speed) / kStandardGravity;
   CHECK(snapped >= expected);
   CHECK(snapped < expected + dt);
   CHECK((state.velocity - Vector(0.0, 0.0, speed)).norm() < 1e-9);

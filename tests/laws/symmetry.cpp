@@ -99,8 +99,10 @@ TEST_CASE("mirrored play with left and right exchanged is the mirrored motion") 
       start.position = mirror(start.position);
       start.velocity = mirror(start.velocity);
       start.spin = -start.spin;
-      const auto a = run(parameters, play.start, plain, kCount, kStep), b = run(parameters, start, exchanged, kCount, kStep);
-      worst = std::max(worst, distance(a, b, [&](const Vector& p, double) { return mirror(p); }, kStep));
+      const auto a = run(parameters, play.start, plain, kCount, kStep),
+                 b = run(parameters, start, exchanged, kCount, kStep);
+      worst = std::max(worst, distance(
+                                  a, b, [&](const Vector& p, double) { return mirror(p); }, kStep));
       worst_spin = std::max(worst_spin, std::abs(a.back().spin + b.back().spin));
     }
     CHECK(worst < 1e-9);
@@ -116,18 +118,22 @@ TEST_CASE("play turned about the vertical is the turned motion") {
   for (int i = 0; i < 60; ++i) {
     const Parameters<double> parameters = Parameters<double>::consistent();
     const Play play = random_play(random, parameters.string_length);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Vector::UnitZ()).toRotationMatrix();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Vector::UnitZ()).toRotationMatrix();
     const auto rotate = [&](const Vector& v) { return Vector(turn * v); };
     State<double> start = play.start;
     start.position = rotate(start.position);
     start.velocity = rotate(start.velocity);
-    const auto a = run(parameters, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
+    const auto a = run(
+        parameters, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
     // Leaving the string is decided by a plane that contains the world's x: a rule, not physics.
     if (flies(a)) continue;
-    const auto b = run(parameters, start, [&](double t) { return moved(play.tips.at(t), rotate, rotate); }, kCount, kStep);
+    const auto b = run(
+        parameters, start, [&](double t) { return moved(play.tips.at(t), rotate, rotate); }, kCount, kStep);
     if (flies(b)) continue;
     ++compared;
-    worst = std::max(worst, distance(a, b, [&](const Vector& p, double) { return rotate(p); }, kStep));
+    worst = std::max(worst, distance(
+                                a, b, [&](const Vector& p, double) { return rotate(p); }, kStep));
     CHECK(a.back().spin == Approx(b.back().spin).epsilon(1e-9));
   }
   CHECK(compared > 10);
@@ -143,13 +149,17 @@ TEST_CASE("a steady velocity common to tips and diabolo changes nothing") {
     const Vector boost = random.vector(3.0);
     State<double> start = play.start;
     start.velocity += boost;
-    const auto a = run(parameters, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
+    const auto a = run(
+        parameters, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
     const TipsAt carried = [&](double t) {
-      return moved(play.tips.at(t), [&](const Vector& p) { return Vector(p + boost * t); },
-                   [&](const Vector& v) { return Vector(v + boost); });
+      return moved(
+          play.tips.at(t), [&](const Vector& p) { return Vector(p + boost * t); },
+          [&](const Vector& v) { return Vector(v + boost); });
     };
     const auto b = run(parameters, start, carried, kCount, kStep);
-    worst = std::max(worst, distance(a, b, [&](const Vector& p, double t) { return Vector(p + boost * t); }, kStep));
+    worst =
+        std::max(worst, distance(
+                            a, b, [&](const Vector& p, double t) { return Vector(p + boost * t); }, kStep));
   }
   CHECK(worst < kSolved);
 }
@@ -164,13 +174,16 @@ TEST_CASE("every preset is the same everywhere in the world") {
       const Vector shift = random.vector(5.0);
       State<double> start = play.start;
       start.position += shift;
-      const auto a = run(parameters, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
+      const auto a = run(
+          parameters, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
       const TipsAt shifted = [&](double t) {
-        return moved(play.tips.at(t), [&](const Vector& p) { return Vector(p + shift); },
-                     [](const Vector& v) { return v; });
+        return moved(
+            play.tips.at(t), [&](const Vector& p) { return Vector(p + shift); },
+            [](const Vector& v) { return v; });
       };
       const auto b = run(parameters, start, shifted, kCount, kStep);
-      worst = std::max(worst, distance(a, b, [&](const Vector& p, double) { return Vector(p + shift); }, kStep));
+      worst = std::max(worst, distance(
+                                  a, b, [&](const Vector& p, double) { return Vector(p + shift); }, kStep));
     }
     CHECK(worst < 1e-9);
   }
@@ -196,17 +209,21 @@ TEST_CASE("a larger world with slower time is the same motion") {
     start.position *= s;
     start.velocity *= slow;
     start.spin /= slow;
-    const auto a = run(small, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
+    const auto a = run(
+        small, play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
     const TipsAt grown = [&](double t) {
-      return moved(play.tips.at(t / slow), [&](const Vector& p) { return Vector(p * s); },
-                   [&](const Vector& v) { return Vector(v * slow); });
+      return moved(
+          play.tips.at(t / slow), [&](const Vector& p) { return Vector(p * s); },
+          [&](const Vector& v) { return Vector(v * slow); });
     };
     const auto b = run(large, start, grown, kCount, kStep * slow);
-    worst = std::max(worst, distance(a, b, [&](const Vector& p, double) { return Vector(p * s); }, kStep));
+    worst = std::max(worst, distance(
+                                a, b, [&](const Vector& p, double) { return Vector(p * s); }, kStep));
     worst_spin = std::max(worst_spin, std::abs(b.back().spin * slow - a.back().spin));
   }
   CHECK(worst < kSolved);
-  // The string that has passed is read off one iteration before the last: the speed of a step of about 1e-8 m.
+  // The string that has passed is read off one iteration before the last: the speed of a step of about 1e-8
+  // m.
   CHECK(worst_spin < 1e-3);
 }
 
@@ -220,13 +237,17 @@ TEST_CASE("faster time in stronger gravity is the same path") {
     const Play play = random_play(random, strong.string_length);
     State<double> start = play.start;
     start.velocity *= fast;
-    const auto a = run(Parameters<double>::consistent(), play.start, [&](double t) { return play.tips.at(t); }, kCount, kStep);
+    const auto a = run(
+        Parameters<double>::consistent(), play.start, [&](double t) { return play.tips.at(t); }, kCount,
+        kStep);
     const TipsAt quick = [&](double t) {
-      return moved(play.tips.at(t * fast), [](const Vector& p) { return p; },
-                   [&](const Vector& v) { return Vector(v * fast); });
+      return moved(
+          play.tips.at(t * fast), [](const Vector& p) { return p; },
+          [&](const Vector& v) { return Vector(v * fast); });
     };
     const auto b = run(strong, start, quick, kCount, kStep / fast);
-    worst = std::max(worst, distance(a, b, [](const Vector& p, double) { return p; }, kStep));
+    worst = std::max(worst, distance(
+                                a, b, [](const Vector& p, double) { return p; }, kStep));
   }
   CHECK(worst < kSolved);
 }
@@ -238,7 +259,9 @@ TEST_CASE("the diabolo's mass changes no motion on a rigid string") {
     heavy.mass = 5.0;
     const Play play = random_play(random, heavy.string_length);
     const TipsAt tips = [&](double t) { return play.tips.at(t); };
-    const auto a = run(preset(), play.start, tips, kCount, kStep), b = run(heavy, play.start, tips, kCount, kStep);
-    CHECK(distance(a, b, [](const Vector& p, double) { return p; }, kStep) == 0.0);
+    const auto a = run(preset(), play.start, tips, kCount, kStep),
+               b = run(heavy, play.start, tips, kCount, kStep);
+    CHECK(distance(
+              a, b, [](const Vector& p, double) { return p; }, kStep) == 0.0);
   }
 }

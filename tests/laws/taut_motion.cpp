@@ -27,7 +27,8 @@ Swing random_swing(Random& random, double distance, double amplitude) {
     const Tips<double> begin = swing.tips.at(0.0);
     const Spheroid<double> spheroid(begin.left, begin.right, 1.45);
     swing.start.tips = swing.tips;
-    swing.start.position = spheroid.closest_point(spheroid.center() + random.vector(0.3) + Vector(0.0, 0.0, -1.0));
+    swing.start.position =
+        spheroid.closest_point(spheroid.center() + random.vector(0.3) + Vector(0.0, 0.0, -1.0));
     swing.start.velocity = random.vector(1.5);
     swing.start.make_consistent();
     swing.end = swing.start;
@@ -65,7 +66,8 @@ Errors errors_of(const Swing& swing, int steps) {
     worst.velocity = std::max(worst.velocity, (state.velocity - reference.velocity).norm());
     // Where the start does not fit the constraint of a finite step, the tension swings in within some steps.
     if (2 * i > steps)
-      worst.tension = std::max(worst.tension, std::abs(state.string_acceleration.norm() / strands.norm() - tension));
+      worst.tension =
+          std::max(worst.tension, std::abs(state.string_acceleration.norm() / strands.norm() - tension));
   }
   return worst;
 }
@@ -89,7 +91,8 @@ TEST_CASE("position, velocity and tension converge to the reference with the sec
       Random random(110 + static_cast<unsigned>(seed));
       CAPTURE(distance, seed);
       const Swing swing = random_swing(random, distance, 0.15);
-      const Errors coarse = errors_of(swing, 250), fine = errors_of(swing, 500), finest = errors_of(swing, 1000);
+      const Errors coarse = errors_of(swing, 250), fine = errors_of(swing, 500),
+                   finest = errors_of(swing, 1000);
       CAPTURE(finest.position, finest.velocity, finest.tension);
       CHECK(finest.position < 2e-5);
       CHECK(finest.velocity < 2e-4);
@@ -134,8 +137,8 @@ TEST_CASE("the spin converges with the second order of the step") {
       state.velocity = swing.start.velocity;
       state.spin = 50.0;
       for (int i = 0; i < steps; ++i)
-        predictor.step(state, swing.tips.at(i * kDuration / steps), swing.tips.at((i + 1) * kDuration / steps),
-                       kDuration / steps);
+        predictor.step(state, swing.tips.at(i * kDuration / steps),
+                       swing.tips.at((i + 1) * kDuration / steps), kDuration / steps);
       return std::abs(state.spin - exact);
     };
     const double coarse = error(250), fine = error(500), finest = error(1000);

@@ -10,15 +10,14 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import diabolo
 import hypothesis
 import numpy as np
 import pytest
+from diabolo import motions
 from numpy.typing import NDArray
 
-import diabolo
-from diabolo import motions
-
-# Without a deadline: what is tested is right or wrong, however busy the machine. A failure prints how to repeat it.
+# Without a deadline: what is tested is right or wrong, however busy the machine. Failures say how to repeat them.
 hypothesis.settings.register_profile("diabolo", deadline=None, max_examples=50, print_blob=True)
 hypothesis.settings.load_profile("diabolo")
 

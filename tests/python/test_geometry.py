@@ -5,12 +5,11 @@ import pickle
 
 import numpy as np
 import pytest
+from diabolo import Spheroid, TipMotion
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
-
-from diabolo import Spheroid, TipMotion
 
 LENGTH = 1.45
 coordinates = st.floats(-2.0, 2.0)
@@ -90,7 +89,7 @@ def test_wrong_shapes_say_expected_and_given() -> None:
         Spheroid([0.0, 0.0], RIGHT, LENGTH)
     with pytest.raises(ValueError, match="right: nan at index 1"):
         Spheroid(LEFT, [0.0, np.nan, 0.0], LENGTH)
-    with pytest.raises(ValueError, match="string_length: .* must be > 0"):
+    with pytest.raises(ValueError, match=r"string_length: .* must be > 0"):
         Spheroid(LEFT, RIGHT, 0.0)
 
 

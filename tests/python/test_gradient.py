@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
-
 from diabolo import Model, Parameters, StringElasticity, TipMotion, motions, rollout, rollout_gradient
+from numpy.typing import NDArray
 
 TIPS = motions.swing(1.0)
 FEW = TipMotion(

@@ -4,9 +4,8 @@ from __future__ import annotations
 import pickle
 from pathlib import Path
 
-import pytest
-
 import diabolo
+import pytest
 from diabolo import Model, Parameters, StringElasticity
 
 SPRING = StringElasticity.of_stiffness(600.0, damping=2.0)
@@ -59,7 +58,7 @@ def test_model_files_hold_everything(model: Model, tmp_path: Path) -> None:
 def test_bad_model_files_are_named(tmp_path: Path) -> None:
     path = tmp_path / "model.json"
     path.write_text('{"schema": "diabolo.model/1", "base": "paper", "parameters": {"mass": -1}}')
-    with pytest.raises(ValueError, match="model.json.*mass"):
+    with pytest.raises(ValueError, match=r"model\.json.*mass"):
         Model.load(path)
     with pytest.raises(ValueError, match="no such file"):
         Model.load(tmp_path / "other.json")

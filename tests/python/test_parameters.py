@@ -6,13 +6,12 @@ import json
 import pickle
 from typing import Any
 
+import diabolo
 import numpy as np
 import pytest
+from diabolo import Parameters
 from hypothesis import assume, given
 from hypothesis import strategies as st
-
-import diabolo
-from diabolo import Parameters
 
 FIELDS = Parameters.fields()
 CHOICES = {

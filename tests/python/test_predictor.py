@@ -5,7 +5,6 @@ import copy
 
 import numpy as np
 import pytest
-
 from diabolo import Parameters, Predictor, Spheroid, State, StringElasticity, StringState
 
 LEFT, RIGHT = np.array([0.0, 0.3, 0.0]), np.array([0.0, -0.3, 0.0])
@@ -86,8 +85,8 @@ def test_an_elastic_string_gives_by_weight_times_compliance() -> None:
 
 
 def test_velocities_default_to_those_of_straight_tips() -> None:
-    moved = (LEFT, RIGHT, LEFT + [0.0, 0.0, 1e-3], RIGHT + [1e-3, 0.0, 0.0])
     left, right = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
+    moved = (LEFT, RIGHT, LEFT + 1e-3 * left, RIGHT + 1e-3 * right)
     states = [State([0.0, 0.0, -0.66], string_state="on_string") for _ in range(3)]
     predictor = Predictor(Parameters())
     predictor.step(states[0], *moved, dt=1e-3)
@@ -100,7 +99,7 @@ def test_velocities_default_to_those_of_straight_tips() -> None:
 def test_bad_steps_are_refused_and_change_nothing() -> None:
     predictor, state = Predictor(Parameters()), State([0.0, 0.0, -0.5])
     before = state.to_array()
-    with pytest.raises(ValueError, match="dt: 0.000000 s; must be positive"):
+    with pytest.raises(ValueError, match=r"dt: 0\.000000 s; must be positive"):
         predictor.step(state, *REST, dt=0.0)
     with pytest.raises(ValueError, match=r"left1: shape \(2,\); expected \(3,\)"):
         predictor.step(state, LEFT, RIGHT, [0.0, 0.0], RIGHT, dt=1e-3)

@@ -4,11 +4,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import diabolo
 import numpy as np
 import pytest
 from conftest import motive_text
-
-import diabolo
 from diabolo import Calibration, DiaboloProperties, Recording, RecordingError, TipMotion
 
 
@@ -154,15 +153,15 @@ def test_bad_arrays_are_refused(played: Recording) -> None:
 
 def test_bad_files_are_named(played: Recording, tmp_path: Path) -> None:
     path = tmp_path / "bad.csv"
-    with pytest.raises(RecordingError, match="bad.csv: there is no such file"):
+    with pytest.raises(RecordingError, match=r"bad\.csv: there is no such file"):
         Recording.load(path)
     path.write_text(motive_text(played).replace("0.300000,", "0.3x,", 1))
-    with pytest.raises(RecordingError, match="bad.csv, line "):
+    with pytest.raises(RecordingError, match=r"bad\.csv, line "):
         Recording.load(path)
     path.write_text("a,b\n1,2\n")
-    with pytest.raises(RecordingError, match="expected a Motive export .* or a tidy recording"):
+    with pytest.raises(RecordingError, match=r"expected a Motive export .* or a tidy recording"):
         Recording.load(path)
-    with pytest.raises(RecordingError, match="expected a name that ends in .csv"):
+    with pytest.raises(RecordingError, match=r"ends in \.csv"):
         played.save(tmp_path / "tidy.txt")
     with pytest.raises(RecordingError, match="cannot be written"):
         played.save(tmp_path / "no" / "tidy.csv")

@@ -8,10 +8,6 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from numpy.typing import NDArray
-
 from diabolo import (
     Model,
     Parameters,
@@ -23,6 +19,9 @@ from diabolo import (
     motions,
     rollout,
 )
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 DT = 1e-3
 SWING = motions.swing(2.0)

@@ -75,7 +75,9 @@ void Fields::read(const std::string& key, int& value, Range range) {
 void Fields::read(const std::string& key, std::uint64_t& value) {
   const Json* field = find(key);
   if (field == nullptr) return;
-  if (!field->is_number_unsigned()) fail(key, field->dump(), "a whole number of at least 0");
+  const bool is_whole =
+      field->is_number_unsigned() || (field->is_number_integer() && field->get<std::int64_t>() >= 0);
+  if (!is_whole) fail(key, field->dump(), "a whole number of at least 0");
   value = field->get<std::uint64_t>();
 }
 

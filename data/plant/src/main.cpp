@@ -33,8 +33,14 @@ void make_recording(const Options& options) {
   const Scenario scenario = load_scenario(options.scenario, options.seed);
   const Plant plant(scenario.plant, scenario.motion);
 
-  const std::vector<Moment> moments =
-      simulate(plant, scenario.start, diabolo_times(scenario.camera, scenario.duration));
+  const auto play = [&](const CameraParameters& camera) {
+    try {
+      return simulate(plant, scenario.start, diabolo_times(camera, scenario.duration));
+    } catch (const std::invalid_argument& error) {
+      throw ScenarioError(options.scenario + ": " + error.what());
+    }
+  };
+  const std::vector<Moment> moments = play(scenario.camera);
   const std::vector<Frame> frames = film(scenario.camera, scenario.motion, moments, scenario.seed);
   write_file(options.out,
              [&](std::ostream& out) { write_frames(out, frames, scenario.camera.stick_orientation); });
@@ -45,8 +51,7 @@ void make_recording(const Options& options) {
   if (!options.truth.empty()) {
     CameraParameters ideal;
     ideal.rate = scenario.truth_rate;
-    const std::vector<Moment> truth =
-        simulate(plant, scenario.start, diabolo_times(ideal, scenario.duration));
+    const std::vector<Moment> truth = play(ideal);
     write_file(options.truth, [&](std::ostream& out) { write_truth(out, plant, truth); });
   }
   std::cout << options.out << ": " << frames.size() << " frames";

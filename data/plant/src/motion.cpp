@@ -34,12 +34,14 @@ int knot_count(double duration) { return std::max(8, static_cast<int>(std::ceil(
 Pair<Stick> Motion::at(double time) const {
   const CubicSpline<10>::Sample sample = spline_.at(time);
   Pair<Stick> sticks;
-  for (int side = 0; side < 2; ++side) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Eigen::Index tip = 3 * static_cast<Eigen::Index>(side);
+    const Eigen::Index angles = 6 + 2 * static_cast<Eigen::Index>(side);
     Stick& stick = sticks[side];
-    stick.tip = sample.value.segment<3>(3 * side);
-    stick.velocity = sample.rate.segment<3>(3 * side);
-    stick.acceleration = sample.second_rate.segment<3>(3 * side);
-    stick.direction = direction_from_angles(sample.value(6 + 2 * side), sample.value(7 + 2 * side));
+    stick.tip = sample.value.segment<3>(tip);
+    stick.velocity = sample.rate.segment<3>(tip);
+    stick.acceleration = sample.second_rate.segment<3>(tip);
+    stick.direction = direction_from_angles(sample.value(angles), sample.value(angles + 1));
   }
   return sticks;
 }
@@ -113,7 +115,7 @@ Motion MotionBuilder::finish(const Wander& wander, std::uint64_t seed) const {
       const double frequency = kSlowestWander + (kFastestWander - kSlowestWander) * random.uniform();
       const double phase = kTwoPi * random.uniform();
       for (std::size_t i = 0; i < knots.size(); ++i) {
-        const double onset = least_jerk(std::min(1.0, times_[i]));
+        const double onset = least_jerk(std::min({1.0, times_[i], times_.back() - times_[i]}));
         knots[i](quantity) += onset * amplitude * std::sin(kTwoPi * frequency * times_[i] + phase);
       }
     }

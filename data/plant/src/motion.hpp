@@ -16,7 +16,7 @@ struct SticksPose {
   Pair<double> pitches{0.0, 0.0};                                ///< above the horizontal [rad]
 };
 
-/// Unsteadiness of the hands: slow random wandering, which fades in during the first second.
+/// Unsteadiness of the hands: slow random wandering, which fades in and out within a second.
 struct Wander {
   double tips = 0.0;        ///< of each coordinate of a tip (standard deviation) [m]
   double directions = 0.0;  ///< of each angle of a stick (standard deviation) [rad]

@@ -93,7 +93,7 @@ Motion motion_from_fields(Fields fields, std::uint64_t seed) {
   SticksPose pose;
   fields.read("left", pose.tips[0]);
   fields.read("right", pose.tips[1]);
-  for (int side = 0; side < 2; ++side) {
+  for (std::size_t side = 0; side < 2; ++side) {
     Fields direction = fields.object(side == 0 ? "left_stick" : "right_stick");
     direction.read_degrees("yaw_deg", pose.yaws[side], kAngleDeg);
     direction.read_degrees("pitch_deg", pose.pitches[side], kAngleDeg);
@@ -103,7 +103,9 @@ Motion motion_from_fields(Fields fields, std::uint64_t seed) {
   fields.read("wander", wander.tips, {0.0, 0.1});
   fields.read_degrees("wander_deg", wander.directions, {0.0, 30.0});
   MotionBuilder motion(pose);
-  add_elements(fields.objects("elements"), motion);
+  const std::vector<Fields> elements = fields.objects("elements");
+  if (elements.empty()) fields.fail("elements", "[]", "at least one element");
+  add_elements(elements, motion);
   fields.finish();
   return motion.finish(wander, seed);
 }

@@ -26,7 +26,7 @@ struct Start {
   double yaw = 0.0;     ///< of the axis, to the left of forward [rad]
   double pitch = 0.0;   ///< of the axis, above the horizontal [rad]
   bool flying = false;  ///< off the string
-  std::optional<Vec3> position;  ///< centre of mass [m]; none: hanging at rest on the string
+  std::optional<Vec3> position;  ///< centre of mass, sticks unbent [m]; none: hanging at rest on bent sticks
   Vec3 velocity = Vec3::Zero();  ///< [m/s]; only with a position
 };
 
@@ -76,13 +76,14 @@ class Plant {
   State rate(const Moment& moment, const State& state, const Pair<Stick>& sticks) const;
   State runge_kutta(const Moment& moment, double step) const;
   Moment stepped(const Moment& moment, double step) const;
-  bool is_taut(const Moment& moment, const StringShape& shape) const;
+  bool is_taut(const StringShape& shape) const;
   double height_above_chord(const Moment& moment) const;
   bool stays(const Moment& moment) const;
   void switch_mode(Moment& moment) const;
   void land(Moment& moment) const;
   Vec3 up() const;
   void hang(Moment& moment) const;
+  double energy(const State& state) const;
 
   PlantParameters parameters_;
   Motion motion_;

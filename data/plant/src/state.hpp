@@ -24,6 +24,9 @@ enum Column : int {
   kRightBendRate,    ///< [m/s]
 };
 
+inline constexpr Pair<int> kBend{kLeftBend, kRightBend};
+inline constexpr Pair<int> kBendRate{kLeftBendRate, kRightBendRate};
+
 /// How the diabolo and the string meet.
 enum class Mode {
   kOnString,  ///< string taut under the axle

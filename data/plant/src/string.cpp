@@ -32,7 +32,7 @@ StringShape string_shape(const StringParameters& string, const Groove& groove, c
   Pair<Vec3> normals;
   Pair<double> flow;
   double turning = 0.0;
-  for (int side = 0; side < 2; ++side) {
+  for (std::size_t side = 0; side < 2; ++side) {
     const Vec3 to_tip = ends.tips[side] - ends.centre - shift * axis;
     const Vec3 across = perpendicular_part(to_tip, axis);
     const double distance = across.norm();

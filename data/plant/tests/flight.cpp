@@ -42,7 +42,7 @@ TEST_CASE("a tumbling axis circles the angular momentum at |L| / I_t") {
                         plant.parameters().diabolo.inertia_ratio / momentum.norm();
   const Vec3 axis = moment.state.col(kAxis);
   const int steps = 3000;
-  Vec3 halfway;
+  Vec3 halfway = axis;
   for (int i = 0; i < steps; ++i) {
     if (i == steps / 2) halfway = moment.state.col(kAxis);
     moment = plant.advanced(moment, period / steps);

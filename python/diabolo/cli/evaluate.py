@@ -23,8 +23,9 @@ from .tables import format_table
 
 TABLE_NOTE = """\
 mean distance between predicted and recorded diabolo [m]; one prediction from the first row, as in the paper
-baseline: the diabolo rests at the lowest point of the string; a model that loses to it has explained nothing
-program: the authors' program, run again on the same rows; printed: the figure in the paper"""
+baseline: the diabolo rests at the lowest point of the string; a model that loses to it has explained nothing"""
+
+PAPER_NOTE = "program: the authors' program, run again on the same rows; printed: the figure in the paper"
 
 HORIZON_NOTE = """\
 distance between predicted and recorded diabolo [m] at a time after the start, over many starts
@@ -149,7 +150,9 @@ def _table_text(result: Evaluation) -> str:
             ]
         )
     header = ["recording", "rows", *models, "baseline", "program", "printed"]
-    return f"{format_table(header, lines)}\n\n{TABLE_NOTE}"
+    if not any(row.paper_error for row in result.rows):
+        return f"{format_table(header[:-2], [line[:-2] for line in lines])}\n\n{TABLE_NOTE}"
+    return f"{format_table(header, lines)}\n\n{TABLE_NOTE}\n{PAPER_NOTE}"
 
 
 def _number(row: TableRow) -> str:

@@ -23,6 +23,8 @@ def check_outputs(outputs: Iterable[str | Path | None], inputs: Iterable[str | P
         path = Path(output)
         if path.is_dir():
             raise ValueError(f"{path}: a directory; expected the name of a file to write")
+        if path.exists() and not path.is_file():
+            raise ValueError(f"{path}: a device or a pipe; expected a file ({STDOUT} is standard output)")
         if not path.absolute().parent.is_dir():
             raise ValueError(f"{path}: there is no folder {path.absolute().parent} to write into")
         if path.resolve() in taken:

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "plant.hpp"
+
+#include <cmath>
+
+namespace plant {
+namespace {
+
+constexpr double kEventTolerance = 1e-10;  // [s]
+constexpr double kReleaseHeight = 0.04;    // above the line of the tips, about a cup's radius [m]
+constexpr double kCatchMargin = 0.01;      // of the cups that a catch must leave free [m]
+
+}  // namespace
+
+bool Plant::is_taut(const StringShape& shape) const {
+  return shape.length > parameters_.string.length && shape.wrap > 0.0 &&
+         string_tensions(parameters_.string, shape).left > 0.0;
+}
+
+Vec3 Plant::up() const {
+  const double strength = parameters_.gravity.norm();
+  return strength > 0.0 ? Vec3(-parameters_.gravity / strength) : Vec3(Vec3::UnitZ());
+}
+
+double Plant::height_above_chord(const Moment& moment) const {
+  const Pair<Vec3> ends = tips(moment.state, motion_.at(moment.time));
+  const Vec3 chord = (ends[1] - ends[0]).normalized();
+  return perpendicular_part(up(), chord).normalized().dot(moment.state.col(kPosition) - ends[0]);
+}
+
+/// Whether the moment's mode still describes it.
+bool Plant::stays(const Moment& moment) const {
+  if (moment.mode == Mode::kFlying) return height_above_chord(moment) > 0.0;
+  const StringShape now = shape(moment, moment.state, motion_.at(moment.time));
+  const bool taut = is_taut(now);
+  if (moment.mode == Mode::kOnString) return taut;
+  const bool parts =
+      parameters_.string.wraps == 0 && (now.wrap <= 0.0 || height_above_chord(moment) > kReleaseHeight);
+  return !taut && !parts;
+}
+
+void Plant::switch_mode(Moment& moment) const {
+  switch (moment.mode) {
+    case Mode::kOnString:
+      moment.mode = Mode::kLoose;
+      break;
+    case Mode::kLoose:
+      moment.mode =
+          is_taut(shape(moment, moment.state, motion_.at(moment.time))) ? Mode::kOnString : Mode::kFlying;
+      break;
+    case Mode::kFlying:
+      land(moment);
+      break;
+  }
+}
+
+/// The centre has come down to the line between the tips: the string catches it when it passes between the
+/// cups.
+void Plant::land(Moment& moment) const {
+  const DiaboloParameters& diabolo = parameters_.diabolo;
+  const Pair<Vec3> ends = tips(moment.state, motion_.at(moment.time));
+  const Vec3 centre = moment.state.col(kPosition);
+  const Vec3 axis = moment.state.col(kAxis);
+  const Vec3 chord = ends[1] - ends[0];
+  const double share = chord.dot(centre - ends[0]) / chord.squaredNorm();
+  const double along = axis.dot(ends[0] + share * chord - centre);
+  const double slant = axis.dot(chord) / perpendicular_part(chord, axis).norm();
+  const double reach = std::abs(along) + 0.5 * diabolo.diameter * std::abs(slant);
+  const double margin = diabolo.diameter / chord.norm();
+  if (share > margin && share < 1.0 - margin && reach < 0.5 * diabolo.length - kCatchMargin) {
+    moment.mode = Mode::kLoose;
+    moment.chirality = axis.dot(chord.cross(up())) > 0.0 ? 1.0 : -1.0;
+    moment.wrap_reference = 0.0;
+  } else {
+    moment.missed = true;
+  }
+}
+
+Moment Plant::advanced(Moment moment, double step) const {
+  double left = step;
+  while (!moment.missed) {
+    const Moment whole = stepped(moment, left);
+    if (stays(whole)) return whole;
+    double before = 0.0;
+    double after = left;
+    Moment changed = whole;
+    while (after - before > kEventTolerance) {
+      const double middle = 0.5 * (before + after);
+      const Moment trial = stepped(moment, middle);
+      if (stays(trial)) {
+        before = middle;
+      } else {
+        after = middle;
+        changed = trial;
+      }
+    }
+    moment = changed;
+    left -= after;
+    switch_mode(moment);
+    if (!(left > 0.0)) break;
+  }
+  return moment;
+}
+
+}  // namespace plant

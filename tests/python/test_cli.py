@@ -1,0 +1,399 @@
+# SPDX-License-Identifier: MIT
+from __future__ import annotations
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import diabolo
+import jsonschema
+import numpy as np
+import pytest
+from conftest import Command, make_recording, motive_text
+from diabolo import Recording
+
+COMMANDS = ("demo", "evaluate", "simulate", "info", "convert")
+
+NUMBER_OR_NULL = {"type": ["number", "null"], "minimum": 0.0}
+EVALUATION_SCHEMA: dict[str, Any] = {
+    "type": "object",
+    "required": ["schema", "rows", "horizons"],
+    "properties": {
+        "schema": {"const": "diabolo.evaluation/1"},
+        "rows": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "required": ["recording", "frames", "model", "mean_error_m", "baseline_m", "paper_m"],
+                "properties": {
+                    "recording": {"type": "string"},
+                    "frames": {
+                        "type": "array",
+                        "items": {"type": "integer", "minimum": 0},
+                        "minItems": 2,
+                        "maxItems": 2,
+                    },
+                    "model": {"type": "string"},
+                    "mean_error_m": NUMBER_OR_NULL,
+                    "baseline_m": {"type": "number"},
+                    "paper_m": NUMBER_OR_NULL,
+                },
+            },
+        },
+        "horizons": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "required": [
+                    "recording",
+                    "model",
+                    "horizon_s",
+                    "windows",
+                    "mean_m",
+                    "median_m",
+                    "p90_m",
+                    "ci95_m",
+                ],
+                "properties": {
+                    "recording": {"type": "string"},
+                    "model": {"type": "string"},
+                    "horizon_s": {"type": "number", "exclusiveMinimum": 0.0},
+                    "windows": {"type": "integer", "minimum": 0},
+                    "mean_m": NUMBER_OR_NULL,
+                    "median_m": NUMBER_OR_NULL,
+                    "p90_m": NUMBER_OR_NULL,
+                    "ci95_m": {
+                        "type": ["array", "null"],
+                        "items": {"type": "number"},
+                        "minItems": 2,
+                        "maxItems": 2,
+                    },
+                },
+            },
+        },
+    },
+}
+
+
+@pytest.fixture
+def tidy(tmp_path: Path, played: Recording) -> Path:
+    path = tmp_path / "played.csv"
+    played.save(path)
+    return path
+
+
+def json_of(text: str) -> dict[str, Any]:
+    def refuse(constant: str) -> None:
+        raise AssertionError(f"{constant} is not JSON")
+
+    value = json.loads(text, parse_constant=refuse)
+    assert isinstance(value, dict)
+    return value
+
+
+def names_in(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+# ---- help and version ----
+
+
+def test_help_of_each_command_shows_an_example(command: Command) -> None:
+    done = command("--help")
+    assert done.returncode == 0 and not done.stderr
+    for name in COMMANDS:
+        assert name in done.stdout
+        own = command(name, "--help")
+        assert own.returncode == 0
+        assert f"example:\n  diabolo {name}" in own.stdout
+
+
+def test_version_is_the_one_of_the_package(command: Command) -> None:
+    assert command("--version").stdout == f"diabolo {diabolo.__version__}\n"
+
+
+# ---- evaluate ----
+
+
+def test_evaluate_prints_the_table(command: Command, tidy: Path) -> None:
+    done = command("evaluate", tidy, f"{tidy}:100-300", "--json", "out.json")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    assert lines[0].split() == ["recording", "rows", "published", "paper", "consistent", "baseline"]
+    assert [line.split()[:2] for line in lines[2:4]] == [["played", "0-480"], ["played", "100-300"]]
+    found = json_of((tidy.parent / "out.json").read_text())
+    jsonschema.validate(found, EVALUATION_SCHEMA)
+    assert [row["frames"] for row in found["rows"]] == [[0, 480]] * 3 + [[100, 300]] * 3
+    printed = [float(cell) for cell in lines[2].split()[2:]]
+    expected = [row["mean_error_m"] for row in found["rows"][:3]] + [found["rows"][0]["baseline_m"]]
+    np.testing.assert_allclose(printed, expected, atol=5.01e-4)
+    assert names_in(tidy.parent) == ["out.json", "played.csv", "played.json"]
+
+
+def test_evaluate_prints_figures_of_the_paper_where_it_has_them(command: Command, tmp_path: Path) -> None:
+    make_recording("hold", seconds=2.0, name="z_hop_1").cut(0, 180).save(tmp_path / "z_hop_1.csv")
+    done = command("evaluate", "z_hop_1.csv", "--model", "published")
+    lines = done.stdout.splitlines()
+    assert lines[0].split() == ["recording", "rows", "published", "baseline", "program", "printed"]
+    assert lines[2].split()[-2:] == ["0.070", "0.07"]
+
+
+def test_evaluate_over_many_starts(command: Command, tidy: Path) -> None:
+    options = ("--starts", "every=0.1", "--model", "consistent", "--model", "paper", "--json", "-")
+    done = command("evaluate", tidy, *options)
+    assert (done.returncode, done.stderr) == (0, "")
+    found = json_of(done.stdout)
+    jsonschema.validate(found, EVALUATION_SCHEMA)
+    assert not found["rows"] and len(found["horizons"]) == 10
+    for row in found["horizons"]:
+        if row["ci95_m"] is not None:
+            assert row["ci95_m"][0] <= row["mean_m"] <= row["ci95_m"][1]
+    assert command("evaluate", tidy, *options, "--threads", "1").stdout == done.stdout
+    text = command("evaluate", tidy, *options[:-2])
+    assert text.stdout.splitlines()[0] == "played"
+    assert "95 % interval" in text.stdout and "baseline" in text.stdout
+
+
+def test_evaluate_takes_model_files_and_calibrations(
+    command: Command, motive_file: Path, tmp_path: Path
+) -> None:
+    diabolo.Model(diabolo.Parameters(string_length=1.30), name="short", own_string_length=True).save(
+        tmp_path / "short.json"
+    )
+    diabolo.Calibration.published().save(tmp_path / "calibration.json")
+    done = command(
+        "evaluate", motive_file, "--model", "short.json", "--calibration", "calibration.json", "--json", "-"
+    )
+    (row,) = json_of(done.stdout)["rows"]
+    assert row["model"] == "short" and row["mean_error_m"] > 0.05
+
+
+@pytest.mark.parametrize("starts", ["first", "every=0.2"])
+@pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
+def test_evaluate_draws(command: Command, tidy: Path, starts: str, ending: str) -> None:
+    pytest.importorskip("matplotlib")
+    plot = tidy.with_name(f"errors.{ending}")
+    done = command("evaluate", tidy, f"{tidy}:0-200", "--starts", starts, "--plot", plot)
+    assert (done.returncode, done.stderr) == (0, "")
+    beginning = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}[ending]
+    assert plot.read_bytes().startswith(beginning) and plot.stat().st_size > 5000
+    assert names_in(tidy.parent) == sorted([plot.name, "played.csv", "played.json"])
+
+
+# ---- the other commands ----
+
+
+def test_convert_then_evaluate_is_the_same(command: Command, motive_file: Path, tmp_path: Path) -> None:
+    done = command("convert", motive_file, "tidy.csv", "--json", "-")
+    assert done.returncode == 0
+    assert json_of(done.stdout)["samples"] == 481
+    results = [
+        json_of(command("evaluate", path, "--model", "published", "--json", "-").stdout)["rows"][0]
+        for path in (motive_file, "tidy.csv")
+    ]
+    assert results[0]["mean_error_m"] == pytest.approx(results[1]["mean_error_m"], rel=1e-9)
+    assert results[0]["recording"] == "take" and results[1]["recording"] == "tidy"
+
+
+def test_info_tells_what_is_there(command: Command, played: Recording, tmp_path: Path) -> None:
+    diabolo_track = played.diabolo.copy()
+    diabolo_track[10:13] = np.nan
+    diabolo_track[-1] = np.nan
+    holes = Recording(
+        played.time,
+        played.left,
+        played.right,
+        diabolo_track,
+        120.0,
+        diabolo_orientation=played.diabolo_orientation,
+    )
+    (tmp_path / "holes.csv").write_text(motive_text(holes))
+    found = json_of(command("info", "holes.csv", "--json").stdout)
+    bodies = {body["name"]: body for body in found["bodies"]}
+    assert (found["schema"], found["format"], found["samples"]) == ("diabolo.info/1", "motive", 481)
+    assert found["duration_s"] == pytest.approx(4.0) and found["rate_hz"] == 120.0
+    assert bodies["diabolo_red"]["dropouts"] == 4
+    assert bodies["diabolo_red"]["longest_gap_s"] == pytest.approx(3 / 120)
+    assert bodies["stick_left"]["dropouts"] == 0
+    assert found["spin_rad_s"]["max"] == pytest.approx(100.0, abs=0.01)
+    text = command("info", "holes.csv")
+    assert "Motive export, 481 samples at 120 Hz, 4.00 s" in text.stdout
+    assert "diabolo_red" in text.stdout and "spin: " in text.stdout
+
+
+def test_info_reads_takes_that_the_calibration_does_not_fit(command: Command, motive_file: Path) -> None:
+    motive_file.write_text(motive_file.read_text().replace("stick_left", "stick_lost"))
+    done = command("info", motive_file)
+    assert done.returncode == 0
+    assert (
+        "stick_lost" in done.stdout and "No tips and no spin: no rigid body for the left stick" in done.stdout
+    )
+    assert json_of(command("info", motive_file, "--json").stdout)["spin_rad_s"] is None
+
+
+@pytest.mark.parametrize("motion", ["hold", "swing", "beat", "throw"])
+def test_simulate_writes_a_recording(command: Command, tmp_path: Path, motion: str) -> None:
+    done = command("simulate", "out.csv", "--motion", motion, "--duration", "3", "--spin", "80")
+    assert (done.returncode, done.stderr) == (0, "")
+    played = Recording.load(tmp_path / "out.csv")
+    assert len(played) == 361 and played.diabolo_valid.all()
+    assert played.spin()[0] == pytest.approx(80.0, abs=1e-3)
+    flew = np.any(played.diabolo[:, 2] > 1.0)
+    assert flew == (motion == "throw")
+    assert names_in(tmp_path) == ["out.csv", "out.json"]
+
+
+def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Path) -> None:
+    done = command("simulate", "out.csv", "--on", f"{tidy}:60-300", "--model", "published", "--json", "-")
+    assert json_of(done.stdout)["model"] == "published"
+    out, take = Recording.load(tidy.with_name("out.csv")), Recording.load(tidy).cut(60, 300)
+    np.testing.assert_array_equal(out.left, take.left)
+    np.testing.assert_array_equal(out.diabolo, diabolo.predict(take, "published").states[:, :3])
+
+
+# ---- everything that goes wrong ----
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        ((), "the following arguments are required: COMMAND"),
+        (("juggle",), "invalid choice: 'juggle'"),
+        (("evaluate",), "the following arguments are required: RECORDING"),
+        (("evaluate", "no.csv"), "no.csv: there is no such file"),
+        (("evaluate", "."), ".: a directory; expected a file"),
+        (("evaluate", "played.csv:0-481"), "rows 0 to 481; expected 0 <= first <= last < 481"),
+        (("evaluate", "played.csv:9-3"), "rows 9 to 3"),
+        (
+            ("evaluate", "played.csv", "--model", "ours"),
+            "model ours: no such file; expected published, paper",
+        ),
+        (("evaluate", "played.csv", "--model", "played.json"), "played.json: "),
+        (("evaluate", "played.csv", "--starts", "often"), "--starts often: expected first, or every=SECONDS"),
+        (("evaluate", "played.csv", "--starts", "every=0"), "--starts every=0: expected"),
+        (("evaluate", "played.csv", "--starts", "every=nan"), "--starts every=nan: expected"),
+        (("evaluate", "played.csv", "--threads", "-1"), "--threads -1: expected 0 or more"),
+        (("evaluate", "played.csv", "--threads", "many"), "invalid int value: 'many'"),
+        (("evaluate", "played.csv", "--seed", "-1"), "--seed -1: expected 0 or more"),
+        (("evaluate", "played.csv", "--json", "no/out.json"), "no/out.json: there is no folder"),
+        (("evaluate", "played.csv", "--json", "."), ".: a directory; expected the name of a file"),
+        (("evaluate", "played.csv", "--json", "/dev/null"), "/dev/null: a device or a pipe; expected a file"),
+        (("evaluate", "played.csv", "--json", "played.csv"), "played.csv: this file is read already"),
+        (("evaluate", "played.csv", "--plot", "out.doc"), "out.doc: expected a name that ends in .png"),
+        (
+            ("evaluate", "played.csv", "--json", "a.png", "--plot", "a.png"),
+            "a.png: this file is written already",
+        ),
+        (("evaluate", "played.csv", "--calibration", "no.json"), "no.json: there is no such file"),
+        (("evaluate", "played.csv:0-1"), "no row to compare"),
+        (("info", "no.csv"), "no.csv: No such file or directory"),
+        (("info", "played.json"), "played.json, line 1: "),
+        (("info", "played.csv", "--calibration", "played.json"), "played.json: "),
+        (("convert", "played.csv", "out.txt"), "out.txt: expected a name that ends in .csv"),
+        (("convert", "played.csv", "played.csv"), "played.csv: this file is read already"),
+        (("convert", "played.csv"), "the following arguments are required: TIDY.csv"),
+        (("convert", "no.csv", "out.csv"), "no.csv: there is no such file"),
+        (("convert", "played.csv", "no/out.csv"), "out.csv: there is no folder"),
+        (("simulate", "out.csv"), "one of the arguments --on --motion is required"),
+        (("simulate", "out.csv", "--motion", "fly"), "invalid choice: 'fly'"),
+        (("simulate", "out.csv", "--motion", "hold", "--duration", "-1"), "duration: -1.0 s"),
+        (("simulate", "out.csv", "--motion", "hold", "--duration", "nan"), "duration: nan s"),
+        (
+            ("simulate", "out.csv", "--motion", "hold", "--spin", "inf"),
+            "--spin inf: expected a finite number",
+        ),
+        (
+            ("simulate", "out.csv", "--on", "played.csv", "--spin", "1"),
+            "--duration and --spin belong to --motion",
+        ),
+        (("simulate", "played.csv", "--on", "played.csv"), "played.csv: this file is read already"),
+        (("demo", "--out", "played.csv"), "played.csv: a file; expected a folder"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)
+def test_a_sentence_says_what_is_wrong(
+    command: Command, tidy: Path, arguments: tuple[str, ...], text: str
+) -> None:
+    before = {path: path.read_bytes() for path in tidy.parent.iterdir()}
+    done = command(*arguments)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith("diabolo") and done.stderr.count("\n") == 1
+    assert text in done.stderr
+    assert {path: path.read_bytes() for path in tidy.parent.iterdir()} == before
+
+
+def test_without_matplotlib_a_sentence_says_so(command: Command, tidy: Path) -> None:
+    (tidy.parent / "matplotlib.py").write_text("raise ModuleNotFoundError(name='matplotlib')\n")
+    for arguments in (("evaluate", "played.csv", "--plot", "out.png"), ("demo",)):
+        done = command(*arguments, env={"PYTHONPATH": f"{tidy.parent}:{os.environ.get('PYTHONPATH', '')}"})
+        assert done.returncode == 2
+        assert "install matplotlib (pip install 'diabolo[plot]')" in done.stderr
+        assert not (tidy.parent / "out.png").exists()
+
+
+def test_importing_the_package_needs_numpy_only() -> None:
+    text = (
+        "import sys; old = set(sys.modules); import diabolo; "
+        "print(sorted({m.partition('.')[0] for m in set(sys.modules) - old} - sys.stdlib_module_names))"
+    )
+    done = subprocess.run([sys.executable, "-W", "error", "-c", text], capture_output=True, text=True)
+    assert done.stdout.strip() in ("['diabolo', 'numpy']", "['diabolo']"), done.stdout + done.stderr
+
+
+def test_a_full_disk_leaves_nothing_half_written(tidy: Path) -> None:
+    limit = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)); "
+    ignore = "import signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
+    for arguments in (["evaluate", "played.csv", "--json", "out.json"], ["convert", "played.csv", "out.csv"]):
+        text = f"{limit}{ignore}import sys; from diabolo.cli import main; sys.exit(main({arguments}))"
+        done = subprocess.run([sys.executable, "-c", text], cwd=tidy.parent, capture_output=True, text=True)
+        assert done.returncode == 2 and "cannot be written" in done.stderr
+        assert names_in(tidy.parent) == ["played.csv", "played.json"]
+
+
+def test_a_closed_pipe_is_no_error(tidy: Path) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "diabolo", "evaluate", tidy], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    assert process.stdout is not None and process.stderr is not None
+    process.stdout.close()
+    assert process.stderr.read() == b""
+    process.stderr.close()
+    assert process.wait() == 0
+
+
+def long_evaluation(tidy: Path) -> list[str | Path]:
+    """Takes far longer than a test would wait: the same recording, many times over, at many starts."""
+    options = ["--starts", "every=0.001", "--json", "out.json", "--plot", "out.png"]
+    return [sys.executable, "-m", "diabolo", "evaluate", *[tidy] * 60, *options]
+
+
+def test_ctrl_c_stops_it_and_leaves_nothing(tidy: Path) -> None:
+    process = subprocess.Popen(
+        long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(3.0)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=20)
+    assert (process.returncode, output, errors) == (130, "", "diabolo: interrupted\n")
+    assert names_in(tidy.parent) == ["played.csv", "played.json"]
+
+
+def test_the_progress_bar_is_for_terminals(tidy: Path) -> None:
+    watching, terminal = pty.openpty()
+    process = subprocess.Popen(
+        long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.DEVNULL, stderr=terminal
+    )
+    time.sleep(3.0)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=20) == 130
+    os.close(terminal)
+    shown = os.read(watching, 100_000).decode()
+    os.close(watching)
+    assert "evaluating" in shown and "%" in shown
