@@ -98,13 +98,16 @@ def evaluate(
     given = [recordings] if isinstance(recordings, (Recording, Excerpt)) else list(recordings)
     wanted = [models] if isinstance(models, (Model, str)) else list(models)
     chosen = [Model.named(model) if isinstance(model, str) else model for model in wanted]
+    for index, model in enumerate(chosen):
+        if any(other.name == model.name for other in chosen[:index]):
+            raise ValueError(f"models: two are named '{model.name}'; their results could not be told apart")
     if threads < 0:
         raise ValueError(f"threads: {threads}; expected 0 (all that help) or more")
     report = progress or (lambda fraction: None)
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
-    groups = [(_label(take), [_whole(take)]) for take in given]
+    groups = [(label, [_whole(take)]) for label, take in zip(_labels(given), given, strict=True)]
     if len(groups) > 1:
         groups.append((ALL_RECORDINGS, [take for _, takes in groups for take in takes]))
     rows: list[HorizonRow] = []
@@ -149,8 +152,15 @@ def _whole(take: Recording | Excerpt) -> Recording:
     return take if isinstance(take, Recording) else take.recording.cut(take.first, take.last)
 
 
-def _label(take: Recording | Excerpt) -> str:
-    return take.name if isinstance(take, Recording) else f"{take.recording.name}:{take.first}-{take.last}"
+def _labels(given: list[Recording | Excerpt]) -> list[str]:
+    """Names of the recordings, each with its rows where they are not all; numbered where they are the same."""
+    labels: list[str] = []
+    for take in given:
+        rows = "" if isinstance(take, Recording) else f":{take.first}-{take.last}"
+        name = (take if isinstance(take, Recording) else take.recording).name + rows
+        same = sum(label == name or label.startswith(f"{name} (") for label in labels)
+        labels.append(f"{name} ({same + 1})" if same else name)
+    return labels
 
 
 def _table(

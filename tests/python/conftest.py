@@ -17,7 +17,7 @@ import pytest
 from diabolo import motions
 from numpy.typing import NDArray
 
-# Without a deadline: what is tested is right or wrong, however busy the machine. Failures say how to repeat them.
+# Without a deadline, since the machine may be busy; a failure prints how to repeat it.
 hypothesis.settings.register_profile("diabolo", deadline=None, max_examples=50, print_blob=True)
 hypothesis.settings.load_profile("diabolo")
 

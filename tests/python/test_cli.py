@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: MIT
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 import pty
 import signal
+import struct
 import subprocess
 import sys
+import termios
 import time
 from pathlib import Path
 from typing import Any
@@ -274,6 +277,7 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
             ("evaluate", "played.csv", "--model", "ours"),
             "model ours: no such file; expected published, paper",
         ),
+        (("evaluate", "played.csv", "--model", "paper", "--model", "paper"), "models: two are named 'paper'"),
         (("evaluate", "played.csv", "--model", "played.json"), "played.json: "),
         (("evaluate", "played.csv", "--starts", "often"), "--starts often: expected first, or every=SECONDS"),
         (("evaluate", "played.csv", "--starts", "every=0"), "--starts every=0: expected"),
@@ -387,6 +391,7 @@ def test_ctrl_c_stops_it_and_leaves_nothing(tidy: Path) -> None:
 
 def test_the_progress_bar_is_for_terminals(tidy: Path) -> None:
     watching, terminal = pty.openpty()
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
     process = subprocess.Popen(
         long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.DEVNULL, stderr=terminal
     )

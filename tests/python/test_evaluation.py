@@ -76,6 +76,11 @@ def test_several_recordings_are_put_together(played: Recording) -> None:
     assert rows[2].score.windows == rows[0].score.windows + rows[1].score.windows
 
 
+def test_recordings_of_the_same_name_are_told_apart(played: Recording) -> None:
+    rows = evaluate([played, played, played], "paper", starts_every=1.0, horizons=[0.5]).horizons
+    assert [row.recording for row in rows] == ["played", "played (2)", "played (3)", "all recordings"]
+
+
 def test_seed_and_threads(played: Recording) -> None:
     def intervals(**options: int) -> list[object]:
         rows = evaluate(played, "published", starts_every=0.05, **options).to_dict()["horizons"]
@@ -104,6 +109,8 @@ def test_a_failing_progress_function_ends_the_work(played: Recording) -> None:
 def test_bad_input_is_named(played: Recording) -> None:
     with pytest.raises(ValueError, match="expected published, paper or consistent"):
         evaluate(played, "ours")
+    with pytest.raises(ValueError, match="models: two are named 'paper'"):
+        evaluate(played, ["paper", Model.paper()])
     with pytest.raises(ValueError, match="starts_every: 0 s"):
         evaluate(played, starts_every=0.0)
     with pytest.raises(ValueError, match="horizon: -1 s"):
@@ -116,7 +123,7 @@ def test_bad_input_is_named(played: Recording) -> None:
 
 
 def test_the_published_program_is_repeated(real_recordings: Path) -> None:
-    """Its figures are those of the authors' program, run on the same rows, within 2 %: it held tips a step longer or not."""
+    """Its figures are those of the authors' program, run on the same rows, to 2 % (by when it changes tips)."""
     physics, extraction = "2020-07-11_basic_physics", "2020-09-14_motion_extraction"
     paths = [f"{physics}/{name}.csv" for name in ("throw_1", "y_swing_2", "z_hop_1", "acceleration_1")]
     takes = [diabolo.load_recording(real_recordings / path) for path in paths]

@@ -23,7 +23,7 @@ from .tables import format_table
 
 TABLE_NOTE = """\
 mean distance between predicted and recorded diabolo [m]; one prediction from the first row, as in the paper
-baseline: the diabolo rests at the lowest point of the string; a model that loses to it has explained nothing"""
+baseline: the diabolo rests at the lowest point of the string; a model that loses to it explains nothing"""
 
 PAPER_NOTE = "program: the authors' program, run again on the same rows; printed: the figure in the paper"
 
@@ -131,19 +131,15 @@ def text_of(result: Evaluation) -> str:
 
 def _table_text(result: Evaluation) -> str:
     models = list(dict.fromkeys(row.model for row in result.rows))
-    excerpts: dict[tuple[str, tuple[int, int]], list[TableRow]] = {}
-    for row in result.rows:
-        excerpts.setdefault((row.recording, row.frames), []).append(row)
     lines = []
-    for (name, frames), rows in excerpts.items():
-        errors = [next(_number(row) for row in rows if row.model == model) for model in models]
-        program = rows[0].program_error
-        paper = rows[0].paper_error
+    for start in range(0, len(result.rows), len(models)):
+        rows = result.rows[start : start + len(models)]  # one excerpt, each model
+        program, paper = rows[0].program_error, rows[0].paper_error
         lines.append(
             [
-                name,
-                f"{frames[0]}-{frames[1]}",
-                *errors,
+                rows[0].recording,
+                f"{rows[0].frames[0]}-{rows[0].frames[1]}",
+                *map(_number, rows),
                 f"{rows[0].baseline_error:.3f}",
                 "" if program is None else f"{program:.3f}",
                 "" if paper is None else f"{paper:.2f}",
