@@ -19,15 +19,16 @@ struct Setting {
   unsigned threads = 1;
   bool own_tips = false;
   std::size_t steps = 1000;
+  bool alike = false;  ///< all begin in the same state, so that the work of a step does not change with time
 
   std::string name() const {
     return std::string("batch/") + kernel.instruction_set + "/" + std::to_string(threads) +
            (threads == 1 ? " thread/" : " threads/") + (own_tips ? "own tips" : "shared tips") + "/" +
-           std::to_string(steps) + " steps";
+           std::to_string(steps) + " steps" + (alike ? "/alike" : "");
   }
 };
 
-/// Rollouts of the beat, which begin some millimetres apart.
+/// Rollouts of the beat, which begin some tenths of a millimetre apart.
 class BatchJob : public Job {
  public:
   explicit BatchJob(const Setting& setting) : setting_(setting) {
@@ -37,7 +38,8 @@ class BatchJob : public Job {
     for (std::size_t i = 0; i < (setting.own_tips ? kRollouts : 1); ++i)
       motions_.push_back(play.motion<double>());
     for (const TipMotion<double>& motion : motions_) batch_.motions.push_back(&motion);
-    for (std::size_t i = 0; i < kRollouts; ++i) batch_.initial.push_back(play.start_of(i));
+    for (std::size_t i = 0; i < kRollouts; ++i)
+      batch_.initial.push_back(play.start_of(setting.alike ? 0 : i));
     batch_.parameters = {parameters};
     batch_.steps = {0.0, Play::kStep, setting.steps};
   }
@@ -75,7 +77,8 @@ int main(int argc, char** argv) {
   for (const BatchKernel& kernel : kernels)
     for (const unsigned threads : {1U, 2U})
       for (const bool own_tips : {false, true}) settings.push_back({kernel, threads, own_tips, 1000});
-  for (const std::size_t steps : {2000, 4000}) settings.push_back({best_batch_kernel(), 1, false, steps});
+  for (const std::size_t steps : {1000, 2000, 4000})
+    settings.push_back({best_batch_kernel(), 1, false, steps, true});
 
   std::vector<NamedJob> jobs;
   for (const Setting& setting : settings)

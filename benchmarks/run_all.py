@@ -18,7 +18,7 @@ from typing import Any
 import measure
 from page import page
 
-COUNTED_IN_BATCH = "1 thread/shared tips/1000 steps"
+COUNTED_IN_BATCH = "1 thread/shared tips/1000 steps$"
 
 
 def measured(programs: Path, compiler: str, brief: bool) -> dict[str, Any]:

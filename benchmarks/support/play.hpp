@@ -62,10 +62,10 @@ struct Play {
     return {times, cast(left), cast(right), Interpolation::kSpline};
   }
 
-  /// The start of the diabolo number `i` of several that begin some millimetres apart.
+  /// The start of the diabolo number `i` of several that begin some tenths of a millimetre apart.
   State<double> start_of(std::size_t i) const {
     State<double> state = start;
-    state.position.y() += 0.002 * static_cast<double>(i % 32);
+    state.position.y() += 1e-4 * static_cast<double>(i % 32);
     if (state.string_state == StringState::kOnString)
       state.position =
           Spheroid<double>(left.front(), right.front(), kStringLength).closest_point(state.position);
