@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
 
   std::vector<NamedJob> jobs;
   for (const Setting& setting : settings)
-    jobs.push_back({setting.name(), [setting] { return std::make_unique<BatchJob>(setting); }, true});
+    jobs.push_back(
+        {setting.name(), [setting] { return std::make_unique<BatchJob>(setting); }, setting.threads > 1});
   return run_jobs(jobs, argc, argv);
 }
