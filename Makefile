@@ -29,7 +29,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-cpp test-plant test-python test-all mujoco browser sanitize fuzz scalars stress bench \
+.PHONY: help demo test test-core test-cpp test-plant test-python test-all mujoco browser sanitize fuzz scalars stress bench \
   build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
@@ -73,6 +73,12 @@ test-cpp:
 	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
 	@cmake --build $(BUILD)/test -j $(JOBS) -- -k 0
 	@$(ctest) --test-dir $(BUILD)/test
+
+test-core: # The predictor alone: the quick part of test-cpp.
+	@$(packages) build test
+	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
+	@cmake --build $(BUILD)/test -j $(JOBS) --target tests_core tests_laws -- -k 0
+	@$(ctest) --test-dir $(BUILD)/test -L 'core|laws'
 
 test-plant: # The simulator behind the demonstration recordings is a CMake project of its own.
 ifneq ($(wildcard data/plant/CMakeLists.txt),)

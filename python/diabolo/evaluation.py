@@ -153,7 +153,7 @@ def _whole(take: Recording | Excerpt) -> Recording:
 
 
 def _labels(given: list[Recording | Excerpt]) -> list[str]:
-    """Names of the recordings, each with its rows where they are not all; numbered where they are the same."""
+    """Names of the recordings, with the rows where they are not all; equal ones are numbered."""
     labels: list[str] = []
     for take in given:
         rows = "" if isinstance(take, Recording) else f":{take.first}-{take.last}"

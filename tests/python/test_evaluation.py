@@ -123,7 +123,7 @@ def test_bad_input_is_named(played: Recording) -> None:
 
 
 def test_the_published_program_is_repeated(real_recordings: Path) -> None:
-    """Its figures are those of the authors' program, run on the same rows, to 2 % (by when it changes tips)."""
+    """Its figures are those of the authors' program, run on the same rows (2 %: when it changes tips)."""
     physics, extraction = "2020-07-11_basic_physics", "2020-09-14_motion_extraction"
     paths = [f"{physics}/{name}.csv" for name in ("throw_1", "y_swing_2", "z_hop_1", "acceleration_1")]
     takes = [diabolo.load_recording(real_recordings / path) for path in paths]

@@ -2,6 +2,7 @@
 #include "diabolo/recording/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -13,7 +14,7 @@ using namespace diabolo;
 
 TEST_CASE("Every index is worked on once, whatever the number of threads") {
   for (const int threads : {1, 2})
-    for (const std::size_t count : {0, 1, 2, 1000}) {
+    for (const std::size_t count : std::array<std::size_t, 4>{0, 1, 2, 1000}) {
       std::vector<int> calls(count, 0);
       for_each_index(count, threads, {}, [&](std::size_t i) { ++calls[i]; });
       CHECK(calls == std::vector<int>(count, 1));

@@ -9,9 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from .._core import Model, load_recording
-from ..evaluation import DEFAULT_MODELS, Evaluation, Excerpt, predict
+from ..evaluation import ALL_RECORDINGS, DEFAULT_MODELS, Evaluation, Excerpt, predict
 from . import evaluate, files
 from .arguments import add_command
+
+SHOWN, SHOWN_SECONDS = "swing", 3.0  # what the picture of a trajectory shows
 
 
 def add_parser(commands: Any) -> None:
@@ -54,11 +56,12 @@ def run(arguments: argparse.Namespace) -> None:
     models = [Model.named(name) for name in DEFAULT_MODELS]
     table = evaluate.evaluate_excerpts(excerpts, models)
     horizons = evaluate.evaluate_excerpts(excerpts, models, starts_every=0.1)
-    shown = recordings[0]
+    whole = next(take for take in recordings if take.name == SHOWN)
+    shown = whole.cut(0, round(SHOWN_SECONDS * whole.rate))
     plots.draw_trajectory(trajectory, shown, {model.name: predict(shown, model) for model in models})
     plots.draw_errors(errors, horizons, excerpts, models)
     files.write_json(arguments.json, Evaluation(table.rows, horizons.horizons).to_dict())
     if arguments.json != files.STDOUT:
-        print(evaluate.text_of(table))
-        print(f"\n{shown.name}, measured and predicted: {trajectory}")
-        print(f"error against the time after the start: {errors}")
+        together = [row for row in horizons.horizons if row.recording == ALL_RECORDINGS]
+        print(evaluate.text_of(table), evaluate.text_of(Evaluation([], together)), sep="\n\n")
+        print(f"\npictures: {trajectory} ({SHOWN}, measured and predicted), {errors} (error against time)")

@@ -87,26 +87,21 @@ def _draw_horizons(panel: Axes, rows: list[HorizonRow]) -> None:
 
     models = list(dict.fromkeys(row.model for row in rows))
     for index, model in enumerate(models):
-        own = [row.score for row in rows if row.model == model]
+        beside = 1.04 ** (index - 0.5 * (len(models) - 1))  # so that bars of several models can be told apart
+        scores = [row.score for row in rows if row.model == model]
+        points = [(s.horizon * beside, s.model) for s in scores if s.model is not None]
         color = _color(model, index)
-        summaries = [score.model for score in own if score.model is not None]
-        horizons = [score.horizon for score in own]
-        panel.plot(horizons, [s.mean for s in summaries], "o-", color=color, label=model)
-        banded = [
-            (h, s.mean_ci95) for h, s in zip(horizons, summaries, strict=True) if s.mean_ci95 is not None
-        ]
-        panel.fill_between(
-            [h for h, _ in banded],
-            [max(interval.low, 1e-4) for _, interval in banded],
-            [interval.high for _, interval in banded],
-            color=color,
-            alpha=0.18,
-            linewidth=0.0,
-        )
+        panel.plot([h for h, _ in points], [s.mean for _, s in points], "o-", color=color, ms=4, label=model)
+        for horizon, summary in points:
+            interval = summary.mean_ci95
+            if interval is not None:
+                panel.plot(
+                    [horizon, horizon], [max(interval.low, 1e-4), interval.high], color=color, lw=3, alpha=0.4
+                )
     own = [row.score for row in rows if row.model == models[0]] if models else []
     means = [(score.horizon, score.baseline.mean) for score in own if score.baseline is not None]
     panel.plot([h for h, _ in means], [mean for _, mean in means], label="baseline", **BASELINE_STYLE)
-    panel.fill_between([], [], color="0.5", alpha=0.3, linewidth=0.0, label="95 % interval")
+    panel.plot([], [], color="0.5", lw=3, alpha=0.4, label="95 % interval")
     panel.set_xscale("log")
     panel.set_yscale("log")
     horizons = sorted({row.score.horizon for row in rows})
