@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """2. One swing: move both hands sideways once, and see how far the diabolo swings.
 
-The hands go 10 cm to the left and stay there; the diabolo, which hung still, swings on. How far depends on how
-long the hands took, so the example tries 200 durations in one call.
+The hands go 10 cm to the left and stay there; the diabolo, which hung still, swings on. How far depends on
+how long the hands took, so the example tries 200 durations in one call.
 """
 
 import diabolo
@@ -44,9 +44,7 @@ print(f"hands that take {durations[0]:.2f} s leave a swing of +-{100 * fastest:.
 print(f"the calmest ones take {durations[calmest]:.2f} s: +-{100 * amplitude[calmest]:.1f} cm")
 crossings = np.flatnonzero((sideways[0][:-1] < 0.0) & (sideways[0][1:] >= 0.0))
 period = np.diff(swings.time[at_rest][crossings]).mean()
-print(
-    f"a period takes {period:.2f} s; a linear pendulum would come to rest after 1.430 of them: {1.430 * period:.2f} s"
-)
+print(f"a period takes {period:.2f} s; a linear pendulum is calm after 1.430 of them: {1.430 * period:.2f} s")
 
 try:
     import matplotlib.pyplot as plt

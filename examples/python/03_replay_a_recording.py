@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """3. Replay a recording: predict a recorded diabolo from the recorded stick tips.
 
-The recording comes from the project's plant, a simulator with friction, an elastic string and a camera's noise,
-none of which the predictor knows. Every half second the prediction starts again from what was measured.
+The recording comes from the project's plant, a simulator with friction, an elastic string and a camera's
+noise, none of which the predictor knows. Every half second it starts again from what was measured.
 """
 
 from pathlib import Path

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """4. Gradient of a rollout: ask which way the start would have to change for a prediction to come true.
 
-The prediction of half a second from step 3 misses the recorded diabolo. Derivatives of its end with respect to the
-start's velocity and to the string's length tell what each could do about it, and Gauss and Newton's method
-finds the smallest change that does.
+The prediction of half a second from step 3 misses the recorded diabolo. Derivatives of its end with respect
+to the start's velocity and to the string's length tell what each could do about it, and Gauss and Newton's
+method finds the smallest change that does.
 """
 
 from pathlib import Path
@@ -54,7 +54,7 @@ for iteration in range(5):
         print("  the end's sideways position per sideways velocity at the start:", end=" ")
         print(f"{by_velocity[1, 1]:.3f} m per m/s")
         print(f"  the end's height per string length: {by_length[2]:.3f} m per m")
-    # Four unknowns for three numbers: of all solutions lstsq gives the smallest change, 1 m/s counting like 1 m.
+    # Four unknowns for three numbers: lstsq gives the smallest change that does, 1 m/s counting like 1 m.
     change, *_ = np.linalg.lstsq(np.column_stack([by_velocity, by_length]), miss, rcond=None)
     velocity, string_length = velocity + change[:3], string_length + change[3]
 
@@ -83,6 +83,7 @@ else:
     where.legend(fontsize="small")
     how_far.semilogy(range(len(misses)), misses, "o-")
     how_far.set(title="How far the end is off", xlabel="iteration", ylabel="distance [m]")
+    how_far.set_xticks(range(len(misses)))
     how_far.grid(alpha=0.3)
     figure.savefig("04_gradient_of_a_rollout.png", dpi=120)
     print("picture: 04_gradient_of_a_rollout.png")

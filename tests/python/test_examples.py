@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: MIT
+"""Every example runs without a warning, prints what its text promises, and draws where matplotlib is there."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "python").glob("[0-9]*.py"))
+
+
+def run(example: Path, folder: Path, **environment: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-W", "error", example],
+        cwd=folder,
+        env={**os.environ, "MPLBACKEND": "Agg", **environment},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
+def numbers(pattern: str, text: str) -> list[float]:
+    match = re.search(pattern, text)
+    assert match is not None, text
+    return [float(number) for number in match.groups()]
+
+
+def test_there_are_examples() -> None:
+    assert [example.name[:2] for example in EXAMPLES] == ["01", "02", "03", "04"]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_draws(example: Path, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    output = run(example, tmp_path)
+    picture = f"{example.stem}.png"
+    assert output.splitlines()[-1] == f"picture: {picture}"
+    assert [path.name for path in tmp_path.iterdir()] == [picture]
+    assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_does_without_matplotlib(example: Path, tmp_path: Path) -> None:
+    blocked = tmp_path / "blocked"
+    blocked.mkdir()
+    (blocked / "matplotlib.py").write_text("raise ModuleNotFoundError(name='matplotlib')\n")
+    output = run(example, tmp_path, PYTHONPATH=f"{blocked}:{os.environ.get('PYTHONPATH', '')}")
+    assert output.splitlines()[-1] == "(pip install matplotlib to see a picture)"
+    assert [path.name for path in tmp_path.iterdir()] == ["blocked"]
+
+
+def test_the_fall_takes_as_long_as_it_must(tmp_path: Path) -> None:
+    output = run(EXAMPLES[0], tmp_path)
+    (caught,) = numbers(r"caught after ([\d.]+) s", output)
+    (fall,) = numbers(r"takes ([\d.]+) s", output)
+    assert abs(caught - fall) <= 1.1e-3  # one step
+
+
+def test_calm_hands_take_as_long_as_for_a_pendulum(tmp_path: Path) -> None:
+    output = run(EXAMPLES[1], tmp_path)
+    (calmest,) = numbers(r"the calmest ones take ([\d.]+) s", output)
+    (pendulum,) = numbers(r"of them: ([\d.]+) s", output)
+    assert calmest == pytest.approx(pendulum, abs=0.03)
+
+
+def test_the_replay_beats_the_baseline(tmp_path: Path) -> None:
+    output = run(EXAMPLES[2], tmp_path)
+    (error,) = numbers(r"mean error is ([\d.]+) cm", output)
+    (lowest,) = numbers(r"would be ([\d.]+) cm", output)
+    assert error < 0.5 * lowest
+
+
+def test_the_iteration_converges(tmp_path: Path) -> None:
+    output = run(EXAMPLES[3], tmp_path)
+    misses = [float(miss) for miss in re.findall(r"off by +([\d.]+) mm", output)]
+    assert len(misses) == 5 and misses[0] > 10.0 and misses[2] < 0.1 and misses[4] == 0.0
