@@ -29,7 +29,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-plant test-python test-all mujoco browser sanitize fuzz scalars stress bench \
+.PHONY: help demo test test-core test-cpp test-plant test-python test-all mujoco sanitize fuzz stress bench \
   build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
@@ -81,27 +81,20 @@ test-core: # The predictor alone: the quick part of test-cpp.
 	@$(ctest) --test-dir $(BUILD)/test -L 'core|laws'
 
 test-plant: # The simulator behind the demonstration recordings is a CMake project of its own.
-ifneq ($(wildcard data/plant/CMakeLists.txt),)
 	@$(packages) build test plant
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS)
 	@$(ctest) --test-dir $(BUILD)/plant
-endif
 
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test mujoco browser sanitize fuzz scalars stress ## Run the tests and the heavy groups: simulators, browser, sanitizers, fuzzing, stress
+test-all: test mujoco sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, sanitizers, fuzzing, stress
 
 mujoco: $(VENV)/.package-with-tests
 	@$(packages) mujoco
 	@$(install_package) '.[mujoco,plot,test]'
 	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy
-
-browser: $(VENV)/.package-with-tests
-	@if grep -rqs 'mark.browser' tests/python; then \
-	  $(packages) browser; $(VENV)/bin/python -m pytest -m browser; \
-	else echo "No test drives a browser yet."; fi
 
 sanitize: # With Clang, which so compiles every test with its own warnings too.
 	@$(packages) build test lint
@@ -118,13 +111,11 @@ fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	@cmake --build $(BUILD)/fuzz -j $(JOBS)
 	@BUILD=$(BUILD) .ci/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
-scalars stress: # Every law with every scalar; long random runs. With assertions, but optimised in full.
-	@if compgen -G 'tests/$@/*.cpp' >/dev/null; then \
-	  $(packages) build test; \
-	  $(cmake) -S . -B $(BUILD)/heavy $(test_flags) -DCMAKE_CXX_FLAGS_DEBUG=-O2 -DDIABOLO_TEST_HEAVY=ON >/dev/null; \
-	  cmake --build $(BUILD)/heavy -j $(JOBS) --target tests_$@ -- -k 0; \
-	  $(ctest) --test-dir $(BUILD)/heavy -L $@; \
-	else echo "No test in tests/$@ yet."; fi
+stress: # Long random runs: with assertions, but optimised in full.
+	@$(packages) build test
+	@$(cmake) -S . -B $(BUILD)/heavy $(test_flags) -DCMAKE_CXX_FLAGS_DEBUG=-O2 -DDIABOLO_TEST_HEAVY=ON >/dev/null
+	@cmake --build $(BUILD)/heavy -j $(JOBS) --target tests_stress -- -k 0
+	@$(ctest) --test-dir $(BUILD)/heavy -L stress
 
 # With MuJoCo where `make mujoco` has installed it, with instruction counts where valgrind is found.
 run_benchmarks = $(VENV)/bin/python benchmarks/run_all.py $(BUILD)/bench/benchmarks

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Usage: system_packages.sh GROUP...   with groups build, test, plant, bench, lint, mujoco, browser
+# Usage: system_packages.sh GROUP...   with groups build, test, plant, bench, lint, mujoco
 # Looks for what the groups need and installs with apt-get what is missing; asks for nothing when all is there.
 set -euo pipefail
 
@@ -40,19 +40,18 @@ missing_packages() {
       ;;
     test) has_header catch2/catch_all.hpp || has_header catch2/catch.hpp || echo catch2 ;;
     plant) has_header CLI/CLI.hpp || echo libcli11-dev ;;
-    bench) has_header benchmark/benchmark.h || echo libbenchmark-dev ;;
+    bench)
+      has_header benchmark/benchmark.h || echo libbenchmark-dev
+      has_command valgrind || echo valgrind
+      ;;
     lint)
       has_command clang-tidy || echo clang-tidy
       has_command clang++ || echo clang
       has_fuzzer || echo libclang-rt-dev
       ;;
-    mujoco)
-      ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri
-      has_command valgrind || echo valgrind
-      ;;
-    browser) has_command chromium || echo chromium ;;
+    mujoco) ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri ;;
     *)
-      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, bench, lint, mujoco or browser" >&2
+      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, bench, lint or mujoco" >&2
       exit 2
       ;;
   esac

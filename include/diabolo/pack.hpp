@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -19,7 +21,7 @@ struct PackMask {
 
   PackMask() = default;
   PackMask(bool all) : bits(Bits{} - Integer(all ? 1 : 0)) {}  // NOLINT: a bool is the same in every lane
-  explicit PackMask(Bits b) : bits(b) {}
+  explicit PackMask(const Bits& b) : bits(b) {}
   bool operator[](int lane) const { return bits[lane] != 0; }
 
   friend PackMask operator&&(PackMask a, PackMask b) { return PackMask(Bits(a.bits & b.bits)); }
@@ -49,13 +51,16 @@ struct PackMask {
 /// that the linker never mixes its functions with others.
 template <class T, int Lanes, class Tag = void>
 struct Pack {
-  typedef T Vector __attribute__((vector_size(sizeof(T) * Lanes)));
+  // Never aligned more strictly than Eigen aligns an array of them, which must not be less than its element.
+  static constexpr std::size_t kAlignment =
+      std::min(sizeof(T) * Lanes, std::max<std::size_t>(EIGEN_MAX_STATIC_ALIGN_BYTES, alignof(T)));
+  typedef T Vector __attribute__((vector_size(sizeof(T) * Lanes), aligned(kAlignment)));
   using Mask = PackMask<T, Lanes, Tag>;
   Vector lanes{};
 
   Pack() = default;
   Pack(double x) : lanes(static_cast<T>(x) - Vector{}) {}  // NOLINT: a constant is the same in every lane
-  explicit Pack(Vector v) : lanes(v) {}
+  explicit Pack(const Vector& v) : lanes(v) {}
   T operator[](int lane) const { return lanes[lane]; }
   void set(int lane, T x) { lanes[lane] = x; }
 

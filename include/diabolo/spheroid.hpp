@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+
 #include "diabolo/scalar.hpp"
 
 namespace diabolo {
@@ -21,7 +23,9 @@ class Spheroid {
       : left_(left), right_(right), string_length_(string_length), center_((left + right) * Scalar(0.5)) {
     const Vector3<Scalar> span = left - right;
     tip_distance_ = norm<Scalar>(span);
-    axis_ = span * Scalar(Scalar(1) / tip_distance_);
+    // Zero, not a shortened vector, where the span is so small that norm() rounds it up.
+    const Scalar smallest = tiny<Scalar>() / Scalar(std::numeric_limits<ValueOf<Scalar>>::epsilon());
+    axis_ = span * select(squared_norm(span) > smallest, Scalar(Scalar(1) / tip_distance_), Scalar(0));
     const Scalar half_span = Scalar(0.5) * tip_distance_;
     semi_major_ = maximum(Scalar(Scalar(0.5) * string_length), half_span);
     const Scalar semi_minor_squared = (semi_major_ - half_span) * (semi_major_ + half_span);
@@ -32,7 +36,7 @@ class Spheroid {
   const Vector3<Scalar>& left() const { return left_; }
   const Vector3<Scalar>& right() const { return right_; }
   const Vector3<Scalar>& center() const { return center_; }       ///< midpoint of the tips [m]
-  const Vector3<Scalar>& axis() const { return axis_; }           ///< unit vector from right to left tip
+  const Vector3<Scalar>& axis() const { return axis_; }           ///< unit vector from right to left tip; 0 where they coincide
   const Scalar& tip_distance() const { return tip_distance_; }    ///< D [m]
   const Scalar& string_length() const { return string_length_; }  ///< L [m]
   const Scalar& semi_major() const { return semi_major_; }        ///< L/2 [m] (D/2 when overstretched)

@@ -6,7 +6,7 @@ import pickle
 import numpy as np
 import pytest
 from diabolo import Spheroid, TipMotion
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ LEFT, RIGHT = np.array([0.1, 0.4, 1.0]), np.array([-0.1, -0.3, 1.2])
 
 
 @given(left=tips, right=tips, point=points)
+@example(left=np.zeros(3), right=np.full(3, 1.5e-151), point=np.zeros(3))  # the span's square underflows
 def test_closest_points_are_on_the_surface_and_closest(
     left: NDArray[np.float64], right: NDArray[np.float64], point: NDArray[np.float64]
 ) -> None:
