@@ -35,8 +35,8 @@ class Spheroid {
 
   const Vector3<Scalar>& left() const { return left_; }
   const Vector3<Scalar>& right() const { return right_; }
-  const Vector3<Scalar>& center() const { return center_; }       ///< midpoint of the tips [m]
-  const Vector3<Scalar>& axis() const { return axis_; }           ///< unit vector from right to left tip; 0 where they coincide
+  const Vector3<Scalar>& center() const { return center_; }  ///< midpoint of the tips [m]
+  const Vector3<Scalar>& axis() const { return axis_; }  ///< unit, from right to left tip; 0 if they coincide
   const Scalar& tip_distance() const { return tip_distance_; }    ///< D [m]
   const Scalar& string_length() const { return string_length_; }  ///< L [m]
   const Scalar& semi_major() const { return semi_major_; }        ///< L/2 [m] (D/2 when overstretched)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every example runs without a warning, prints what its text promises, and draws where matplotlib is there."""
+"""Every example runs without a warning, prints what its text promises, and draws where it can."""
 
 from __future__ import annotations
 
