@@ -182,7 +182,7 @@ class Predictor {
     return status;
   }
 
-  StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
+  [[gnu::always_inline]] inline StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
     if constexpr (sizeof...(Effects) > 0)
       if (!is_constant_zero(compliance_)) return advance_on_string<true>(step, captured);
     return advance_on_string<false>(step, captured);

@@ -10,8 +10,8 @@ namespace diabolo {
 /// where that is outside, until the string fits. With resting tips its speed is limited to what its energy
 /// allows, so that none is gained.
 template <class Scalar>
-[[gnu::noinline]] void put_back(const StringStep<Scalar>& step, const Mask<Scalar>& where,
-                                StringStepResult<Scalar>& result) {
+[[gnu::noinline]] StringStepResult<Scalar> put_back(const StringStep<Scalar>& step, const Mask<Scalar>& where,
+                                                    StringStepResult<Scalar> result) {
   const Vector3<Scalar> outside = step.free_position(step.dt);
   const Vector3<Scalar> to_middle = (step.end.left + step.end.right) * Scalar(0.5) - step.position;
   const Scalar reach = step.string_length * Scalar(1.0 + constraint_tolerance<Scalar>());
@@ -43,6 +43,7 @@ template <class Scalar>
   result.velocity = select<Scalar>(where, Vector3<Scalar>(velocity * limit), result.velocity);
   const Vector3<Scalar> pull = (velocity * limit - arriving) * Scalar(Scalar(1) / step.dt);
   result.string_acceleration = select<Scalar>(where, pull, result.string_acceleration);
+  return result;
 }
 
 }  // namespace diabolo

@@ -46,10 +46,10 @@ void assign_where(const Mask<Scalar>& condition, LaneStringState<Scalar>& state,
 template <class Scalar>
 struct State {
   Vector3<Scalar> position = Vector3<Scalar>::Constant(Scalar(0));  ///< centre [m], world frame
-  Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
   /// Spin [rad/s]; positive when the axle's surface under the string moves towards the right tip (rotation
   /// about -x).
   Scalar spin{0};
+  Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
   StringStateOf<Scalar> string_state{StringState::kLoose};
   /// Mean acceleration of the diabolo by the string over the last step [m/s^2]; times its mass, the string's
   /// force on it. Output; the next step begins its iteration with it, which changes its result by no more

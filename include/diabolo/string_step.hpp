@@ -38,6 +38,9 @@ struct StringStep {
     return velocity + acceleration * t;
   }
 
+  /// How far the path length may be from the string's [m].
+  Scalar tolerance() const { return Scalar(constraint_tolerance<Scalar>()) * string_length; }
+
   /// Tips at a fraction of the step, on the straight line.
   Tips<Scalar> tips_at(const Scalar& fraction) const {
     return {begin.left + (end.left - begin.left) * fraction,
@@ -65,6 +68,12 @@ struct StringStepResult {
   Scalar passed{0};  ///< string that has passed the axle from the left strand to the right one [m]
   Mask<Scalar> taut{false}, snapped_taut{false};
 };
+
+/// Energy per mass that a step may be wrong by [J/kg].
+template <class Scalar>
+Scalar energy_tolerance() {
+  return Scalar(30 * constraint_tolerance<Scalar>());
+}
 
 /// Velocity without the given rate of the path length [m/s]: the impulse of an inelastic string.
 template <class Scalar>

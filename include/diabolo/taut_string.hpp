@@ -11,21 +11,70 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
 
 namespace detail {
 
-/// How far the search for the string's pull has come.
+/// What the search for the string's pull begins with.
+template <bool kElastic, class Scalar>
+struct TautSearch {
+  const StringStep<Scalar>& step;
+  StringPath<Scalar> begin;  ///< the string at the beginning of the step
+  Vector3<Scalar> free;      ///< where the diabolo would come without the string [m]
+  Mask<Scalar> may_pull;     ///< not where the string is slack at the beginning
+  Scalar half_square = Scalar(0.5) * step.dt * step.dt;
+  // The spring's extension counts with these weights at the end and at the beginning of the step.
+  Scalar resolution{0}, end_weight{1}, begin_part{0}, spring{0};
+
+  /// `gradient_squared` of the path length near the end of the step.
+  void resolve_spring(const Scalar& gradient_squared) {
+    resolution = step.resolution(gradient_squared);
+    end_weight = Scalar(1) - Scalar(0.5) * resolution + step.damping_time / step.dt;
+    begin_part = (Scalar(1) - end_weight) * (begin.length() - step.string_length);
+    spring = step.compliance / half_square;
+  }
+};
+
+/// How far the search has come. It is Newton's method for shift = -direction * pull, pull = tension / mass *
+/// dt^2 / 2: the path is known at the last position, its extension is wanted on the line through `free` along
+/// the new direction.
 template <class Scalar>
 struct TautIterate {
-  Vector3<Scalar> shift;                 ///< of the diabolo by the string over the step [m]
-  StringPath<Scalar> path;               ///< at the last position
-  Vector3<Scalar> gradient;              ///< of the path length there
-  Vector3<Scalar> direction = gradient;  ///< discrete gradient over the step
-  Scalar slope{0}, pull{0};
+  Vector3<Scalar> shift;      ///< of the diabolo by the string over the step [m]
+  StringPath<Scalar> path;    ///< at the last position
+  Vector3<Scalar> gradient;   ///< of the path length there
+  Vector3<Scalar> direction;  ///< discrete gradient over the step
+  Scalar slope, pull;
+  Mask<Scalar> settled;
 
-  [[gnu::always_inline]] inline TautIterate(const StringStep<Scalar>& step,
-                                            const Vector3<Scalar>& shift_of_diabolo,
-                                            const Vector3<Scalar>& free)
-      : shift(shift_of_diabolo),
-        path(free + shift_of_diabolo, step.end),
-        gradient(step.plane(path.gradient())) {}
+  /// The path at the position that was moved by `guess`.
+  [[gnu::always_inline]] inline TautIterate(const StringStep<Scalar>& step, const Vector3<Scalar>& free,
+                                            const Vector3<Scalar>& guess)
+      : shift(guess), path(free + guess, step.end), gradient(step.plane(path.gradient())) {}
+
+  /// A step of Newton's method from there.
+  template <bool kElastic>
+  [[gnu::always_inline]] inline void improve(const TautSearch<kElastic, Scalar>& search) {
+    const StringStep<Scalar>& step = search.step;
+    const Vector3<Scalar> last = shift;
+    direction = step.plane(discrete_gradient(search.begin, path));
+    slope = maximum(dot(gradient, direction), Scalar(1e-9));
+    const Scalar extension = path.length() - step.string_length - dot(gradient, last);
+    if constexpr (kElastic)
+      pull = (search.end_weight * extension + search.begin_part) / (search.end_weight * slope + search.spring);
+    else
+      pull = extension / slope;
+    pull = select(search.may_pull, maximum(pull, Scalar(0)), Scalar(0));
+    shift = direction * Scalar(-pull);
+    // What another iteration could still change is about moved * (moved + pull) / strand; the energy per mass
+    // that the position and the direction are wrong by is about that times tension / mass, and pull * moved /
+    // strand * travel.
+    const Scalar moved = squared_norm<Scalar>(shift - last);
+    const Scalar strand = minimum(path.left_length, path.right_length);
+    const Scalar pull_squared = pull * pull;
+    const Scalar reach = Scalar(2) * (moved + pull_squared);
+    const Scalar travel = squared_norm<Scalar>(search.free + shift - step.position);
+    const Scalar position_limit = step.tolerance() * strand;
+    const Scalar energy_limit = energy_tolerance<Scalar>() * search.half_square * strand;
+    settled = (moved * reach <= position_limit * position_limit) &&
+              (moved * pull_squared * (travel + reach) <= energy_limit * energy_limit);
+  }
 
   /// Takes the lanes `where` from another iterate.
   void keep_where(const Mask<Scalar>& where, const TautIterate& other) {
@@ -35,8 +84,22 @@ struct TautIterate {
     direction = select<Scalar>(where, other.direction, direction);
     slope = select(where, other.slope, slope);
     pull = select(where, other.pull, pull);
+    settled = settled || where;
   }
 };
+
+/// Goes on until all lanes are settled, which is seldom needed. Takes copies, so that the usual step keeps its
+/// own in registers.
+template <bool kElastic, class Scalar>
+[[gnu::noinline]] TautIterate<Scalar> search_on(TautSearch<kElastic, Scalar> search, TautIterate<Scalar> now) {
+  for (int i = 1; i < 12 && !all(now.settled); ++i) {
+    TautIterate<Scalar> next(search.step, search.free, now.shift);
+    next.improve(search);
+    next.keep_where(now.settled, now);  // a lane does not depend on how long its neighbours take
+    now = next;
+  }
+  return now;
+}
 
 /// The step from the instant on at which the string comes taut in the lanes `where`; the whole step in the
 /// others.
@@ -67,6 +130,25 @@ template <bool kElastic, class Scalar>
   return result;
 }
 
+/// The step of a diabolo whose string is slack at its beginning.
+template <bool kElastic, class Scalar>
+[[gnu::noinline]] StringStepResult<Scalar> advance_slack(const StringStep<Scalar>& step,
+                                                         const Mask<Scalar>& captured,
+                                                         StringPath<Scalar> begin) {
+  const Vector3<Scalar> free = step.free_position(step.dt);
+  const StringPath<Scalar> path(free, step.end);
+  const Mask<Scalar> snaps = captured && (path.length() > step.string_length);
+  if (any(snaps)) return advance_from_catch<kElastic>(step, captured, snaps);
+  StringStepResult<Scalar> result;
+  result.position = free;
+  result.velocity = step.free_velocity(step.dt);
+  result.string_acceleration = Vector3<Scalar>::Constant(Scalar(0));
+  result.slack = step.string_length - path.length();
+  result.gradient_squared = squared_norm<Scalar>(step.plane(path.gradient()));
+  result.passed = Scalar(0.5) * (path.imbalance() - begin.imbalance());
+  return result;
+}
+
 }  // namespace detail
 
 /// One step of a point mass on a massless string without friction, tips given: m a = m g - T grad(S), T >= 0,
@@ -80,95 +162,54 @@ template <bool kElastic, class Scalar>
 ///
 /// `kElastic` false leaves the spring out; the result is the same, bit for bit, as with a compliance of zero.
 template <bool kElastic, class Scalar>
-StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const Mask<Scalar>& captured) {
+[[gnu::always_inline]] inline StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const Mask<Scalar>& captured) {
   const Scalar& length = step.string_length;
-  const Scalar tolerance = Scalar(constraint_tolerance<Scalar>()) * length;
-  const Scalar energy_tolerance = Scalar(30 * constraint_tolerance<Scalar>());  // [J/kg]
   const StringPath<Scalar> begin(step.position, step.begin);
-  const Vector3<Scalar> free = step.free_position(step.dt);
-  const Mask<Scalar> begins_slack = begin.length() < length - tolerance;
+  const Scalar begin_extension = begin.length() - length;
+  const Vector3<Scalar> free = step.free_position(step.dt), arriving = step.free_velocity(step.dt);
+  const Mask<Scalar> begins_slack = begin.length() < length - step.tolerance();
+  const Mask<Scalar> may_pull = captured && !begins_slack;
+  if (!any(may_pull)) return detail::advance_slack<kElastic>(step, captured, begin);
 
   // The string moves the diabolo by `shift` from where it would have come without it: a guess first.
-  const Scalar half_square = Scalar(0.5) * step.dt * step.dt;
-  const Scalar guess = select(captured && !begins_slack, half_square, Scalar(0));
-  detail::TautIterate<Scalar> now(step, step.string_acceleration * guess, free);
+  detail::TautSearch<kElastic, Scalar> search{step, begin, free, may_pull};
+  detail::TautIterate<Scalar> now(step, free,
+                                  step.string_acceleration * select(may_pull, search.half_square, Scalar(0)));
   const Mask<Scalar> snaps = captured && begins_slack && (now.path.length() > length);
   if (any(snaps)) return detail::advance_from_catch<kElastic>(step, captured, snaps);
-  const Mask<Scalar> may_pull = captured && !begins_slack;
+  if constexpr (kElastic) search.resolve_spring(squared_norm(now.gradient));
+  now.improve(search);
+  if (!all(now.settled)) now = detail::search_on(search, now);
 
-  // The spring's extension counts with these weights at the end and at the beginning of the step.
-  Scalar resolution{0}, end_weight{1}, begin_part{0}, spring{0};
-  if constexpr (kElastic) {
-    resolution = step.resolution(squared_norm(now.gradient));
-    end_weight = Scalar(1) - Scalar(0.5) * resolution + step.damping_time / step.dt;
-    begin_part = (Scalar(1) - end_weight) * (begin.length() - length);
-    spring = step.compliance / half_square;
-  }
-
-  // Newton's method for shift = -direction * pull, pull = tension / mass * dt^2 / 2: the path is known at the
-  // last position, its extension is wanted on the line through `free` along the new direction.
-  Mask<Scalar> settled{false};
-  for (int i = 0; i < 12; ++i) {
-    detail::TautIterate<Scalar> next = now;
-    if (i > 0) next = detail::TautIterate<Scalar>(step, now.shift, free);
-    next.direction = step.plane(discrete_gradient(begin, next.path));
-    next.slope = maximum(dot(next.gradient, next.direction), Scalar(1e-9));
-    const Scalar extension = next.path.length() - length - dot(next.gradient, now.shift);
-    if constexpr (kElastic)
-      next.pull = (end_weight * extension + begin_part) / (end_weight * next.slope + spring);
-    else
-      next.pull = extension / next.slope;
-    next.pull = select(may_pull, maximum(next.pull, Scalar(0)), Scalar(0));
-    next.shift = next.direction * Scalar(-next.pull);
-    const Scalar moved = squared_norm<Scalar>(next.shift - now.shift);
-    if (i > 0) next.keep_where(settled, now);  // a lane does not depend on how long its neighbours take
-    now = next;
-    // What another iteration could still change is about moved * (moved + pull) / strand; the energy per mass
-    // that the position and the direction are wrong by is about that times tension / mass, and pull * moved /
-    // strand * travel.
-    const Scalar strand = minimum(now.path.left_length, now.path.right_length);
-    const Scalar pull_squared = now.pull * now.pull;
-    const Scalar reach = Scalar(2) * (moved + pull_squared);
-    const Scalar travel = squared_norm<Scalar>(free + now.shift - step.position);
-    const Scalar position_limit = tolerance * strand, energy_limit = energy_tolerance * half_square * strand;
-    settled = settled || ((moved * reach <= position_limit * position_limit) &&
-                          (moved * pull_squared * (travel + reach) <= energy_limit * energy_limit));
-    if (all(settled)) break;
-  }
-
-  const StringPath<Scalar>& path = now.path;
-  const Vector3<Scalar>&gradient = now.gradient, &direction = now.direction;
-  const Scalar &pull = now.pull, &slope = now.slope;
-  const Mask<Scalar> taut = pull > Scalar(0);
+  const Mask<Scalar> taut = now.pull > Scalar(0);
   StringStepResult<Scalar> result;
   result.taut = taut;
-  result.slack = length - path.length();
-  result.gradient_squared = squared_norm(gradient);
-  result.passed = Scalar(0.5) * (path.imbalance() - begin.imbalance());
+  result.slack = length - now.path.length();
+  result.gradient_squared = squared_norm(now.gradient);
+  result.passed = Scalar(0.5) * (now.path.imbalance() - begin.imbalance());
   const Scalar inverse_dt = Scalar(1) / step.dt;
   // A diabolo that begins outside a rigid string is put back without being thrown.
-  const Mask<Scalar> thrown = (begin.length() <= length + Scalar(10) * tolerance) || (resolution > Scalar(0));
-  const Scalar impulse = select(taut && thrown, Scalar(Scalar(2) * inverse_dt * pull), Scalar(0));
-  const Vector3<Scalar> arriving = step.free_velocity(step.dt);
-  const Scalar rate_before =
-      dot(gradient, arriving) + path.tip_rate(step.end.left_velocity, step.end.right_velocity);
-  const Scalar rigidity = (Scalar(1) - resolution) / (result.gradient_squared + Scalar(1e-12));
-  const Scalar removed = select(taut, Scalar((rate_before - slope * impulse) * rigidity), Scalar(0));
-  const Vector3<Scalar> string_impulse = direction * impulse + gradient * removed;
+  const Mask<Scalar> thrown =
+      (begin.length() <= length + Scalar(10) * step.tolerance()) || (search.resolution > Scalar(0));
+  const Scalar impulse = select(taut && thrown, Scalar(Scalar(2) * inverse_dt * now.pull), Scalar(0));
+  const Scalar rate_before = dot(now.gradient, arriving) +
+                             now.path.tip_rate(step.end.left_velocity, step.end.right_velocity);
+  const Scalar rigidity = (Scalar(1) - search.resolution) / (result.gradient_squared + Scalar(1e-12));
+  const Scalar removed = select(taut, Scalar((rate_before - now.slope * impulse) * rigidity), Scalar(0));
+  const Vector3<Scalar> string_impulse = now.direction * impulse + now.gradient * removed;
   result.velocity = arriving - string_impulse;
   result.position = free + now.shift;
   result.string_acceleration = string_impulse * Scalar(-inverse_dt);
   // A rigid string that began too long by less than the tolerance would give that length back times its
   // tension.
-  const Scalar surplus = (begin.length() - length) * impulse * inverse_dt;
-  const Mask<Scalar> gains = (surplus > energy_tolerance) && (resolution == Scalar(0));
+  const Scalar surplus = begin_extension * impulse * inverse_dt;
+  const Mask<Scalar> gains = (surplus > energy_tolerance<Scalar>()) && (search.resolution == Scalar(0));
   if (any(gains)) {
     const Scalar kept = Scalar(1) - Scalar(2) * surplus / (squared_norm(result.velocity) + tiny<Scalar>());
     result.velocity = result.velocity * select(gains, positive_sqrt<Scalar>(kept), Scalar(1));
   }
-  const Mask<Scalar> lost = may_pull && !settled;
-  if (any(lost)) put_back(step, lost, result);
-  return result;
+  const Mask<Scalar> lost = may_pull && !now.settled;
+  return any(lost) ? put_back(step, lost, result) : result;
 }
 
 }  // namespace diabolo

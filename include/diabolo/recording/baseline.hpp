@@ -25,7 +25,7 @@ inline Eigen::Vector3d lowest_point(const Eigen::Vector3d& left, const Eigen::Ve
   // The support point of the ellipsoid x' M^-1 x = 1 with M = b^2 I + (a^2 - b^2) axis axis' in direction -z.
   const double along = -axis.z() * (a * a - b_squared);
   const double depth = std::sqrt(b_squared - along * axis.z());
-  const Eigen::Vector3d middle = 0.5 * (left + right);
+  Eigen::Vector3d middle = 0.5 * (left + right);
   if (!(depth > 0.0)) return middle;
   return middle + (axis * along - Eigen::Vector3d(0.0, 0.0, b_squared)) / depth;
 }

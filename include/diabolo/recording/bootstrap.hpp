@@ -76,7 +76,8 @@ inline std::optional<Interval> mean_interval(std::span<const double> series, std
   }
   std::ranges::sort(means);
   // Cornish and Fisher's expansion of Student's quantile at 97.5 %, then the level of a normal one.
-  const double k = static_cast<double>(n / block), f = k - 1.0, z = 1.959963984540054;
+  const std::size_t blocks = n / block;
+  const double k = static_cast<double>(blocks), f = k - 1.0, z = 1.959963984540054;
   const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
   const double t = z + (z3 + z) / (4.0 * f) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * f * f) +
                    (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * f * f * f);

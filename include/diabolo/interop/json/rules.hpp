@@ -75,7 +75,7 @@ Rule rule_from_json(const nlohmann::json& json, const JsonFields& fields, const 
     if (!value.is_boolean()) fields.fail(name, "true or false");
     return value.get<bool>();
   } else {
-    const Rule direction = fields.vector3(name);
+    Rule direction = fields.vector3(name);
     if (!(std::abs(direction.norm() - 1.0) < 1e-9)) fields.fail(name, "a direction [x, y, z] of norm 1");
     return direction;
   }
