@@ -130,6 +130,19 @@ TEST_CASE("the velocity is the derivative of the position") {
   }
 }
 
+TEST_CASE("the last instant still moves, on either side of its rounding") {
+  const std::vector<double> times{0.0, 0.1 * 3.0};
+  const std::vector<Vector> left{{0.0, 0.3, 1.0}, {0.0, 0.3, 1.3}}, right{{0.0, -0.3, 1.0}, {0.0, -0.3, 1.3}};
+  for (const Interpolation interpolation : {Interpolation::kLinear, Interpolation::kSpline}) {
+    const TipMotion<double> motion(times, left, right, interpolation);
+    for (const double time : {0.3, motion.end(), std::nextafter(motion.end(), 1.0)}) {
+      CHECK((motion.at(time).left - left.back()).norm() < 1e-15);
+      CHECK(std::abs(motion.at(time).left_velocity.z() - 1.0) < 1e-12);
+    }
+    CHECK(std::abs(motion.at(-1e-17).right_velocity.z() - 1.0) < 1e-12);
+  }
+}
+
 TEST_CASE("the spline is natural: continuous velocity and acceleration, none at the ends") {
   Random random(35);
   const Knots knots = random_knots(random, 9);

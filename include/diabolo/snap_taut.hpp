@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "diabolo/string_step.hpp"
 
 namespace diabolo {
@@ -9,7 +12,10 @@ namespace diabolo {
 /// its last step carries the derivatives. Lanes outside `where` get 0.
 template <class Scalar>
 Scalar taut_fraction(const StringStep<Scalar>& step, const Mask<Scalar>& where) {
-  const Scalar tolerance = Scalar(0.01 * constraint_tolerance<Scalar>()) * step.string_length;
+  // A hundredth of what the constraint is solved to, but never less than the path length can tell.
+  const Scalar tolerance = Scalar(std::max(0.01 * constraint_tolerance<Scalar>(),
+                                           4.0 * std::numeric_limits<ValueOf<Scalar>>::epsilon())) *
+                           step.string_length;
   Scalar low{0}, high{1}, fraction{1};
   Mask<Scalar> settled{!where};
   for (int i = 0; i < 60; ++i) {

@@ -123,7 +123,8 @@ class Spheroid {
     const Scalar along = dot<Scalar>(offset, axis_);
     const Vector3<Scalar> radial = offset - axis_ * along;
     const Scalar across = norm<Scalar>(radial);
-    const Mask<Scalar> on_axis = across < Scalar(1e-12) * semi_major_;
+    const Mask<Scalar> on_axis =
+        across < Scalar(8.0 * std::numeric_limits<ValueOf<Scalar>>::epsilon()) * semi_major_;
     return {along, across, select<Scalar>(on_axis, lowest_direction(), radial / across)};
   }
 

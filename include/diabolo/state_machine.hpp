@@ -69,7 +69,8 @@ StringStateOf<Scalar> published_string_state(StringStateOf<Scalar> state, const 
 
 /// The paper's figure of the states; its labels are lost in the source, so that this is our reading of the
 /// text: with s > 0 inside, ON_STRING -> LOOSE when s > c_L; LOOSE -> ON_STRING when s <= 0; either -> FLYING
-/// when s > c_F above the plane of the tips; FLYING -> LOOSE by the taut catch only.
+/// when s > c_F above the plane of the tips; FLYING -> LOOSE by the taut catch only, at or below that plane,
+/// so that a throw is not caught as it leaves.
 template <class Scalar>
 StringStateOf<Scalar> paper_string_state(StringStateOf<Scalar> state, const Vector3<Scalar>& point,
                                          const Spheroid<Scalar>& spheroid,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -50,8 +51,15 @@ class TipMotion {
 
   /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
   Tips<Scalar> at(double time, std::size_t& hint) const {
-    if (time < begin() || times_.size() == 1) return resting(0);
-    if (time >= end()) return resting(times_.size() - 1);
+    // The first and the last instant belong to the motion; rounding of begin + i * dt does not decide that.
+    const double rounding =
+        8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin()), std::abs(end()));
+    const std::size_t last = times_.size() - 1;
+    if (time < begin() - rounding || last == 0) return resting(0);
+    if (time > end() + rounding) return resting(last);
+    time = std::max(time, begin());
+    if (time >= end())
+      return interpolation_ == Interpolation::kHeld ? resting(last) : between(last - 1, end());
     std::size_t i = hint + 1 < times_.size() ? hint : 0;
     if (times_[i] > time)
       i = static_cast<std::size_t>(std::ranges::upper_bound(times_, time) - times_.begin()) - 1;

@@ -85,7 +85,7 @@ inline ExcerptScore score_excerpt(const Recording& recording, const Model& model
           *tips.motion(score.start_row, recording.size() - 1), steps,
           [&](std::size_t step, double time, const State<double>& state, const StepStatus<double>&) {
             if (!score.diverged && !is_in_world(state.position)) score.diverged = time - start_time;
-            for (; next < rows.size() && steps_until(times[rows[next]] - start_time) == step; ++next) {
+            for (; next < rows.size() && steps_until(times[rows[next]] - start_time) <= step; ++next) {
               error_sum += (state.position - recording.diabolo.position.col(rows[next])).norm();
               baseline_sum +=
                   (baseline.position.col(rows[next]) - recording.diabolo.position.col(rows[next])).norm();
