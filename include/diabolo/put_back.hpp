@@ -10,8 +10,8 @@ namespace diabolo {
 /// where that is outside, until the string fits. With resting tips its speed is limited to what its energy
 /// allows, so that none is gained.
 template <class Scalar>
-[[gnu::noinline]] StringStepResult<Scalar> put_back(const StringStep<Scalar>& step, const Mask<Scalar>& where,
-                                                    StringStepResult<Scalar> result) {
+[[gnu::noinline]] void put_back(const StringStep<Scalar>& step, const Mask<Scalar>& where,
+                                StringStepResult<Scalar>& result) {
   const Vector3<Scalar> outside = step.free_position(step.dt);
   const Vector3<Scalar> to_middle = (step.end.left + step.end.right) * Scalar(0.5) - step.position;
   const Scalar reach = step.string_length * Scalar(1.0 + constraint_tolerance<Scalar>());
@@ -41,9 +41,12 @@ template <class Scalar>
   const Scalar limit = select(was_inside, minimum(share, Scalar(1)), Scalar(1));
   result.position = select<Scalar>(where, position, result.position);
   result.velocity = select<Scalar>(where, Vector3<Scalar>(velocity * limit), result.velocity);
+  result.slack = select(where, Scalar(step.string_length - path.length()), result.slack);
+  result.gradient_squared = select(where, squared_norm(gradient), result.gradient_squared);
+  const Scalar before = StringPath<Scalar>(step.position, step.begin).imbalance();
+  result.passed = select(where, Scalar(Scalar(0.5) * (path.imbalance() - before)), result.passed);
   const Vector3<Scalar> pull = (velocity * limit - arriving) * Scalar(Scalar(1) / step.dt);
   result.string_acceleration = select<Scalar>(where, pull, result.string_acceleration);
-  return result;
 }
 
 }  // namespace diabolo

@@ -42,7 +42,8 @@ void assign_where(const Mask<Scalar>& condition, LaneStringState<Scalar>& state,
   state.code = select(condition, Scalar(static_cast<double>(next)), state.code);
 }
 
-/// State of the diabolo, a point mass that spins.
+/// State of the diabolo, a point mass that spins. (No two vectors are neighbours, so that no compiler stores
+/// the last component of one together with the first of the next, which slows down reading them again.)
 template <class Scalar>
 struct State {
   Vector3<Scalar> position = Vector3<Scalar>::Constant(Scalar(0));  ///< centre [m], world frame

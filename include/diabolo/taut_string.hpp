@@ -15,16 +15,16 @@ namespace detail {
 template <bool kElastic, class Scalar>
 struct TautSearch {
   const StringStep<Scalar>& step;
-  StringPath<Scalar> begin;  ///< the string at the beginning of the step
-  Vector3<Scalar> free;      ///< where the diabolo would come without the string [m]
-  Mask<Scalar> may_pull;     ///< not where the string is slack at the beginning
+  StringPath<Scalar> begin{step.position, step.begin};  ///< the string at the beginning of the step
+  Vector3<Scalar> free = step.free_position(step.dt);   ///< where the diabolo would come without it [m]
+  Mask<Scalar> slack = begin.length() < step.string_length - step.tolerance();  ///< at the beginning
   Scalar half_square = Scalar(0.5) * step.dt * step.dt;
   // The spring's extension counts with these weights at the end and at the beginning of the step.
   Scalar resolution{0}, end_weight{1}, begin_part{0}, spring{0};
 
-  /// `gradient_squared` of the path length near the end of the step.
-  void resolve_spring(const Scalar& gradient_squared) {
-    resolution = step.resolution(gradient_squared);
+  /// `gradient` of the path length near the end of the step.
+  void resolve_spring(const Vector3<Scalar>& gradient) {
+    resolution = step.resolution(squared_norm(gradient));
     end_weight = Scalar(1) - Scalar(0.5) * resolution + step.damping_time / step.dt;
     begin_part = (Scalar(1) - end_weight) * (begin.length() - step.string_length);
     spring = step.compliance / half_square;
@@ -48,19 +48,21 @@ struct TautIterate {
                                             const Vector3<Scalar>& guess)
       : shift(guess), path(free + guess, step.end), gradient(step.plane(path.gradient())) {}
 
-  /// A step of Newton's method from there.
+  /// A step of Newton's method from there; no pull in the other lanes.
   template <bool kElastic>
-  [[gnu::always_inline]] inline void improve(const TautSearch<kElastic, Scalar>& search) {
+  [[gnu::always_inline]] inline void improve(const TautSearch<kElastic, Scalar>& search,
+                                             const Mask<Scalar>& may_pull) {
     const StringStep<Scalar>& step = search.step;
     const Vector3<Scalar> last = shift;
     direction = step.plane(discrete_gradient(search.begin, path));
     slope = maximum(dot(gradient, direction), Scalar(1e-9));
     const Scalar extension = path.length() - step.string_length - dot(gradient, last);
     if constexpr (kElastic)
-      pull = (search.end_weight * extension + search.begin_part) / (search.end_weight * slope + search.spring);
+      pull =
+          (search.end_weight * extension + search.begin_part) / (search.end_weight * slope + search.spring);
     else
       pull = extension / slope;
-    pull = select(search.may_pull, maximum(pull, Scalar(0)), Scalar(0));
+    pull = select(may_pull, maximum(pull, Scalar(0)), Scalar(0));
     shift = direction * Scalar(-pull);
     // What another iteration could still change is about moved * (moved + pull) / strand; the energy per mass
     // that the position and the direction are wrong by is about that times tension / mass, and pull * moved /
@@ -88,17 +90,42 @@ struct TautIterate {
   }
 };
 
-/// Goes on until all lanes are settled, which is seldom needed. Takes copies, so that the usual step keeps its
-/// own in registers.
+/// The step that the search has found.
 template <bool kElastic, class Scalar>
-[[gnu::noinline]] TautIterate<Scalar> search_on(TautSearch<kElastic, Scalar> search, TautIterate<Scalar> now) {
-  for (int i = 1; i < 12 && !all(now.settled); ++i) {
-    TautIterate<Scalar> next(search.step, search.free, now.shift);
-    next.improve(search);
-    next.keep_where(now.settled, now);  // a lane does not depend on how long its neighbours take
-    now = next;
+[[gnu::always_inline]] inline StringStepResult<Scalar> pulled(const TautSearch<kElastic, Scalar>& search,
+                                                              const TautIterate<Scalar>& found) {
+  const StringStep<Scalar>& step = search.step;
+  const Scalar &length = step.string_length, begin_length = search.begin.length();
+  StringStepResult<Scalar> result;
+  result.taut = found.pull > Scalar(0);
+  result.slack = length - found.path.length();
+  result.gradient_squared = squared_norm(found.gradient);
+  result.passed = Scalar(0.5) * (found.path.imbalance() - search.begin.imbalance());
+  const Scalar inverse_dt = Scalar(1) / step.dt;
+  // A diabolo that begins outside a rigid string is put back without being thrown.
+  const Mask<Scalar> thrown =
+      (begin_length <= length + Scalar(10) * step.tolerance()) || (search.resolution > Scalar(0));
+  const Scalar impulse =
+      select(result.taut && thrown, Scalar(Scalar(2) * inverse_dt * found.pull), Scalar(0));
+  const Vector3<Scalar> arriving = step.free_velocity(step.dt);
+  const Scalar rate_before =
+      dot(found.gradient, arriving) + found.path.tip_rate(step.end.left_velocity, step.end.right_velocity);
+  const Scalar rigidity = (Scalar(1) - search.resolution) / (result.gradient_squared + Scalar(1e-12));
+  const Scalar removed =
+      select(result.taut, Scalar((rate_before - found.slope * impulse) * rigidity), Scalar(0));
+  const Vector3<Scalar> string_impulse = found.direction * impulse + found.gradient * removed;
+  result.velocity = arriving - string_impulse;
+  result.position = search.free + found.shift;
+  result.string_acceleration = string_impulse * Scalar(-inverse_dt);
+  // A rigid string that began too long by less than the tolerance would give that length back times its
+  // tension.
+  const Scalar surplus = (begin_length - length) * impulse * inverse_dt;
+  const Mask<Scalar> gains = (surplus > energy_tolerance<Scalar>()) && (search.resolution == Scalar(0));
+  if (any(gains)) {
+    const Scalar kept = Scalar(1) - Scalar(2) * surplus / (squared_norm(result.velocity) + tiny<Scalar>());
+    result.velocity = result.velocity * select(gains, positive_sqrt<Scalar>(kept), Scalar(1));
   }
-  return now;
+  return result;
 }
 
 /// The step from the instant on at which the string comes taut in the lanes `where`; the whole step in the
@@ -132,20 +159,19 @@ template <bool kElastic, class Scalar>
 
 /// The step of a diabolo whose string is slack at its beginning.
 template <bool kElastic, class Scalar>
-[[gnu::noinline]] StringStepResult<Scalar> advance_slack(const StringStep<Scalar>& step,
-                                                         const Mask<Scalar>& captured,
-                                                         StringPath<Scalar> begin) {
-  const Vector3<Scalar> free = step.free_position(step.dt);
-  const StringPath<Scalar> path(free, step.end);
+[[gnu::always_inline]] inline StringStepResult<Scalar> advance_slack(
+    const TautSearch<kElastic, Scalar>& search, const Mask<Scalar>& captured) {
+  const StringStep<Scalar>& step = search.step;
+  const StringPath<Scalar> path(search.free, step.end);
   const Mask<Scalar> snaps = captured && (path.length() > step.string_length);
   if (any(snaps)) return advance_from_catch<kElastic>(step, captured, snaps);
   StringStepResult<Scalar> result;
-  result.position = free;
+  result.position = search.free;
   result.velocity = step.free_velocity(step.dt);
   result.string_acceleration = Vector3<Scalar>::Constant(Scalar(0));
   result.slack = step.string_length - path.length();
   result.gradient_squared = squared_norm<Scalar>(step.plane(path.gradient()));
-  result.passed = Scalar(0.5) * (path.imbalance() - begin.imbalance());
+  result.passed = Scalar(0.5) * (path.imbalance() - search.begin.imbalance());
   return result;
 }
 
@@ -162,54 +188,42 @@ template <bool kElastic, class Scalar>
 ///
 /// `kElastic` false leaves the spring out; the result is the same, bit for bit, as with a compliance of zero.
 template <bool kElastic, class Scalar>
-[[gnu::always_inline]] inline StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const Mask<Scalar>& captured) {
-  const Scalar& length = step.string_length;
-  const StringPath<Scalar> begin(step.position, step.begin);
-  const Scalar begin_extension = begin.length() - length;
-  const Vector3<Scalar> free = step.free_position(step.dt), arriving = step.free_velocity(step.dt);
-  const Mask<Scalar> begins_slack = begin.length() < length - step.tolerance();
-  const Mask<Scalar> may_pull = captured && !begins_slack;
-  if (!any(may_pull)) return detail::advance_slack<kElastic>(step, captured, begin);
-
+StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const Mask<Scalar>& captured) {
+  detail::TautSearch<kElastic, Scalar> search{step};
+  const Mask<Scalar> may_pull = captured && !search.slack;
+  if (!any(may_pull)) return detail::advance_slack<kElastic>(search, captured);
   // The string moves the diabolo by `shift` from where it would have come without it: a guess first.
-  detail::TautSearch<kElastic, Scalar> search{step, begin, free, may_pull};
-  detail::TautIterate<Scalar> now(step, free,
+  detail::TautIterate<Scalar> now(step, search.free,
                                   step.string_acceleration * select(may_pull, search.half_square, Scalar(0)));
-  const Mask<Scalar> snaps = captured && begins_slack && (now.path.length() > length);
+  const Mask<Scalar> snaps = captured && search.slack && (now.path.length() > step.string_length);
   if (any(snaps)) return detail::advance_from_catch<kElastic>(step, captured, snaps);
-  if constexpr (kElastic) search.resolve_spring(squared_norm(now.gradient));
-  now.improve(search);
-  if (!all(now.settled)) now = detail::search_on(search, now);
-
-  const Mask<Scalar> taut = now.pull > Scalar(0);
-  StringStepResult<Scalar> result;
-  result.taut = taut;
-  result.slack = length - now.path.length();
-  result.gradient_squared = squared_norm(now.gradient);
-  result.passed = Scalar(0.5) * (now.path.imbalance() - begin.imbalance());
-  const Scalar inverse_dt = Scalar(1) / step.dt;
-  // A diabolo that begins outside a rigid string is put back without being thrown.
-  const Mask<Scalar> thrown =
-      (begin.length() <= length + Scalar(10) * step.tolerance()) || (search.resolution > Scalar(0));
-  const Scalar impulse = select(taut && thrown, Scalar(Scalar(2) * inverse_dt * now.pull), Scalar(0));
-  const Scalar rate_before = dot(now.gradient, arriving) +
-                             now.path.tip_rate(step.end.left_velocity, step.end.right_velocity);
-  const Scalar rigidity = (Scalar(1) - search.resolution) / (result.gradient_squared + Scalar(1e-12));
-  const Scalar removed = select(taut, Scalar((rate_before - now.slope * impulse) * rigidity), Scalar(0));
-  const Vector3<Scalar> string_impulse = now.direction * impulse + now.gradient * removed;
-  result.velocity = arriving - string_impulse;
-  result.position = free + now.shift;
-  result.string_acceleration = string_impulse * Scalar(-inverse_dt);
-  // A rigid string that began too long by less than the tolerance would give that length back times its
-  // tension.
-  const Scalar surplus = begin_extension * impulse * inverse_dt;
-  const Mask<Scalar> gains = (surplus > energy_tolerance<Scalar>()) && (search.resolution == Scalar(0));
-  if (any(gains)) {
-    const Scalar kept = Scalar(1) - Scalar(2) * surplus / (squared_norm(result.velocity) + tiny<Scalar>());
-    result.velocity = result.velocity * select(gains, positive_sqrt<Scalar>(kept), Scalar(1));
+  if constexpr (kElastic) search.resolve_spring(now.gradient);
+  now.improve(search, may_pull);
+  for (int i = 1; i < 12 && !all(now.settled); ++i) {
+    detail::TautIterate<Scalar> next(step, search.free, now.shift);
+    next.improve(search, may_pull);
+    next.keep_where(now.settled, now);  // a lane does not depend on how long its neighbours take
+    now = next;
   }
+  StringStepResult<Scalar> result = detail::pulled(search, now);
   const Mask<Scalar> lost = may_pull && !now.settled;
-  return any(lost) ? put_back(step, lost, result) : result;
+  if (any(lost)) put_back(step, lost, result);
+  return result;
+}
+
+/// The same, bit for bit, for the usual step of one captured lane: the string is taut from beginning to end,
+/// and the first step of Newton's method finds its pull. False, and no result, where that is not so.
+template <bool kElastic, class Scalar>
+[[gnu::always_inline]] inline bool advance_at_once(const StringStep<Scalar>& step,
+                                                   StringStepResult<Scalar>& result) {
+  detail::TautSearch<kElastic, Scalar> search{step};
+  if (search.slack) return false;
+  detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
+  if constexpr (kElastic) search.resolve_spring(found.gradient);
+  found.improve(search, true);
+  if (!found.settled || !(found.pull > Scalar(0))) return false;
+  result = detail::pulled(search, found);
+  return true;
 }
 
 }  // namespace diabolo

@@ -36,10 +36,13 @@ void check_rollouts_of_scalar() {
     const State<Scalar> state =
         rollout(Predictor<Scalar>(q), start_of_scalar, motion_of_scalar, {0.0, 1e-3, 500});
     // Double: a dual divides by multiplying with the inverse. Float: 500 steps of 6e-8 * 1.5 m over 1 ms
-    // would be 0.05 m/s if they all added up.
+    // would be 0.05 m/s if they all added up; velocities and spin vary over 0.05 s.
     const double margin = sizeof(ValueOf<Scalar>) == 8 ? 1e-9 : 5e-3;
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
       CHECK(all(absolute<Scalar>(state.position[k] - Scalar(expected.position[k])) < Scalar(margin)));
+      CHECK(all(absolute<Scalar>(state.velocity[k] - Scalar(expected.velocity[k])) < Scalar(20.0 * margin)));
+    }
+    CHECK(all(absolute<Scalar>(state.spin - Scalar(expected.spin)) < Scalar(20.0 * margin)));
     CHECK(all(is(state.string_state, expected.string_state)));
   };
   check(Parameters<double>::consistent(), Parameters<Scalar>::consistent());

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "diabolo/effects/effect.hpp"
+
+namespace diabolo {
+
+/// What slows the spin beside the string: dw/dt = -air w|w| - axle sign(w). Air acts on the cups all the time
+/// (a disc in turbulent flow: some 5e-5 1/rad for the paper's diabolos); `axle` is a constant torque over the
+/// moment of inertia, such as that of a bearing, its sign smoothed within 1 rad/s.
+template <class Scalar>
+struct SpinLoss : NeutralEffect<Scalar> {
+  static constexpr std::string_view kName = "spin_loss";
+  Scalar air{0};   ///< [1/rad], >= 0
+  Scalar axle{0};  ///< [rad/s^2], >= 0
+
+  Scalar spin_acceleration(const State<Scalar>& state, const Parameters<Scalar>&) const {
+    using std::tanh;
+    return -(air * state.spin * absolute(state.spin)) - axle * tanh(state.spin);
+  }
+
+  /// Calls `visit(info, field)` for every field.
+  template <class Self, class Visitor>
+  static void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"air", "1/rad", 0.0, 1.0, "deceleration per squared spin"}, self.air);
+    visit(ParameterInfo{"axle", "rad/s^2", 0.0, 1e4, "constant deceleration"}, self.axle);
+  }
+};
+
+}  // namespace diabolo
