@@ -76,7 +76,7 @@ class Predictor {
                          const Scalar& dt) const {
     if (state.string_state != StringState::kOnString || plane_.active || overstretched(end)) return false;
     const PlaneProjector<Scalar> no_plane;
-    const Vector3<Scalar> outer = acceleration(state, begin);
+    const Vector3<Scalar> outer = effects_.acceleration(state, begin, parameters_);
     const StringStep<Scalar> step{
         state.position, state.velocity, outer,   begin, end, dt, length_, state.string_acceleration,
         compliance_,    damping_time_,  no_plane};
@@ -92,7 +92,7 @@ class Predictor {
                                                    const Tips<Scalar>& end, const Scalar& dt) const {
     StepStatus<Scalar> status;
     const Vector3<Scalar> velocity = plane_(state.velocity);
-    const Vector3<Scalar> outer = plane_(acceleration(state, begin));
+    const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, parameters_));
     const StringStep<Scalar> step{
         state.position, velocity,      outer, begin, end, dt, length_, state.string_acceleration,
         compliance_,    damping_time_, plane_};
@@ -143,7 +143,7 @@ class Predictor {
     if (p.spin_rule == SpinRule::kLengthChange)
       state.spin = select(was_on_string, spin_after_length_change(state.spin, length_change, p), state.spin);
 
-    const Vector3<Scalar> a = plane_(acceleration(state, begin));
+    const Vector3<Scalar> a = plane_(effects_.acceleration(state, begin, parameters_));
     const Vector3<Scalar> from = state.position;
     Vector3<Scalar> velocity = plane_(state.velocity);
     Vector3<Scalar> position = from + velocity * dt;
@@ -158,7 +158,6 @@ class Predictor {
         is(state.string_state, StringState::kOnString) && !after.contains(position) && !after.overstretched();
     Vector3<Scalar> pulled = Vector3<Scalar>::Constant(Scalar(0));
     if (any(held)) {
-      const Vector3<Scalar> unprojected = position;
       const Vector3<Scalar> target =
           plane_on(from, p.projection == Projection::kRadial ? after.radial_point(position)
                                                              : after.closest_point(position));
@@ -167,10 +166,9 @@ class Predictor {
           compliance_ / (compliance_ + Scalar(0.5) * dt * dt * squared_norm(gradient) + tiny<Scalar>());
       const Vector3<Scalar> put = target + (position - target) * give;
       const Vector3<Scalar> normal = normal_at(after, put);
-      const Vector3<Scalar> cap =
-          normal_at(after, unprojected) *
-          Scalar(-p.cap_scale * pull_cap(before, after, normal_at(after, unprojected), dt));
-      Vector3<Scalar> pull = capped_pull<Scalar>(put - unprojected, normal, cap, dt, p.pull_scale);
+      const Vector3<Scalar> facing = normal_at(after, position);
+      const Vector3<Scalar> cap = facing * Scalar(-p.cap_scale * pull_cap(before, after, facing, dt));
+      Vector3<Scalar> pull = capped_pull<Scalar>(put - position, normal, cap, dt, p.pull_scale);
       const Mask<Scalar> thin = after.tip_distance() >= length_ - p.thin_slack;
       pull = select<Scalar>(thin,
                             p.thin_rule == ThinRule::kPublished
@@ -216,10 +214,6 @@ class Predictor {
 
   StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
     return elastic() ? advance_on_string<true>(step, captured) : advance_on_string<false>(step, captured);
-  }
-
-  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips) const {
-    return effects_.acceleration(state, tips, parameters_);
   }
 
   Scalar dissipation(const Scalar& dt, const Mask<Scalar>& where) const {

@@ -72,6 +72,9 @@ def rollout(
     """
     models = [_model(one) for one in ([model] if isinstance(model, (Model, Parameters)) else model)]
     motions = [tips] if isinstance(tips, TipMotion) else list(tips)
+    for i, motion in enumerate(motions):
+        if not isinstance(motion, TipMotion):
+            raise TypeError(f"tips[{i}]: {type(motion).__name__}; expected TipMotion")
     states = np.asarray(initial, dtype=np.float64)
     codes = _codes(string_state)
     if states.ndim not in (1, 2) or states.shape[-1] != 7:
@@ -94,6 +97,7 @@ def rollout(
             raise ValueError(f"{name}: {given} given for {size} rollouts; expected 1 or {size}")
 
     start = motions[0].begin if begin is None else float(begin)
+    _check_times(start, dt, steps)
     if steps is None:
         steps = _whole_steps(min(motion.end for motion in motions) - start, dt)
         steps -= steps % record_every
@@ -146,6 +150,7 @@ def rollout_gradient(
     if state.shape != (7,):
         raise ValueError(f"initial: shape {state.shape}; expected (7,)")
     start = tips.begin if begin is None else float(begin)
+    _check_times(start, dt, steps)
     if steps is None:
         steps = _whole_steps(tips.end - start, dt)
     if steps < 0:
@@ -171,10 +176,17 @@ def _is_sequence(given: object) -> bool:
     return not isinstance(given, (Model, Parameters, TipMotion))
 
 
+def _check_times(begin: float, dt: float, steps: int | None) -> None:
+    if not abs(begin) <= 1e9:
+        raise ValueError(f"begin: {begin} s; must be within 1e9 s")
+    if not 1e-9 <= dt <= 1e3:
+        raise ValueError(f"dt: {dt} s; must be within 1e-9 and 1e3 s")
+    if steps is not None and not 0 <= steps <= 10**12:
+        raise ValueError(f"steps: {steps}; must be within 0 and 1e12")
+
+
 def _whole_steps(duration: float, dt: float) -> int:
     """As many steps as fit; a step that misses the end by rounding only does fit."""
-    if not dt > 0.0:
-        raise ValueError(f"dt: {dt} s; must be positive and finite")
     return max(0, int(duration / dt + 1e-6))
 
 

@@ -289,6 +289,10 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
         (("evaluate", "played.csv", "--json", "."), ".: a directory; expected the name of a file"),
         (("evaluate", "played.csv", "--json", "/dev/null"), "/dev/null: a device or a pipe; expected a file"),
         (("evaluate", "played.csv", "--json", "played.csv"), "played.csv: this file is read already"),
+        (("evaluate", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
+        (("info", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
+        (("evaluate", "played.csv:0-99999999999999999999"), "played.csv:0-99999999999999999999: there is no"),
+        (("evaluate", "played.csv", "--seed", str(10**20)), f"--seed {10**20}: expected less than"),
         (("evaluate", "played.csv", "--plot", "out.doc"), "out.doc: expected a name that ends in .png"),
         (
             ("evaluate", "played.csv", "--json", "a.png", "--plot", "a.png"),

@@ -164,7 +164,10 @@ def test_nothing_in_nothing_out() -> None:
         ({"string_state": np.zeros((2, 2), int)}, r"string_state: shape \(2, 2\)"),
         ({"model": [Parameters()] * 3}, "initial: 2 given for 3 rollouts; expected 1 or 3"),
         ({"tips": []}, "empty sequence"),
-        ({"begin": float("inf")}, "steps|begin"),
+        ({"begin": float("inf")}, "begin: inf s; must be within 1e9 s"),
+        ({"begin": float("nan")}, "begin: nan s"),
+        ({"dt": 1e-300}, "dt: 1e-300 s; must be within"),
+        ({"steps": 10**30}, "steps: 1000000000000000000000000000000; must be within"),
     ],
 )
 def test_bad_input_is_named(change: dict[str, object], text: str) -> None:
@@ -177,6 +180,11 @@ def test_bad_input_is_named(change: dict[str, object], text: str) -> None:
     }
     with pytest.raises(ValueError, match=text):
         rollout(**arguments)  # type: ignore[arg-type]
+
+
+def test_a_tip_motion_of_another_type_is_named() -> None:
+    with pytest.raises(TypeError, match=r"tips\[1\]: NoneType; expected TipMotion"):
+        rollout(Parameters(), np.zeros((2, 7)), [SWING, None], steps=1)  # type: ignore[list-item]
 
 
 def test_what_is_not_finite_does_not_travel_on() -> None:

@@ -21,6 +21,9 @@ inline constexpr double kLargestCoordinate = 100.0;
 /// Largest time [s] that is believed.
 inline constexpr double kLargestTime = 1e9;
 
+/// Longest gap between two rows [s]; predictions may run through it, so that it must not be without end.
+inline constexpr double kLongestGap = 3600.0;
+
 /// Normalises a quaternion whose norm is within kQuaternionTolerance of 1; false, and no change, beyond it.
 /// One that is unit to rounding stays as it is, bit for bit, so that files round-trip.
 inline bool normalize_quaternion(Eigen::Ref<Eigen::Vector4d> quaternion) {
@@ -105,6 +108,11 @@ inline void check_recording(const Recording& recording) {
         (i > 0 && !(recording.time[i] > recording.time[i - 1])))
       throw RecordingError(where + ", sample " + std::to_string(i) + ": time " + shown(recording.time[i]) +
                            " s; expected increasing times within 1e9 s");
+  for (Eigen::Index i = 1; i < size; ++i)
+    if (recording.time[i] - recording.time[i - 1] > kLongestGap)
+      throw RecordingError(where + ", sample " + std::to_string(i) + ": time " + shown(recording.time[i]) +
+                           " s comes " + shown(recording.time[i] - recording.time[i - 1]) +
+                           " s after the one before; expected a gap of an hour at most");
   check_rate(recording.rate, recording.time, where);
   check_properties(recording.properties, recording.string_length, where);
   check_track(recording.left, size, where + ", left tip");

@@ -109,6 +109,9 @@ class TidyReader {
       csv_.fail("time " + shown(time) + " s; expected a number within 1e9 s");
     if (i > 0 && time <= recording.time[i - 1])
       csv_.fail("time " + shown(time) + " s does not come after " + shown(recording.time[i - 1]) + " s");
+    if (i > 0 && time - recording.time[i - 1] > kLongestGap)
+      csv_.fail("time " + shown(time) + " s comes more than an hour after " + shown(recording.time[i - 1]) +
+                " s; expected one play a file");
     recording.time[i] = time;
   }
 

@@ -50,7 +50,7 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
 
 def split_excerpt(text: str) -> tuple[str, tuple[int, int] | None]:
     """The file and the rows of NAME.csv:0-180; a file that has such a name itself comes first."""
-    match = re.fullmatch(r"(.+):(\d+)-(\d+)", text)
+    match = re.fullmatch(r"(.+):(\d{1,9})-(\d{1,9})", text)
     if match is None or Path(text).exists():
         return text, None
     return match[1], (int(match[2]), int(match[3]))

@@ -75,6 +75,8 @@ def run(arguments: argparse.Namespace) -> None:
     for name in ("threads", "seed"):
         if getattr(arguments, name) < 0:
             raise ValueError(f"--{name} {getattr(arguments, name)}: expected 0 or more")
+        if getattr(arguments, name) >= 2**31:
+            raise ValueError(f"--{name} {getattr(arguments, name)}: expected less than {2**31}")
     models = [read_model(text) for text in arguments.model or DEFAULT_MODELS]
     inputs = [split_excerpt(text)[0] for text in arguments.recordings]
     inputs += [text for text in arguments.model or () if text not in DEFAULT_MODELS]

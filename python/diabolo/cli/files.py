@@ -16,7 +16,12 @@ STDOUT = "-"
 
 def check_outputs(outputs: Iterable[str | Path | None], inputs: Iterable[str | Path]) -> None:
     """Raise ValueError, before any work is done, where an output could not be written or is also an input."""
-    taken = {Path(path).resolve(): "read" for path in inputs}
+    taken = {}
+    for given in inputs:
+        path = Path(given)
+        taken[path.resolve()] = "read"
+        if path.suffix == ".csv":  # a tidy recording's other half
+            taken[path.with_suffix(".json").resolve()] = "read"
     for output in outputs:
         if output is None or output == STDOUT:
             continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,8 @@ def run(arguments: argparse.Namespace) -> None:
 
 def describe(path: str, calibration: Any) -> dict[str, Any]:
     """The figures, for JSON of the schema diabolo.info/1."""
+    if Path(path).exists() and not Path(path).is_file():
+        raise ValueError(f"{path}: a folder, a device or a pipe; expected a file")
     take = _motive_take(path)
     recording: Recording | None = None
     problem = None

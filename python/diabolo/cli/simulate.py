@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .._core import DiaboloProperties, Model, Recording, Spheroid, TipMotion
 from ..enums import StringState
-from ..evaluation import predict
+from ..evaluation import DEFAULT_MODELS, predict
 from ..motions import MOTIONS
 from ..rollout import rollout
 from . import files
@@ -68,6 +68,7 @@ def run(arguments: argparse.Namespace) -> None:
         raise ValueError(f"{target}: expected a name that ends in .csv")
     inputs = [split_excerpt(arguments.on)[0]] if arguments.on else []
     inputs += [arguments.calibration] if arguments.calibration else []
+    inputs += [arguments.model] if arguments.model not in DEFAULT_MODELS else []
     files.check_outputs([target, target.with_suffix(".json"), arguments.json], inputs)
     model = read_model(arguments.model)
     if arguments.on:
