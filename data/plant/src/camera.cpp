@@ -56,14 +56,13 @@ class BodyNoise {
 
 /// From the true frame to the recorded one.
 Pose in_recorded_frame(const CameraParameters& camera, const Pose& pose) {
-  const Vec3 axis(std::sin(camera.tilt_azimuth), -std::cos(camera.tilt_azimuth), 0.0);
-  const Eigen::Quaterniond tilt(Eigen::AngleAxisd(camera.tilt, axis));
+  const Eigen::Quaterniond tilt = recorded_rotation(camera);
   return {camera.scale * (tilt * pose.position), tilt * pose.orientation};
 }
 
-Pose seen_stick(const Stick& stick, const Vec3& offset) {
+Pose seen_stick(const Stick& stick, const Vec3& offset, bool turning) {
   const Eigen::Quaterniond orientation = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), stick.direction);
-  return {stick.tip + orientation * offset, orientation};
+  return {stick.tip + (turning ? orientation * offset : offset), orientation};
 }
 
 Pose seen_diabolo(const State& state, const Vec3& offset) {
@@ -76,6 +75,11 @@ double frame_time(const CameraParameters& camera, std::size_t frame) {
 }
 
 }  // namespace
+
+Eigen::Quaterniond recorded_rotation(const CameraParameters& camera) {
+  const Vec3 axis(std::sin(camera.tilt_azimuth), -std::cos(camera.tilt_azimuth), 0.0);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(camera.tilt, axis));
+}
 
 std::vector<double> diabolo_times(const CameraParameters& camera, double duration) {
   const auto frames = static_cast<std::size_t>(std::floor(duration * camera.rate + 1e-9)) + 1;
@@ -94,7 +98,7 @@ std::vector<Frame> film(const CameraParameters& camera, const Motion& motion,
     frame.time = frame_time(camera, i);
     for (std::size_t side = 0; side < 2; ++side) {
       const Stick stick = motion.at(frame.time - camera.stick_delays[side])[side];
-      const Pose seen = seen_stick(stick, camera.tip_offsets[side]);
+      const Pose seen = seen_stick(stick, camera.tip_offsets[side], camera.stick_orientation);
       frame.sticks[side] = stick_noise[side].record(in_recorded_frame(camera, seen));
     }
     const Pose seen = seen_diabolo(moments[i].state, camera.centre_offset);

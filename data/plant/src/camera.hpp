@@ -23,7 +23,9 @@ struct CameraParameters {
   double scale = 1.0;             ///< recorded over true lengths
   double tilt = 0.0;              ///< of gravity in the recorded frame [rad]
   double tilt_azimuth = 0.0;      ///< where that gravity leans to, from x to y [rad]
-  Pair<Vec3> tip_offsets{Vec3::Zero(), Vec3::Zero()};  ///< recorded minus true tip, stick frame [m]
+  Pair<Vec3> tip_offsets{Vec3::Zero(), Vec3::Zero()};  ///< recorded minus true tip [m], in the
+                                                       ///< stick's frame, or the world's axes when its
+                                                       ///< orientation is not recorded
   Vec3 centre_offset = Vec3::Zero();  ///< recorded minus true centre, body frame: it turns with the spin [m]
   Pair<double> stick_delays{0.0, 0.0};  ///< how late the sticks are recorded [s]
   double diabolo_delay = 0.0;           ///< how late the diabolo is recorded [s]
@@ -42,6 +44,9 @@ struct Frame {
   Pair<std::optional<Pose>> sticks;
   std::optional<Pose> diabolo;
 };
+
+/// Rotation from the true frame to the recorded one, in which gravity leans by the tilt.
+Eigen::Quaterniond recorded_rotation(const CameraParameters& camera);
 
 /// Times [s] at which the cameras look at the diabolo, frame by frame.
 std::vector<double> diabolo_times(const CameraParameters& camera, double duration);

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "air.hpp"
+#include "spin_loss.hpp"
 #include "state.hpp"
 #include "string.hpp"
 
@@ -18,15 +20,9 @@ struct DiaboloParameters {
   Groove groove;
   std::optional<double>
       bearing_torque;           ///< drag of a one-way bearing in its free sense [N m]; none: fixed axle
+  double axle_drag = 0.0;       ///< constant deceleration of the spin [rad/s^2]
   double flank_friction = 0.0;  ///< coefficient of the string against a cup's flank
   double flank_radius = 0.012;  ///< radius at which it rubs there [m]
-};
-
-/// Air about the diabolo.
-struct AirParameters {
-  double drag = 0.028;     ///< acceleration per speed squared, against the velocity [1/m]
-  double magnus = 0.0011;  ///< acceleration per spin and speed, along axis x velocity [1/rad]
-  double windage = 3e-8;   ///< torque per spin squared, against the spin [N m s^2/rad^2]
 };
 
 /// Spin about the body's axis [rad/s]; play's own sign is the opposite one (see `play_spin`).
@@ -61,14 +57,15 @@ inline Tensions bearing_limited(const DiaboloParameters& diabolo, const StringPa
   return {mean - 0.5 * kept, mean + 0.5 * kept};
 }
 
-/// Adds the air's share to a rate of state.
-inline void add_air(const DiaboloParameters& diabolo, const AirParameters& air, const State& state,
+/// Adds what air and bearing do, whether on the string or off it, to a rate of state.
+inline void add_drags(const DiaboloParameters& diabolo, const AirParameters& air, const State& state,
                     State& rate) {
   const Vec3 velocity = state.col(kVelocity);
   const Vec3 axis = state.col(kAxis);
   const double spin = spin_about_axis(diabolo, state);
-  rate.col(kVelocity) += -air.drag * velocity.norm() * velocity + air.magnus * spin * axis.cross(velocity);
-  rate.col(kAngularMomentum) -= air.windage * std::abs(spin) * spin * axis;
+  rate.col(kVelocity) += air_acceleration(air, velocity, axis, spin);
+  rate.col(kAngularMomentum) += windage_torque(air.windage, spin) * axis;
+  rate.col(kAngularMomentum) += axle_torque(diabolo.axle_drag, diabolo.axial_inertia, spin) * axis;
 }
 
 /// Adds the string's pull to a rate of state.

@@ -19,6 +19,7 @@ std::string describe(Range range) {
   return text.str();
 }
 
+constexpr Range kComponent{-100.0, 100.0};  // of a vector, in SI units: far beyond play
 const nlohmann::json kEmptyObject = nlohmann::json::object();
 
 }  // namespace
@@ -57,7 +58,7 @@ double Fields::checked(const std::string& key, const Json& value, Range range) c
 Vec3 Fields::checked_vector(const std::string& key, const Json& value) const {
   if (!value.is_array() || value.size() != 3) fail(key, value.dump(), "three numbers");
   Vec3 vector;
-  for (int i = 0; i < 3; ++i) vector(i) = checked(key, value[static_cast<std::size_t>(i)], {});
+  for (int i = 0; i < 3; ++i) vector(i) = checked(key, value[static_cast<std::size_t>(i)], kComponent);
   return vector;
 }
 

@@ -10,16 +10,15 @@
 namespace plant {
 namespace {
 
+constexpr double kLongestMotion = 3600.0;  // [s]
 constexpr double kKnotSpacing = 0.04;  // [s], of holds and moves
 constexpr int kKnotsPerCycle = 24;
 constexpr int kWanderTones = 8;
-constexpr double kSlowestWander = 0.2;        // [Hz]
-constexpr double kFastestWander = 2.0;        // [Hz]
 constexpr std::uint64_t kWanderStream = 100;  // the cameras draw from the streams below
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 /// From 0 to 1 with least jerk.
-double least_jerk(double phase) { return phase * phase * phase * (10.0 + phase * (6.0 * phase - 15.0)); }
+double least_jerk(double phase) { return LeastJerk(phase).value; }
 
 CubicSpline<10>::Values offset_knot(const Pair<Vec3>& offsets) {
   CubicSpline<10>::Values knot = CubicSpline<10>::Values::Zero();
@@ -43,7 +42,22 @@ Pair<Stick> Motion::at(double time) const {
     stick.acceleration = sample.second_rate.segment<3>(tip);
     stick.direction = direction_from_angles(sample.value(angles), sample.value(angles + 1));
   }
+  for (const Reach& reach : reaches_) {
+    if (!(time > reach.begin)) continue;
+    const LeastJerk share = reach.share(time);
+    for (std::size_t side = 0; side < 2; ++side) {
+      sticks[side].tip += share.value * reach.offsets[side];
+      sticks[side].velocity += share.rate * reach.offsets[side];
+      sticks[side].acceleration += share.second_rate * reach.offsets[side];
+    }
+  }
   return sticks;
+}
+
+Motion Motion::reaching(const Reach& reach) const {
+  Motion motion = *this;
+  motion.reaches_.push_back(reach);
+  return motion;
 }
 
 MotionBuilder::MotionBuilder(const SticksPose& start) {
@@ -53,9 +67,14 @@ MotionBuilder::MotionBuilder(const SticksPose& start) {
 }
 
 void MotionBuilder::add(double time, const Knot& knot) {
-  if (!times_.empty() && !(time > times_.back())) throw std::invalid_argument("knot times must rise");
+  if (!times_.empty() && !(time > times_.back())) throw std::invalid_argument("motion: knot times must rise");
+  if (!(time <= kLongestMotion)) throw std::invalid_argument("motion: lasts more than an hour");
   times_.push_back(time);
   knots_.push_back(knot);
+}
+
+Pair<Vec3> MotionBuilder::home() const {
+  return {knots_.back().segment<3>(0), knots_.back().segment<3>(3)};
 }
 
 void MotionBuilder::hold(double duration) { move(duration, {Vec3::Zero(), Vec3::Zero()}); }
@@ -112,7 +131,7 @@ Motion MotionBuilder::finish(const Wander& wander, std::uint64_t seed) const {
     RandomStream random(seed, kWanderStream + static_cast<std::uint64_t>(quantity));
     for (int tone = 0; tone < kWanderTones; ++tone) {
       const double amplitude = deviation(quantity) * std::sqrt(2.0 / kWanderTones);
-      const double frequency = kSlowestWander + (kFastestWander - kSlowestWander) * random.uniform();
+      const double frequency = wander.slowest + (wander.fastest - wander.slowest) * random.uniform();
       const double phase = kTwoPi * random.uniform();
       for (std::size_t i = 0; i < knots.size(); ++i) {
         const double onset = least_jerk(std::min({1.0, times_[i], times_.back() - times_[i]}));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "reach.hpp"
 #include "spline.hpp"
 #include "state.hpp"
 
@@ -20,6 +21,8 @@ struct SticksPose {
 struct Wander {
   double tips = 0.0;        ///< of each coordinate of a tip (standard deviation) [m]
   double directions = 0.0;  ///< of each angle of a stick (standard deviation) [rad]
+  double slowest = 0.2;     ///< lowest frequency [Hz]
+  double fastest = 2.0;     ///< highest frequency [Hz]
 };
 
 /// The hands' motion: one C2 spline through the poses of a sequence of elements.
@@ -30,11 +33,15 @@ class Motion {
 
   double duration() const { return spline_.end(); }
 
+  /// The same with a reach of both hands on top.
+  Motion reaching(const Reach& reach) const;
+
  private:
   friend class MotionBuilder;
   explicit Motion(CubicSpline<10> spline) : spline_(std::move(spline)) {}
 
   CubicSpline<10> spline_;
+  std::vector<Reach> reaches_;
 };
 
 /// Puts a motion together from elements, each of which starts where the one before it ended. Vectors are
@@ -42,6 +49,9 @@ class Motion {
 class MotionBuilder {
  public:
   explicit MotionBuilder(const SticksPose& start);
+
+  /// Tips where the last element left them.
+  Pair<Vec3> home() const;
 
   /// Keeps still.
   void hold(double duration);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <map>
 
 #include "scenario.hpp"
@@ -22,13 +23,33 @@ const std::map<std::string, Pair<Vec3>> kOscillations{{"beat", {Vec3::UnitZ(), -
                                                       {"fore_aft", {Vec3::UnitX(), -Vec3::UnitX()}}};
 
 std::string known_types() {
-  std::string types = "hold, move, path, repeat, stick_sweep";
+  std::string types = "hold, move, place, path, repeat, stick_sweep";
   for (const auto& [name, directions] : kOscillations) types += ", " + name;
   for (const auto& [name, technique] : techniques()) types += ", " + name;
   return types;
 }
 
 void add_elements(std::vector<Fields> elements, MotionBuilder& motion);
+
+/// Length of an oscillation, given as `cycles` or as a `duration` [s].
+double cycles_of(Fields& fields, double frequency) {
+  if (!fields.has("duration")) return fields.number("cycles", kCycles);
+  if (fields.has("cycles")) fields.fail("cycles", "this and a duration", "one of them");
+  return std::max(kCycles.low, fields.number("duration", kDuration) * frequency);
+}
+
+/// Brings the hands to a pose in front of the player's middle.
+void place(Fields& fields, MotionBuilder& motion) {
+  const double duration = fields.number("duration", kDuration);
+  const double distance = fields.number("distance", {0.05, 3.0});
+  const Pair<Vec3> home = motion.home();
+  double height = 0.5 * (home[0].z() + home[1].z());
+  double left_higher = 0.0;
+  fields.read("height", height, {-5.0, 5.0});
+  fields.read("left_higher", left_higher, {-2.0, 2.0});
+  motion.move(duration, {Vec3(0.0, 0.5 * distance, height + 0.5 * left_higher) - home[0],
+                         Vec3(0.0, -0.5 * distance, height - 0.5 * left_higher) - home[1]});
+}
 
 void add_element(Fields& fields, MotionBuilder& motion) {
   std::string type;
@@ -38,16 +59,18 @@ void add_element(Fields& fields, MotionBuilder& motion) {
   } else if (type == "move") {
     const double duration = fields.number("duration", kDuration);
     motion.move(duration, {fields.vector("left"), fields.vector("right")});
+  } else if (type == "place") {
+    place(fields, motion);
   } else if (const auto named = kOscillations.find(type); named != kOscillations.end()) {
     const double amplitude = fields.number("amplitude", kLength);
     const double frequency = fields.number("frequency", kFrequency);
     motion.oscillate({amplitude * named->second[0], amplitude * named->second[1]}, frequency,
-                     fields.number("cycles", kCycles));
+                     cycles_of(fields, frequency));
   } else if (type == "stick_sweep") {
     const double yaw = kRadiansPerDegree * fields.number("yaw_deg", kAngleDeg);
     const double pitch = kRadiansPerDegree * fields.number("pitch_deg", kAngleDeg);
     const double frequency = fields.number("frequency", kFrequency);
-    motion.turn({yaw, -yaw}, {pitch, pitch}, frequency, fields.number("cycles", kCycles));
+    motion.turn({yaw, -yaw}, {pitch, pitch}, frequency, cycles_of(fields, frequency));
   } else if (const auto technique = techniques().find(type); technique != techniques().end()) {
     double size = 1.0;
     double pace = 1.0;
@@ -102,6 +125,8 @@ Motion motion_from_fields(Fields fields, std::uint64_t seed) {
   Wander wander;
   fields.read("wander", wander.tips, {0.0, 0.1});
   fields.read_degrees("wander_deg", wander.directions, {0.0, 30.0});
+  fields.read("wander_slowest", wander.slowest, {0.0, 10.0});
+  fields.read("wander_fastest", wander.fastest, {wander.slowest, 10.0});
   MotionBuilder motion(pose);
   const std::vector<Fields> elements = fields.objects("elements");
   if (elements.empty()) fields.fail("elements", "[]", "at least one element");

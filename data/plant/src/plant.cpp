@@ -6,6 +6,11 @@
 #include <stdexcept>
 
 namespace plant {
+namespace {
+
+constexpr double kFastest = 1000.0;  // far beyond play: the integrator has lost it [m/s]
+
+}  // namespace
 
 Pair<Vec3> Plant::tips(const State& state, const Pair<Stick>& sticks) const {
   return {sticks[0].tip + state.col(kLeftBend), sticks[1].tip + state.col(kRightBend)};
@@ -32,7 +37,7 @@ State Plant::rate(const Moment& moment, const State& state, const Pair<Stick>& s
   rate.col(kPosition) = state.col(kVelocity);
   rate.col(kVelocity) = parameters_.gravity;
   add_rotation(diabolo, state, rate);
-  add_air(diabolo, parameters_.air, state, rate);
+  add_drags(diabolo, parameters_.air, state, rate);
 
   Pair<Vec3> pulls{Vec3::Zero(), Vec3::Zero()};
   if (moment.mode == Mode::kOnString) {
@@ -95,6 +100,9 @@ std::vector<Moment> simulate(const Plant& plant, const Start& start, const std::
         moments.push_back(moment);
       }
       now = plant.advanced(now, end - now.time);
+      if (!(now.state.col(kVelocity).norm() < kFastest)) {
+        throw std::domain_error("the play diverges: too few steps per second");
+      }
     }
   } catch (const std::domain_error& error) {
     std::ostringstream message;

@@ -2,12 +2,14 @@
 #include "plant.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace plant {
 namespace {
 
 constexpr double kEventTolerance = 1e-10;  // [s]
 constexpr double kReleaseHeight = 0.04;    // above the line of the tips, about a cup's radius [m]
+constexpr int kMostEvents = 100;           // within a step
 constexpr double kCatchMargin = 0.01;      // of the cups that a catch must leave free [m]
 
 }  // namespace
@@ -34,9 +36,9 @@ bool Plant::stays(const Moment& moment) const {
   const StringShape now = shape(moment, moment.state, motion_.at(moment.time));
   const bool taut = is_taut(now);
   if (moment.mode == Mode::kOnString) return taut;
-  const bool parts =
-      parameters_.string.wraps == 0 && (now.wrap <= 0.0 || height_above_chord(moment) > kReleaseHeight);
-  return !taut && !parts;
+  if (taut) return false;
+  if (parameters_.string.wraps > 0) return true;
+  return height_above_chord(moment) <= (now.wrap <= 0.0 ? 0.0 : kReleaseHeight);
 }
 
 void Plant::switch_mode(Moment& moment) const {
@@ -78,6 +80,7 @@ void Plant::land(Moment& moment) const {
 
 Moment Plant::advanced(Moment moment, double step) const {
   double left = step;
+  int events = 0;
   while (!moment.missed) {
     const Moment whole = stepped(moment, left);
     if (stays(whole)) return whole;
@@ -96,6 +99,7 @@ Moment Plant::advanced(Moment moment, double step) const {
     }
     moment = changed;
     left -= after;
+    if (++events > kMostEvents) throw std::domain_error("the string tautens and slackens without end");
     switch_mode(moment);
     if (!(left > 0.0)) break;
   }

@@ -59,17 +59,17 @@ void write_frames(std::ostream& out, const std::vector<Frame>& frames, bool stic
   }
 }
 
-void write_description(std::ostream& out, const DiaboloParameters& diabolo, double string_length,
-                       double rate) {
+void write_description(std::ostream& out, const Scenario& scenario) {
+  const DiaboloParameters& diabolo = scenario.plant.diabolo;
   const nlohmann::ordered_json description = {
       {"schema", "diabolo.recording/1"},
       {"diabolo",
        {{"mass", diabolo.mass},
         {"diameter", diabolo.diameter},
         {"length", diabolo.length},
-        {"axle_radius", diabolo.groove.radius}}},
-      {"string_length", string_length},
-      {"rate", rate},
+        {"axle_radius", diabolo.groove.radius + scenario.axle_radius_error}}},
+      {"string_length", scenario.plant.string.length + scenario.string_length_error},
+      {"rate", scenario.camera.rate},
       {"units", "SI"},
       {"frame", "x forward, y left, z up"},
   };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "camera.hpp"
+#include "scenario.hpp"
 
 namespace plant {
 
@@ -14,8 +15,7 @@ namespace plant {
 void write_frames(std::ostream& out, const std::vector<Frame>& frames, bool stick_orientation);
 
 /// The description that lies beside a tidy recording (schema diabolo.recording/1).
-void write_description(std::ostream& out, const DiaboloParameters& diabolo, double string_length,
-                       double rate);
+void write_description(std::ostream& out, const Scenario& scenario);
 
 /// True motion, one row per moment.
 void write_truth(std::ostream& out, const Plant& plant, const std::vector<Moment>& moments);

@@ -3,33 +3,35 @@
 
 #include <fstream>
 
+#include "ideal.hpp"
+#include "player.hpp"
+
 namespace plant {
 namespace {
 
-DiaboloParameters read_diabolo(Fields fields) {
-  DiaboloParameters diabolo;
+DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo) {
   fields.read("mass", diabolo.mass, {0.01, 5.0});
   fields.read("diameter", diabolo.diameter, {0.02, 0.5});
   fields.read("length", diabolo.length, {0.03, 0.5});
   fields.read("axial_inertia", diabolo.axial_inertia, {1e-6, 0.1});
   fields.read("inertia_ratio", diabolo.inertia_ratio, {0.5, 5.0});
-  fields.read("axle_radius", diabolo.groove.radius, {0.001, 0.05});
+  fields.read("axle_radius", diabolo.groove.radius, {0.0, 0.05});
   fields.read("groove_radius", diabolo.groove.profile_radius, {0.0, 0.05});
   fields.read("groove_half_width", diabolo.groove.half_width, {0.0, 0.05});
   fields.read("bearing_torque", diabolo.bearing_torque, {0.0, 1.0});
+  fields.read("axle_drag", diabolo.axle_drag, {0.0, 1000.0});
   fields.read("flank_friction", diabolo.flank_friction, {0.0, 2.0});
   fields.read("flank_radius", diabolo.flank_radius, {0.001, 0.1});
   fields.finish();
   return diabolo;
 }
 
-StringParameters read_string(Fields fields) {
-  StringParameters string;
+StringParameters read_string(Fields fields, StringParameters string) {
   fields.read("length", string.length, {0.2, 5.0});
   fields.read("radius", string.radius, {0.0, 0.01});
   fields.read("stiffness", string.stiffness, {10.0, 1e6});
   fields.read("stiffening_stretch", string.stiffening_stretch, {1e-4, 1e6});
-  fields.read("damping", string.damping, {0.0, 100.0});
+  fields.read("damping", string.damping, {0.0, 1e4});
   fields.read("friction", string.friction, {0.0, 1.0});
   fields.read("friction_rise", string.friction_rise, {0.0, 1.0});
   fields.read("stribeck_speed", string.stribeck_speed, {1e-4, 10.0});
@@ -40,8 +42,7 @@ StringParameters read_string(Fields fields) {
   return string;
 }
 
-StickParameters read_sticks(Fields fields) {
-  StickParameters sticks;
+StickParameters read_sticks(Fields fields, StickParameters sticks) {
   fields.read("bending_stiffness", sticks.bending_stiffness, {10.0, 1e5});
   fields.read("tip_mass", sticks.tip_mass, {1e-3, 0.5});
   fields.read("damping_ratio", sticks.damping_ratio, {0.0, 2.0});
@@ -49,10 +50,11 @@ StickParameters read_sticks(Fields fields) {
   return sticks;
 }
 
-AirParameters read_air(Fields fields) {
-  AirParameters air;
+AirParameters read_air(Fields fields, AirParameters air) {
+  fields.read("linear_drag", air.linear_drag, {0.0, 10.0});
   fields.read("drag", air.drag, {0.0, 1.0});
   fields.read("magnus", air.magnus, {-0.1, 0.1});
+  fields.read("wind", air.wind);
   fields.read("windage", air.windage, {0.0, 1e-5});
   fields.finish();
   return air;
@@ -73,8 +75,15 @@ Start read_start(Fields fields) {
   return start;
 }
 
-CameraParameters read_camera(Fields fields) {
-  CameraParameters camera;
+Player read_player(Fields fields) {
+  Player player;
+  fields.read("catches", player.catches);
+  fields.read("steers", player.steers);
+  fields.finish();
+  return player;
+}
+
+CameraParameters read_camera(Fields fields, CameraParameters camera) {
   fields.read("rate", camera.rate, {1.0, 10000.0});
   fields.read("white_noise", camera.white_noise, {0.0, 0.1});
   fields.read("drift_noise", camera.drift_noise, {0.0, 0.1});
@@ -108,11 +117,15 @@ Scenario scenario_from_json(const Fields::Json& json, std::optional<std::uint64_
   std::string about;
   fields.read("about", about);
 
-  PlantParameters plant;
-  plant.diabolo = read_diabolo(fields.object("diabolo"));
-  plant.string = read_string(fields.object("string"));
-  plant.sticks = read_sticks(fields.object("sticks"));
-  plant.air = read_air(fields.object("air"));
+  std::string base = "nominal";
+  fields.read("base", base);
+  const bool ideal = base == "ideal";
+  if (!ideal && base != "nominal") fields.fail("base", '"' + base + '"', "\"nominal\" or \"ideal\"");
+  PlantParameters plant = ideal ? ideal_plant() : PlantParameters{};
+  plant.diabolo = read_diabolo(fields.object("diabolo"), plant.diabolo);
+  plant.string = read_string(fields.object("string"), plant.string);
+  plant.sticks = read_sticks(fields.object("sticks"), plant.sticks);
+  plant.air = read_air(fields.object("air"), plant.air);
   fields.read("gravity", plant.gravity);
   fields.read("steps_per_second", plant.steps_per_second, {1000.0, 10e6});
 
@@ -121,13 +134,18 @@ Scenario scenario_from_json(const Fields::Json& json, std::optional<std::uint64_
   const std::uint64_t used_seed = seed.value_or(written_seed);
 
   Scenario scenario{plant, motion_from_fields(fields.object("motion"), used_seed),
-                    read_start(fields.object("start")), read_camera(fields.object("camera"))};
+                    read_start(fields.object("start")),
+                    read_camera(fields.object("camera"), ideal ? ideal_camera() : CameraParameters{})};
   scenario.duration = scenario.motion.duration();
   fields.read("duration", scenario.duration, {0.05, 600.0});
   fields.read("string_length_error", scenario.string_length_error, {-0.5, 0.5});
+  scenario.axle_radius_error = ideal ? DiaboloParameters{}.groove.radius - plant.diabolo.groove.radius : 0.0;
+  fields.read("axle_radius_error", scenario.axle_radius_error, {-0.05, 0.05});
   fields.read("truth_rate", scenario.truth_rate, {1.0, 1e5});
   scenario.seed = used_seed;
+  const Player player = read_player(fields.object("player"));
   fields.finish();
+  scenario.motion = played_by(player, plant, scenario.start, scenario.motion, scenario.duration);
   return scenario;
 }
 
@@ -138,7 +156,7 @@ Scenario load_scenario(const std::filesystem::path& file, std::optional<std::uin
     return scenario_from_json(Fields::Json::parse(in), seed);
   } catch (const nlohmann::json::exception& error) {
     throw ScenarioError(file.string() + ": not JSON: " + error.what());
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::logic_error& error) {
     throw ScenarioError(file.string() + ": " + error.what());
   }
 }

@@ -13,10 +13,11 @@ namespace plant {
 /// Everything that a recording is made from.
 struct Scenario {
   PlantParameters plant;
-  Motion motion;
+  Motion motion;  ///< with what the player adds to the planned one
   Start start;
   CameraParameters camera;
   double string_length_error = 0.0;  ///< described minus true string length [m]
+  double axle_radius_error = 0.0;    ///< described minus true axle radius [m]
   double duration = 0.0;             ///< [s]
   double truth_rate = 1200.0;        ///< rows per second of the true motion [Hz]
   std::uint64_t seed = 0;            ///< of all random numbers

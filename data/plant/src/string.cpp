@@ -36,6 +36,7 @@ StringShape string_shape(const StringParameters& string, const Groove& groove, c
     const Vec3 to_tip = ends.tips[side] - ends.centre - shift * axis;
     const Vec3 across = perpendicular_part(to_tip, axis);
     const double distance = across.norm();
+    if (!std::isfinite(distance)) throw std::domain_error("the play diverges: too few steps per second");
     if (!(distance > contact_radius)) throw std::domain_error("a stick tip touches the axle");
     const Vec3 towards = across / distance;
     const double sense = side == 0 ? ends.chirality : -ends.chirality;

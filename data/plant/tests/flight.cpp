@@ -63,6 +63,40 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
     CHECK(last.state(1, kPosition) == Approx(std::log(1.0 + 0.03 * 5.0 * 0.9) / 0.03).epsilon(1e-10));
   }
 
+  SECTION("linear drag") {
+    parameters.air.linear_drag = 0.4;
+    const Plant plant(parameters, kHands);
+    const Moment last = simulate(plant, thrown({0.0, 5.0, 0.0}, 0.0), {0.9}).front();
+    CHECK(last.state(1, kVelocity) == Approx(5.0 * std::exp(-0.4 * 0.9)).epsilon(1e-10));
+  }
+
+  SECTION("wind carries a diabolo at rest along, by either drag, and without drag does nothing") {
+    parameters.air.wind = Vec3(2.0, -1.0, 0.0);
+    const auto carried = [&] {
+      return Vec3(simulate(Plant(parameters, kHands), thrown({0.0, 0.0, 0.0}, 0.0), {0.5}).front().state.col(
+          kVelocity));
+    };
+    CHECK(carried().norm() == 0.0);
+    parameters.air.linear_drag = 0.4;
+    const double share = 1.0 - std::exp(-0.4 * 0.5);
+    CHECK((carried() - share * parameters.air.wind).norm() < 1e-10);
+    parameters.air.linear_drag = 0.0;
+    parameters.air.drag = 0.03;
+    const double speed = parameters.air.wind.norm();
+    CHECK((carried() - parameters.air.wind * (1.0 - 1.0 / (1.0 + 0.03 * speed * 0.5))).norm() < 1e-10);
+  }
+
+  SECTION("a steady wind is a moving frame") {
+    parameters.air.drag = 0.03;
+    parameters.air.magnus = 0.002;
+    const Vec3 velocity(0.4, 2.0, 1.0);
+    const Vec3 wind(1.0, -2.0, 0.0);
+    const Moment still = simulate(Plant(parameters, kHands), thrown(velocity, 100.0), {0.5}).front();
+    parameters.air.wind = wind;
+    const Moment windy = simulate(Plant(parameters, kHands), thrown(velocity + wind, 100.0), {0.5}).front();
+    CHECK((windy.state.col(kPosition) - still.state.col(kPosition) - 0.5 * wind).norm() < 1e-10);
+  }
+
   SECTION("Magnus force turns the velocity about the axis") {
     parameters.air.magnus = 0.002;
     const Plant plant(parameters, kHands);
@@ -78,5 +112,16 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
     const Moment last = simulate(plant, thrown({0.0, 0.0, 1.0}, 150.0), {0.9}).front();
     const double rate = 5e-8 * 150.0 / parameters.diabolo.axial_inertia;
     CHECK(play_spin(parameters.diabolo, last.state) == Approx(150.0 / (1.0 + 0.9 * rate)).epsilon(1e-10));
+  }
+
+  SECTION("a drag of the axle slows spin of either sense at a constant rate, down to rest") {
+    parameters.diabolo.axle_drag = 20.0;
+    const Plant plant(parameters, kHands);
+    for (const double spin : {150.0, -150.0}) {
+      const Moment last = simulate(plant, thrown({0.0, 0.0, 1.0}, spin), {0.9}).front();
+      CHECK(play_spin(parameters.diabolo, last.state) == Approx(spin - std::copysign(18.0, spin)).epsilon(1e-9));
+    }
+    const Moment slow = simulate(plant, thrown({0.0, 0.0, 1.0}, 10.0), {0.9}).front();
+    CHECK(std::abs(play_spin(parameters.diabolo, slow.state)) < 1e-3);
   }
 }

@@ -126,3 +126,19 @@ TEST_CASE("looking more often does not change what is seen") {
   const Moment often = simulate(plant, hopping.start, times_until(1.0, 777)).back();
   CHECK(once.state == often.state);
 }
+
+TEST_CASE("play that begins later is the same play later") {
+  const auto play_after = [](double pause) {
+    MotionBuilder motion(SticksPose{});
+    motion.hold(pause);
+    motion.oscillate({Vec3(0.0, 0.05, 0.08), Vec3(0.0, 0.05, -0.06)}, 1.5, 3.0);
+    Start start;
+    start.spin = 0.0;  // so that nothing moves before the hands do
+    std::vector<double> times = times_until(2.0, 40);
+    for (double& time : times) time += pause;
+    return simulate(Plant(PlantParameters{}, motion.finish({}, 0)), start, times);
+  };
+  const double distance = position_distance(play_after(0.6), play_after(1.2));
+  INFO("distance " << distance);
+  CHECK(distance < 1e-8);
+}

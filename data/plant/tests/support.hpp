@@ -17,13 +17,20 @@ inline Motion still_hands(const Vec3& left, const Vec3& right) {
   return motion.finish({}, 0);
 }
 
+/// Air that does nothing.
+inline AirParameters still_air() {
+  AirParameters air;
+  air.linear_drag = air.drag = air.magnus = air.windage = 0.0;
+  return air;
+}
+
 /// The nominal plant without anything that takes or gives energy, between rigid sticks.
 inline PlantParameters lossless() {
   PlantParameters parameters;
   parameters.string.damping = 0.0;
   parameters.string.friction = 0.0;
   parameters.sticks.bending_stiffness.reset();
-  parameters.air = {0.0, 0.0, 0.0};
+  parameters.air = still_air();
   return parameters;
 }
 
@@ -31,7 +38,7 @@ inline PlantParameters lossless() {
 inline PlantParameters airless() {
   PlantParameters parameters;
   parameters.sticks.bending_stiffness.reset();
-  parameters.air = {0.0, 0.0, 0.0};
+  parameters.air = still_air();
   return parameters;
 }
 
