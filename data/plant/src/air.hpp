@@ -7,11 +7,11 @@ namespace plant {
 
 /// Air about the diabolo's centre; u is the diabolo's velocity through the air.
 struct AirParameters {
-  double linear_drag = 0.0;   ///< acceleration per speed, against u [1/s]
-  double drag = 0.028;        ///< acceleration per speed squared, against u [1/m]
-  double magnus = 0.0011;     ///< acceleration per spin and speed, along axis x u [1/rad]
-  Vec3 wind = Vec3::Zero();   ///< velocity of the air, world frame [m/s]
-  double windage = 3e-8;      ///< torque per spin squared, against the spin [N m s^2/rad^2]
+  double linear_drag = 0.0;  ///< acceleration per speed, against u [1/s]
+  double drag = 0.028;       ///< acceleration per speed squared, against u [1/m]
+  double magnus = 0.0011;    ///< acceleration per spin and speed, along axis x u [1/rad]
+  Vec3 wind = Vec3::Zero();  ///< velocity of the air, world frame [m/s]
+  double windage = 3e-8;     ///< torque per spin squared, against the spin [N m s^2/rad^2]
 };
 
 /// Acceleration [m/s^2] that the air gives to the centre of mass; `spin` is about the unit vector `axis`.

@@ -59,7 +59,7 @@ inline Tensions bearing_limited(const DiaboloParameters& diabolo, const StringPa
 
 /// Adds what air and bearing do, whether on the string or off it, to a rate of state.
 inline void add_drags(const DiaboloParameters& diabolo, const AirParameters& air, const State& state,
-                    State& rate) {
+                      State& rate) {
   const Vec3 velocity = state.col(kVelocity);
   const Vec3 axis = state.col(kAxis);
   const double spin = spin_about_axis(diabolo, state);

@@ -5,8 +5,8 @@
 
 namespace plant {
 
-/// The plant with every effect neutral: a point of mass on a string that hardly stretches, without friction, air
-/// or bending sticks. The string keeps just enough stiffness and damping for the integrator's step.
+/// The plant with every effect neutral: a point of mass on a string that hardly stretches, without friction,
+/// air or bending sticks. The string keeps just enough stiffness and damping for the integrator's step.
 inline PlantParameters ideal_plant() {
   PlantParameters plant;
   plant.diabolo.groove = {0.0, 0.0, 0.0};

@@ -67,7 +67,8 @@ void write_key(std::ostream& out, const Scenario& scenario) {
          {{"radius", std::hypot(camera.centre_offset.y(), camera.centre_offset.z())},
           {"axial", camera.centre_offset.x()}}},
         {"stick_tip_offset", tip_offsets(camera.tip_offsets)},
-        {"string_length", {{"length", string.length}, {"described", string.length + scenario.string_length_error}}}}},
+        {"string_length",
+         {{"length", string.length}, {"described", string.length + scenario.string_length_error}}}}},
   };
   out << key.dump(2) << '\n';
 }

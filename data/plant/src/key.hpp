@@ -7,8 +7,8 @@
 
 namespace plant {
 
-/// What is true of a scenario's recording, in the names and units of the project's diagnosis: the answers that a
-/// proof on concealed recordings keeps sealed.
+/// What is true of a scenario's recording, in the names and units of the project's diagnosis: the answers
+/// that a proof on concealed recordings keeps sealed.
 void write_key(std::ostream& out, const Scenario& scenario);
 
 }  // namespace plant

@@ -11,7 +11,7 @@ namespace plant {
 namespace {
 
 constexpr double kLongestMotion = 3600.0;  // [s]
-constexpr double kKnotSpacing = 0.04;  // [s], of holds and moves
+constexpr double kKnotSpacing = 0.04;      // [s], of holds and moves
 constexpr int kKnotsPerCycle = 24;
 constexpr int kWanderTones = 8;
 constexpr std::uint64_t kWanderStream = 100;  // the cameras draw from the streams below
@@ -73,9 +73,7 @@ void MotionBuilder::add(double time, const Knot& knot) {
   knots_.push_back(knot);
 }
 
-Pair<Vec3> MotionBuilder::home() const {
-  return {knots_.back().segment<3>(0), knots_.back().segment<3>(3)};
-}
+Pair<Vec3> MotionBuilder::home() const { return {knots_.back().segment<3>(0), knots_.back().segment<3>(3)}; }
 
 void MotionBuilder::hold(double duration) { move(duration, {Vec3::Zero(), Vec3::Zero()}); }
 

@@ -10,6 +10,7 @@ namespace {
 constexpr double kEventTolerance = 1e-10;  // [s]
 constexpr double kReleaseHeight = 0.04;    // above the line of the tips, about a cup's radius [m]
 constexpr int kMostEvents = 100;           // within a step
+constexpr double kSlipDepth = 0.05;        // below that line, with the string not under the axle: lost [m]
 constexpr double kCatchMargin = 0.01;      // of the cups that a catch must leave free [m]
 
 }  // namespace
@@ -38,7 +39,8 @@ bool Plant::stays(const Moment& moment) const {
   if (moment.mode == Mode::kOnString) return taut;
   if (taut) return false;
   if (parameters_.string.wraps > 0) return true;
-  return height_above_chord(moment) <= (now.wrap <= 0.0 ? 0.0 : kReleaseHeight);
+  const double height = height_above_chord(moment);
+  return now.wrap > 0.0 ? height <= kReleaseHeight : height <= 0.0 && height >= -kSlipDepth;
 }
 
 void Plant::switch_mode(Moment& moment) const {
@@ -47,8 +49,12 @@ void Plant::switch_mode(Moment& moment) const {
       moment.mode = Mode::kLoose;
       break;
     case Mode::kLoose:
-      moment.mode =
-          is_taut(shape(moment, moment.state, motion_.at(moment.time))) ? Mode::kOnString : Mode::kFlying;
+      if (is_taut(shape(moment, moment.state, motion_.at(moment.time)))) {
+        moment.mode = Mode::kOnString;
+      } else {
+        moment.mode = Mode::kFlying;
+        moment.missed = height_above_chord(moment) <= 0.0;
+      }
       break;
     case Mode::kFlying:
       land(moment);

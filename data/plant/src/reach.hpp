@@ -25,10 +25,10 @@ struct LeastJerk {
 
 /// The hands reach aside and come back, or stay for good, on top of the motion that was planned.
 struct Reach {
-  double begin = 0.0;           ///< [s]
-  double there = 0.0;           ///< [s]
-  double leave = 0.0;           ///< [s]
-  double back = 0.0;            ///< [s]
+  double begin = 0.0;                              ///< [s]
+  double there = 0.0;                              ///< [s]
+  double leave = 0.0;                              ///< [s]
+  double back = 0.0;                               ///< [s]
   Pair<Vec3> offsets{Vec3::Zero(), Vec3::Zero()};  ///< of the tips while there [m]
 
   /// Share of the offset at `time` [s], with its derivatives by time.

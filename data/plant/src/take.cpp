@@ -31,7 +31,8 @@ Take take(const Scenario& scenario, bool with_truth) {
       take.truth.push_back(moments[i]);
     }
   }
-  if (take.filmed.empty()) throw std::invalid_argument("start: the diabolo misses the string before the first frame");
+  if (take.filmed.empty())
+    throw std::invalid_argument("start: the diabolo misses the string before the first frame");
   return take;
 }
 

@@ -14,8 +14,8 @@ struct Take {
   bool missed = false;         ///< whether the diabolo fell past the string before the scenario's end
 };
 
-/// Plays a scenario. Throws std::invalid_argument when there is no start or nothing to film, std::domain_error
-/// when play comes to a state that the plant has no law for.
+/// Plays a scenario. Throws std::invalid_argument when there is no start or nothing to film,
+/// std::domain_error when play comes to a state that the plant has no law for.
 Take take(const Scenario& scenario, bool with_truth);
 
 }  // namespace plant

@@ -28,8 +28,8 @@ Motion beating_hands() {
   return motion.finish({}, 0);
 }
 
-/// Acceleration by the inextensible string's closed solution: along the bisector from the constraint, across it
-/// in the strands' plane from gravity and capstan friction.
+/// Acceleration by the inextensible string's closed solution: along the bisector from the constraint, across
+/// it in the strands' plane from gravity and capstan friction.
 Vec3 closed_form(const PlantParameters& parameters, const Moment& moment, const Pair<Stick>& sticks,
                  double slip_sign) {
   Pair<Vec3> directions;

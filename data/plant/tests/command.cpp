@@ -93,16 +93,18 @@ TEST_CASE("bad input is refused in one sentence and with status 2") {
   const std::string motion = R"("motion": {"elements": [{"type": "hold", "duration": 0.2}]}})";
   expect_refusal(begin + R"("string": {"stiffness": 1e999}, )" + motion, normal, "not JSON");
   expect_refusal(begin + R"("gravity": [0, 0, 1e30], )" + motion, normal, "gravity: found 1e+30");
-  expect_refusal(begin + R"("motion": {"left": [0, 2, 1.25], "elements": [{"type": "hold", "duration": 0.2}]}})",
-                 normal, "expected less than the string's length");
+  expect_refusal(
+      begin + R"("motion": {"left": [0, 2, 1.25], "elements": [{"type": "hold", "duration": 0.2}]}})", normal,
+      "expected less than the string's length");
   expect_refusal(begin + R"("motion": {"elements": [{"type": "repeat", "count": 1000, "elements": [
                    {"type": "hold", "duration": 600}]}]}})",
                  normal, "lasts more than an hour");
   expect_refusal(begin + R"("steps_per_second": 1000, "string": {"stiffness": 1e6}, )" + motion, normal,
                  "too few steps per second");
-  expect_refusal(begin + R"("start": {"position": [0, 9, 1], "flying": true}, "camera": {"diabolo_delay": -1}, )" +
-                     motion,
-                 normal, "misses the string before the first frame");
+  expect_refusal(
+      begin + R"("start": {"position": [0, 9, 1], "flying": true}, "camera": {"diabolo_delay": -1}, )" +
+          motion,
+      normal, "misses the string before the first frame");
 }
 
 TEST_CASE("wrong use is refused with status 2, a file that cannot be written with status 1") {

@@ -73,8 +73,9 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
   SECTION("wind carries a diabolo at rest along, by either drag, and without drag does nothing") {
     parameters.air.wind = Vec3(2.0, -1.0, 0.0);
     const auto carried = [&] {
-      return Vec3(simulate(Plant(parameters, kHands), thrown({0.0, 0.0, 0.0}, 0.0), {0.5}).front().state.col(
-          kVelocity));
+      return Vec3(simulate(Plant(parameters, kHands), thrown({0.0, 0.0, 0.0}, 0.0), {0.5})
+                      .front()
+                      .state.col(kVelocity));
     };
     CHECK(carried().norm() == 0.0);
     parameters.air.linear_drag = 0.4;
@@ -119,7 +120,8 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
     const Plant plant(parameters, kHands);
     for (const double spin : {150.0, -150.0}) {
       const Moment last = simulate(plant, thrown({0.0, 0.0, 1.0}, spin), {0.9}).front();
-      CHECK(play_spin(parameters.diabolo, last.state) == Approx(spin - std::copysign(18.0, spin)).epsilon(1e-9));
+      CHECK(play_spin(parameters.diabolo, last.state) ==
+            Approx(spin - std::copysign(18.0, spin)).epsilon(1e-9));
     }
     const Moment slow = simulate(plant, thrown({0.0, 0.0, 1.0}, 10.0), {0.9}).front();
     CHECK(std::abs(play_spin(parameters.diabolo, slow.state)) < 1e-3);

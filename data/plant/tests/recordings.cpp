@@ -56,8 +56,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Where two tables part: other columns, rows or lost frames, or numbers further apart than `tolerance`; empty
-/// when they agree.
+/// Where two tables part: other columns, rows or lost frames, or numbers further apart than `tolerance`;
+/// empty when they agree.
 std::string first_difference(const std::string& one, const std::string& other, double tolerance) {
   const std::vector<std::string> rows = split(one, '\n');
   const std::vector<std::string> other_rows = split(other, '\n');
