@@ -29,6 +29,7 @@ FLOORS: list[list[str]] = [
         "state_machine.hpp",
         "rotation.hpp",
         "pull_velocity.hpp",
+        "hold_between_tips.hpp",
     ],
     ["effects/", "sensor/"],
     ["predictor.hpp", "effects/all.hpp", "rollout.hpp", "lanes.hpp", "batch_kernels.hpp", "batch.hpp"],

@@ -279,6 +279,40 @@ TEST_CASE("an overstretched string lets the diabolo swing on when the tips come 
   CHECK(was_overstretched);
 }
 
+TEST_CASE("the string's acceleration is that over the whole step, also after a catch within it") {
+  Random random(78);
+  Numbers parameters;
+  int caught = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double speed = random.uniform(0.5, 4.0), fraction = random.uniform(0.05, 0.95);
+    const Tips<double> tips = level(parameters.string_length - 0.01);
+    State<double> state = at_rest({0.0, 0.0, 1.0 + speed * fraction * kStep}, kFlying);
+    state.velocity = Vector(0.0, 0.0, -speed);
+    const State<double> before = state;
+    const StepStatus<double> status = Predictor<double>(parameters).step(state, tips, tips, kStep);
+    if (!status.caught || status.snapped_taut) continue;
+    ++caught;
+    const Vector free = before.velocity - Vector(0.0, 0.0, parameters.gravity * kStep);
+    CHECK((state.velocity - free - state.string_acceleration * kStep).norm() < 1e-9);
+  }
+  CHECK(caught > 20);
+}
+
+TEST_CASE("a planar diabolo on a straight string stays in its plane") {
+  Numbers parameters;
+  parameters.planar = true;
+  Tips<double> tips = level(parameters.string_length + 0.05);
+  tips.left.x() = 0.1;
+  State<double> state = at_rest({0.02, 0.1, 0.95}, kOn);
+  for (int i = 0; i < 5; ++i) {
+    const StepStatus<double> status = Predictor<double>(parameters).step(state, tips, tips, kStep);
+    CHECK(status.overstretched);
+    CHECK(state.position.x() == Approx(0.02).margin(1e-12));
+    CHECK(state.velocity.x() == Approx(0.0).margin(1e-12));
+    CHECK(state.position.allFinite());
+  }
+}
+
 TEST_CASE("planar motion stays in its plane") {
   Random random(502);
   for (const Preset preset : kPresets) {

@@ -46,6 +46,11 @@ TEST_CASE("the diabolo ends on the string, on the line it moved along, and witho
     gain = std::max(gain, (potential + kinetic) / (1.0 + scene.velocity.squaredNorm()));
     const Vector impulse = result.velocity - scene.step().free_velocity(scene.dt);
     CHECK((result.string_acceleration * scene.dt - impulse).norm() < 1e-12 * (1.0 + impulse.norm()));
+    const auto imbalance = [&](const Vector& at) {
+      return (at - scene.begin.right).norm() - (at - scene.begin.left).norm();
+    };
+    const double passed = 0.5 * (imbalance(result.position) - imbalance(scene.position));
+    CHECK(result.passed == Approx(passed).margin(1e-12));
   }
   CHECK(beyond <= 1.0000001 * constraint_tolerance<double>() * 1.45);
   CHECK(off_line < 1e-12);

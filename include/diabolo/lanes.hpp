@@ -109,6 +109,7 @@ State<Pack> gather_state(const LaneBlock& block) {
   state.velocity = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->velocity; });
   state.string_acceleration =
       gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->string_acceleration; });
+  state.axis = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->axis; });
   state.spin = gather<Pack>([&](int l) { return block.states[l]->spin; });
   state.string_state.code =
       gather<Pack>([&](int l) { return static_cast<double>(block.states[l]->string_state); });

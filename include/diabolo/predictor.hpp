@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "diabolo/effects/effect.hpp"
+#include "diabolo/hold_between_tips.hpp"
 #include "diabolo/pull_velocity.hpp"
 #include "diabolo/rotation.hpp"
 #include "diabolo/spheroid.hpp"
@@ -106,7 +107,7 @@ class Predictor {
                                               result.gradient_squared, end.left, end.right, parameters_);
     status.snapped_taut = result.snapped_taut;
     const Mask<Scalar> straight = overstretched(end);
-    if (any(straight)) status.overstretched = hold_between_tips(state, end, dt, captured && straight);
+    if (any(straight)) status.overstretched = hold(state, end, dt, captured && straight);
     return status;
   }
 
@@ -118,10 +119,14 @@ class Predictor {
         spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_);
     const Scalar spin =
         effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
-    state.velocity =
-        step.plane(effects_.after_contact(result.velocity, state, step.end, result, dt, parameters_)) *
-        dissipation(dt, result.taut);
-    state.position = result.position;
+    const Vector3<Scalar> rubbed =
+        step.plane(effects_.after_contact(result.velocity, state, step.end, result, dt, parameters_));
+    // The change of velocity happens over the step: the mean of what it was before and after counts.
+    if constexpr (Set::kTouches)
+      state.position = result.position + (rubbed - result.velocity) * Scalar(Scalar(0.5) * dt);
+    else
+      state.position = result.position;
+    state.velocity = rubbed * dissipation(dt, result.taut);
     state.spin = spin;
     state.string_acceleration = result.string_acceleration;
     assign_where(result.taut, state.string_state, StringState::kOnString);
@@ -159,7 +164,7 @@ class Predictor {
     Vector3<Scalar> pulled = Vector3<Scalar>::Constant(Scalar(0));
     if (any(held)) {
       const Vector3<Scalar> target =
-          plane_on(from, p.projection == Projection::kRadial ? after.radial_point(position)
+          plane_.on(from, p.projection == Projection::kRadial ? after.radial_point(position)
                                                              : after.closest_point(position));
       const Vector3<Scalar> gradient = after.path_gradient(target);
       const Scalar give =
@@ -205,12 +210,18 @@ class Predictor {
     if (p.release_when_overstretched)
       status.overstretched = after.overstretched();
     else if (any(after.overstretched()))
-      status.overstretched = hold_between_tips(
-          state, end, dt, !is(state.string_state, StringState::kFlying) && after.overstretched());
+      status.overstretched =
+          hold(state, end, dt, !is(state.string_state, StringState::kFlying) && after.overstretched());
     return status;
   }
 
   bool elastic() const { return sizeof...(Effects) > 0 && !is_constant_zero(compliance_); }
+
+  /// On a straight string; an elastic one is longer.
+  Mask<Scalar> hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
+                    const Mask<Scalar>& where) const {
+    return hold_between_tips<Scalar>(state, tips, dt, where && (compliance_ == Scalar(0)), plane_);
+  }
 
   StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
     return elastic() ? advance_on_string<true>(step, captured) : advance_on_string<false>(step, captured);
@@ -225,10 +236,6 @@ class Predictor {
   Vector3<Scalar> normal_at(const Spheroid<Scalar>& spheroid, const Vector3<Scalar>& point) const {
     return parameters_.normal_rule == NormalRule::kPublished ? spheroid.published_normal(point)
                                                              : spheroid.normal(point);
-  }
-
-  Vector3<Scalar> plane_on(const Vector3<Scalar>& origin, const Vector3<Scalar>& point) const {
-    return plane_.active ? Vector3<Scalar>(origin + plane_(point - origin)) : point;
   }
 
   /// A step in which some lane is in flight. A diabolo that falls through the plane of the tips is caught
@@ -269,26 +276,6 @@ class Predictor {
     StringStepResult<Scalar> result = advance(rest, !is(state.string_state, StringState::kFlying));
     result.string_acceleration = result.string_acceleration * Scalar(rest.dt / step.dt);
     return result;
-  }
-
-  /// There is no spheroid: the diabolo rests on the string, which is straight, and moves with it.
-  [[gnu::noinline]] Mask<Scalar> hold_between_tips(State<Scalar>& state, const Tips<Scalar>& tips,
-                                                   const Scalar& dt, const Mask<Scalar>& where) const {
-    const Mask<Scalar> rigid = where && (compliance_ == Scalar(0));
-    const Vector3<Scalar> span = tips.left - tips.right;
-    const Scalar along =
-        dot<Scalar>(state.position - tips.right, span) / (squared_norm(span) + tiny<Scalar>());
-    const Scalar fraction = minimum(maximum(along, Scalar(0)), Scalar(1));
-    const Vector3<Scalar> velocity =
-        plane_(tips.right_velocity + (tips.left_velocity - tips.right_velocity) * fraction);
-    const Vector3<Scalar> position = plane_on(state.position, tips.right + span * fraction);
-    const Vector3<Scalar> jerked =
-        state.string_acceleration + (velocity - state.velocity) * Scalar(Scalar(1) / dt);
-    state.position = select<Scalar>(rigid, position, state.position);
-    state.velocity = select<Scalar>(rigid, velocity, state.velocity);
-    state.string_acceleration = select<Scalar>(rigid, jerked, state.string_acceleration);
-    assign_where(rigid, state.string_state, StringState::kOnString);
-    return rigid;
   }
 
   Parameters<Scalar> parameters_;

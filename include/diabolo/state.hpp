@@ -42,8 +42,8 @@ void assign_where(const Mask<Scalar>& condition, LaneStringState<Scalar>& state,
   state.code = select(condition, Scalar(static_cast<double>(next)), state.code);
 }
 
-/// State of the diabolo, a point mass that spins. (No two vectors are neighbours, so that no compiler stores
-/// the last component of one together with the first of the next, which slows down reading them again.)
+/// State of the diabolo, a point mass that spins. (Position and velocity are no neighbours, so that no
+/// compiler stores the last component of one with the first of the next, which slows down reading them.)
 template <class Scalar>
 struct State {
   Vector3<Scalar> position = Vector3<Scalar>::Constant(Scalar(0));  ///< centre [m], world frame
@@ -52,6 +52,9 @@ struct State {
   Scalar spin{0};
   Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
   StringStateOf<Scalar> string_state{StringState::kLoose};
+  /// Direction of the axle, forward: a unit vector, world frame. Steps leave it as it is (the axle's tilt is
+  /// not predicted); only effects look at it. The angular velocity is -spin * axis.
+  Vector3<Scalar> axis = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));
   /// Mean acceleration of the diabolo by the string over the last step [m/s^2]; times its mass, the string's
   /// force on it. Output; the next step begins its iteration with it, which changes its result by no more
   /// than the iteration's tolerance.

@@ -13,6 +13,10 @@ struct PlaneProjector {
   [[gnu::always_inline]] inline Vector3<Scalar> operator()(const Vector3<Scalar>& v) const {
     return active ? Vector3<Scalar>(v - normal * dot<Scalar>(v, normal)) : v;
   }
+  /// The point moved into the plane through `origin`.
+  Vector3<Scalar> on(const Vector3<Scalar>& origin, const Vector3<Scalar>& point) const {
+    return active ? Vector3<Scalar>(origin + (*this)(point - origin)) : point;
+  }
 };
 
 /// What one step of a diabolo on a massless string is made of. Refers to its vectors, which must outlive it.

@@ -20,6 +20,29 @@ Its tension is stiffness times extension plus damping times the extension's rate
 amplitude is the compliance, so that zero, the default, is the rigid string.)";
 }
 
+const char* doc_of(const StringFriction<double>&) {
+  return R"(A string that rubs on the axle: Euler's and Eytelwein's capstan law.
+
+While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). Its torque on the
+spin is that of Parameters.spin_coupling.)";
+}
+
+const char* doc_of(const Air<double>&) {
+  return R"(Air that holds the diabolo back: a = -(linear_drag + quadratic_drag |u|) u, u = v - wind.)";
+}
+
+const char* doc_of(const MagnusLift<double>&) {
+  return R"(Lift of a spinning diabolo: a = coefficient * omega x v, omega = -spin * axis.)";
+}
+
+const char* doc_of(const SpinLoss<double>&) {
+  return R"(What slows the spin beside the string: dw/dt = -air w|w| - axle sign(w).)";
+}
+
+const char* doc_of(const GravityTilt<double>&) {
+  return R"(Gravity along (x, y, -sqrt(1 - x^2 - y^2)) instead of -z: a frame that is not level.)";
+}
+
 template <class Effect>
 void bind_shortcuts(py::class_<Effect>&) {}
 

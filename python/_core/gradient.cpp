@@ -62,6 +62,7 @@ struct Inputs {
     copy_effects(std::make_index_sequence<std::tuple_size_v<decltype(effects.members)>>{});
     state.position = initial.position.cast<D>();
     state.velocity = initial.velocity.cast<D>();
+    state.axis = initial.axis.cast<D>();
     state.spin = initial.spin;
     state.string_state = initial.string_state;
   }

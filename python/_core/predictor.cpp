@@ -81,6 +81,14 @@ It holds nothing but checked constants; the state is yours. For many steps, or m
       .def(py::init(&make), "model"_a)
       .def_property_readonly(
           "parameters", [](const Simulator& p) { return p.parameters(); }, "A copy.")
+      .def(py::pickle(
+          [](const Simulator& p) {
+            return py::make_tuple(Model{.name = {}, .parameters = p.parameters(), .effects = p.effects()});
+          },
+          [](const py::tuple& t) {
+            const Model model = t[0].cast<Model>();
+            return Simulator(model.parameters, model.effects);
+          }))
       .def(
           "step", &step, "state"_a, "left0"_a, "right0"_a, "left1"_a, "right1"_a, "dt"_a,
           "velocities"_a = py::none(),

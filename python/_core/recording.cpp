@@ -88,6 +88,34 @@ Recording make(const Array& time, const Array& left, const Array& right, const A
   return recording;
 }
 
+/// What from_tuple() makes the recording of again.
+py::tuple to_tuple(const Recording& r) {
+  const auto numbers = [](const auto& matrix) {
+    return py::array_t<double>({matrix.cols(), matrix.rows()}, matrix.data());
+  };
+  const auto known = [&](const OrientationTrack& track) -> py::object {
+    return track.empty() ? py::object(py::none()) : py::object(numbers(track.quaternion));
+  };
+  return py::make_tuple(numbers(r.time), numbers(r.left.position), numbers(r.right.position),
+                        numbers(r.diabolo.position), r.rate, known(r.diabolo_orientation),
+                        known(r.left_orientation), known(r.right_orientation), r.name, r.properties.mass,
+                        r.properties.diameter, r.properties.length, r.properties.axle_radius,
+                        r.string_length, r.frame);
+}
+
+Recording from_tuple(const py::tuple& t) {
+  const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
+  const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
+  Recording recording = make(time, t[1].cast<Array>(), t[2].cast<Array>(), t[3].cast<Array>(),
+                             t[4].cast<double>(), orientation(5), orientation(6), orientation(7),
+                             t[8].cast<std::string>(),
+                             {t[9].cast<double>(), t[10].cast<double>(), t[11].cast<double>(),
+                              t[12].cast<double>()},
+                             t[13].cast<double>());
+  recording.frame = t[14].cast<std::vector<long>>();
+  return recording;
+}
+
 /// Properties `NAME` and `NAME_valid` of a track of positions.
 void bind_track(py::class_<Recording>& cls, const char* name, Track Recording::*track, const char* doc) {
   cls.def_property_readonly(
@@ -244,6 +272,7 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
       cls, "right_orientation", &Recording::right_orientation,
       "Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards.");
   cls.def("__len__", &Recording::size);
+  cls.def(py::pickle(&to_tuple, &from_tuple));
   cls.def("__repr__", [](const Recording& r) {
     return py::str("<Recording '{}': {} samples at {:g} Hz>").format(r.name, r.size(), r.rate);
   });

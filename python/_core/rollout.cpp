@@ -33,7 +33,7 @@ py::array_t<T> to_array(std::vector<T>&& numbers, const std::vector<py::ssize_t>
 }
 
 std::vector<State<double>> to_states(const Array& initial, const Codes& string_states) {
-  expect_shape(initial, "initial", {kAny, 7});
+  expect_shape(initial, "initial", {kAny, 10});
   expect_finite(initial, "initial");
   expect_shape(string_states, "string_states", {initial.shape(0)});
   std::vector<State<double>> states(static_cast<std::size_t>(initial.shape(0)));
@@ -45,8 +45,9 @@ std::vector<State<double>> to_states(const Array& initial, const Codes& string_s
     state.position = {from[0], from[1], from[2]};
     state.velocity = {from[3], from[4], from[5]};
     state.spin = from[6];
+    state.axis = {from[7], from[8], from[9]};
     state.string_state = static_cast<StringState>(*code);
-    from += 7;
+    from += 10;
     ++code;
   }
   return states;

@@ -18,7 +18,15 @@ using S = State<double>;
 
 constexpr std::array<const char*, 3> kNames{"on_string", "loose", "flying"};
 
-S make(const Array& position, const Array& velocity, double spin, const py::object& string_state) {
+Vector3<double> to_axis(const Array& array) {
+  const Vector3<double> axis = to_vector3(array, "axis");
+  if (!(std::abs(axis.norm() - 1.0) < 1e-6))
+    throw std::invalid_argument("axis: norm " + std::to_string(axis.norm()) + "; expected a unit vector");
+  return axis;
+}
+
+S make(const Array& position, const Array& velocity, double spin, const py::object& string_state,
+       const Array& axis) {
   if (!std::isfinite(spin))
     throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
   S state;
@@ -26,6 +34,7 @@ S make(const Array& position, const Array& velocity, double spin, const py::obje
   state.velocity = to_vector3(velocity, "velocity");
   state.spin = spin;
   state.string_state = string_state_from_python(string_state);
+  state.axis = to_axis(axis);
   return state;
 }
 
@@ -61,9 +70,10 @@ void bind_state(py::module_& module) {
 
 `position` [m] and `velocity` [m/s] have the shape (3,), world frame: x forward (away from the player), y left,
 z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
-string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.)")
+string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
+is the axle's direction, which no step changes and only MagnusLift looks at.)")
       .def(py::init(&make), "position"_a, "velocity"_a = py::make_tuple(0.0, 0.0, 0.0), "spin"_a = 0.0,
-           "string_state"_a = "loose")
+           "string_state"_a = "loose", "axis"_a = py::make_tuple(1.0, 0.0, 0.0))
       .def_property(
           "position", [](const S& s) { return from_vector3(s.position); },
           [](S& s, const Array& value) { s.position = to_vector3(value, "position"); },
@@ -75,13 +85,17 @@ string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.)")
           "spin", [](const S& s) { return s.spin; },
           [](S& s, double value) {
             s = make(from_vector3(s.position), from_vector3(s.velocity), value,
-                     string_state_to_python(s.string_state));
+                     string_state_to_python(s.string_state), from_vector3(s.axis));
           },
           "[rad/s]")
       .def_property(
           "string_state", [](const S& s) { return string_state_to_python(s.string_state); },
           [](S& s, const py::object& value) { s.string_state = string_state_from_python(value); },
           "A StringState; its number or its name may be assigned.")
+      .def_property(
+          "axis", [](const S& s) { return from_vector3(s.axis); },
+          [](S& s, const Array& value) { s.axis = to_axis(value); },
+          "Direction of the axle, forward: a unit vector, shape (3,).")
       .def_property_readonly(
           "string_acceleration", [](const S& s) { return from_vector3(s.string_acceleration); },
           "Mean acceleration by the string over the last step [m/s^2], shape (3,).")
@@ -89,6 +103,18 @@ string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.)")
       .def("__copy__", [](const S& s) { return s; })
       .def(
           "__deepcopy__", [](const S& s, const py::dict&) { return s; }, "memo"_a)
+      .def(py::pickle(
+          [](const S& s) {
+            return py::make_tuple(from_vector3(s.position), from_vector3(s.velocity), s.spin,
+                                  static_cast<int>(s.string_state), from_vector3(s.axis),
+                                  from_vector3(s.string_acceleration));
+          },
+          [](const py::tuple& t) {
+            S state = make(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<double>(), t[3],
+                           t[4].cast<Array>());
+            state.string_acceleration = to_vector3(t[5].cast<Array>(), "string_acceleration");
+            return state;
+          }))
       .def("__repr__", [](const S& s) {
         return py::str("State(position={}, velocity={}, spin={!r}, string_state='{}')")
             .format(from_vector3(s.position).attr("tolist")(), from_vector3(s.velocity).attr("tolist")(),

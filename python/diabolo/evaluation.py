@@ -96,7 +96,11 @@ def evaluate(
         evaluate(load_recording("throw_1.csv")).rows[0].error  # [m]
     """
     given = [recordings] if isinstance(recordings, (Recording, Excerpt)) else list(recordings)
+    if not given:
+        raise ValueError("recordings: none; at least one expected")
     wanted = [models] if isinstance(models, (Model, str)) else list(models)
+    if start not in ("fair", "published"):
+        raise ValueError(f"start: '{start}'; expected 'fair' or 'published'")
     chosen = [Model.named(model) if isinstance(model, str) else model for model in wanted]
     for index, model in enumerate(chosen):
         if any(other.name == model.name for other in chosen[:index]):

@@ -48,6 +48,7 @@ def rollout(
     steps: int | None = None,
     begin: float | None = None,
     string_state: AnyStringState | ArrayLike = StringState.LOOSE,
+    axis: ArrayLike = (1.0, 0.0, 0.0),
     record_every: int = 1,
     threads: int = 0,
 ) -> Rollout:
@@ -60,6 +61,7 @@ def rollout(
     steps: how many; by default as many as the (shortest) tip motion lasts.
     begin: time of the initial state within the tip motions [s]; by default where the first one begins.
     string_state: of the initial state; one for all or an array of the shape (N,).
+    axis: the axle's direction, of which only MagnusLift takes notice, shape (3,) or (N, 3).
     record_every: a frame after each so many steps; `steps` must be a multiple of it.
     threads: 0 takes all cores. The result does not depend on it.
 
@@ -79,15 +81,21 @@ def rollout(
     codes = _codes(string_state)
     if states.ndim not in (1, 2) or states.shape[-1] != 7:
         raise ValueError(f"initial: shape {states.shape}; expected (7,) or (N, 7)")
+    axes = np.asarray(axis, dtype=np.float64)
+    if axes.ndim not in (1, 2) or axes.shape[-1] != 3:
+        raise ValueError(f"axis: shape {axes.shape}; expected (3,) or (N, 3)")
+    if not np.allclose(np.linalg.norm(axes, axis=-1), 1.0, rtol=0.0, atol=1e-6):
+        raise ValueError("axis: expected unit vectors")
     if not models or not motions:
         raise ValueError("rollout: an empty sequence of models or tip motions; expected one or N")
     if record_every < 1:
         raise ValueError(f"record_every: {record_every}; must be at least 1")
 
-    batched = states.ndim == 2 or codes.ndim == 1 or _is_sequence(model) or _is_sequence(tips)
+    batched = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or _is_sequence(model) or _is_sequence(tips)
     sizes = {
         "initial": len(states) if states.ndim == 2 else 1,
         "string_state": codes.size,
+        "axis": len(axes) if axes.ndim == 2 else 1,
         "model": len(models),
         "tips": len(motions),
     }
@@ -106,7 +114,7 @@ def rollout(
 
     records, record_states = _core.rollout(
         models,
-        np.broadcast_to(states, (size, 7)),
+        np.concatenate([np.broadcast_to(states, (size, 7)), np.broadcast_to(axes, (size, 3))], axis=1),
         np.broadcast_to(codes, (size,)),
         motions,
         start,
@@ -129,6 +137,7 @@ def rollout_gradient(
     steps: int | None = None,
     begin: float | None = None,
     string_state: AnyStringState = StringState.LOOSE,
+    axis: ArrayLike = (1.0, 0.0, 0.0),
     threads: int = 0,
 ) -> RolloutGradient:
     """Final state of a rollout, and its derivatives by forward-mode automatic differentiation.
@@ -157,7 +166,7 @@ def rollout_gradient(
         raise ValueError(f"steps: {steps}; must not be negative")
     final, final_string_state, derivatives = _core.rollout_gradient(
         _model(model),
-        _core.State(state[:3], state[3:6], float(state[6]), string_state),
+        _core.State(state[:3], state[3:6], float(state[6]), string_state, axis),
         tips,
         list(with_respect_to),
         start,

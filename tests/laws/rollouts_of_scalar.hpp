@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "catch.hpp"
+#include "diabolo/dual.hpp"
 #include "diabolo/rollout.hpp"
 #include "smooth_tips.hpp"
 
-/// Checks that `Scalar` rolls out under every preset to the motion that double gives.
+template <class Scalar>
+inline constexpr int kInputsOf = 0;
+template <class Base, int N>
+inline constexpr int kInputsOf<diabolo::Dual<Base, N>> = N;
+
+/// Checks that `Scalar` rolls out under every preset to the motion that double gives; a dual also to the
+/// derivative by the string's length that a dual over double gives.
 template <class Scalar>
 void check_rollouts_of_scalar() {
   using namespace diabolo;
@@ -31,7 +39,9 @@ void check_rollouts_of_scalar() {
   start_of_scalar.position = cast(start.position);
   const TipMotion<double> motion(times, left, right, Interpolation::kSpline);
   const TipMotion<Scalar> motion_of_scalar(times, left_of_scalar, right_of_scalar, Interpolation::kSpline);
-  const auto check = [&](const Parameters<double>& p, const Parameters<Scalar>& q) {
+  const auto check = [&](const Parameters<double>& p, Parameters<Scalar> q,
+                         [[maybe_unused]] Parameters<Dual<double, 1>> r) {
+    if constexpr (kInputsOf<Scalar> > 0) q.string_length.gradient[0] += 1.0;
     const State<double> expected = rollout(Predictor<double>(p), start, motion, {0.0, 1e-3, 500});
     const State<Scalar> state =
         rollout(Predictor<Scalar>(q), start_of_scalar, motion_of_scalar, {0.0, 1e-3, 500});
@@ -44,8 +54,28 @@ void check_rollouts_of_scalar() {
     }
     CHECK(all(absolute<Scalar>(state.spin - Scalar(expected.spin)) < Scalar(20.0 * margin)));
     CHECK(all(is(state.string_state, expected.string_state)));
+    if constexpr (kInputsOf<Scalar> > 0) {
+      using D = Dual<double, 1>;
+      using Base = std::remove_cvref_t<decltype(Scalar().value)>;
+      std::vector<Vector3<D>> left_of_dual, right_of_dual;
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        left_of_dual.emplace_back(D(left[i][0]), D(left[i][1]), D(left[i][2]));
+        right_of_dual.emplace_back(D(right[i][0]), D(right[i][1]), D(right[i][2]));
+      }
+      r.string_length.gradient[0] += 1.0;
+      State<D> start_of_dual;
+      for (int k = 0; k < 3; ++k) start_of_dual.position[k] = D(start.position[k]);
+      const State<D> slope = rollout(Predictor<D>(r), start_of_dual,
+                                     TipMotion<D>(times, left_of_dual, right_of_dual, Interpolation::kSpline),
+                                     {0.0, 1e-3, 500});
+      for (int k = 0; k < 3; ++k) {
+        const double wanted = slope.position[k].gradient[0];
+        const Base given = state.position[k].gradient[0];
+        CHECK(all(absolute<Base>(given - Base(wanted)) < Base(100.0 * margin * (1.0 + std::abs(wanted)))));
+      }
+    }
   };
-  check(Parameters<double>::consistent(), Parameters<Scalar>::consistent());
-  check(Parameters<double>::paper(), Parameters<Scalar>::paper());
-  check(Parameters<double>::published(), Parameters<Scalar>::published());
+  check(Parameters<double>::consistent(), Parameters<Scalar>::consistent(), Parameters<Dual<double, 1>>::consistent());
+  check(Parameters<double>::paper(), Parameters<Scalar>::paper(), Parameters<Dual<double, 1>>::paper());
+  check(Parameters<double>::published(), Parameters<Scalar>::published(), Parameters<Dual<double, 1>>::published());
 }

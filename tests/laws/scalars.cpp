@@ -9,3 +9,7 @@ using namespace diabolo;
 TEST_CASE("single precision rolls out to the motion that double gives") { check_rollouts_of_scalar<float>(); }
 
 TEST_CASE("a dual rolls out to the motion that double gives") { check_rollouts_of_scalar<Dual<double, 2>>(); }
+
+TEST_CASE("a dual over float rolls out to the motion and the derivative that double gives") {
+  check_rollouts_of_scalar<Dual<float, 1>>();
+}

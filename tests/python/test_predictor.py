@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import copy
+import pickle
 
 import numpy as np
 import pytest
@@ -115,3 +116,16 @@ def test_a_predictor_keeps_its_own_parameters() -> None:
     predictor = Predictor(parameters)
     parameters.mass = 0.3
     assert predictor.parameters.mass == 0.2
+
+
+def test_states_and_predictors_can_be_pickled() -> None:
+    predictor = Predictor(Parameters(), string_elasticity=StringElasticity.of_stiffness(600.0))
+    state = State((0.1, 0.0, -0.6), (0.0, 0.3, 0.0), 50.0, "on_string")
+    tips = ((0.0, 0.3, 0.0), (0.0, -0.3, 0.0)) * 2
+    predictor.step(state, *tips, dt=1e-3)
+    other = pickle.loads(pickle.dumps(state))
+    assert repr(other) == repr(state)
+    np.testing.assert_array_equal(other.string_acceleration, state.string_acceleration)
+    predictor.step(state, *tips, dt=1e-3)
+    pickle.loads(pickle.dumps(predictor)).step(other, *tips, dt=1e-3)
+    np.testing.assert_array_equal(other.to_array(), state.to_array())

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 
 import diabolo
@@ -47,6 +48,15 @@ def test_arrays_are_read_only_views(played: Recording) -> None:
     with pytest.raises(ValueError, match="read-only"):
         track[0, 0] = 1.0
     np.testing.assert_array_equal(track, played.diabolo[:100])
+
+
+def test_recordings_can_be_pickled(played: Recording) -> None:
+    other = pickle.loads(pickle.dumps(played))
+    assert (other.name, other.rate, other.string_length) == (played.name, played.rate, played.string_length)
+    assert other.properties.mass == played.properties.mass
+    for name in ("frame", "time", "left", "right", "diabolo", "diabolo_valid"):
+        np.testing.assert_array_equal(getattr(other, name), getattr(played, name))
+    np.testing.assert_allclose(other.diabolo_orientation, played.diabolo_orientation, rtol=0, atol=1e-15)
 
 
 def test_cuts_include_both_rows(played: Recording) -> None:

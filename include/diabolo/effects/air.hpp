@@ -19,6 +19,8 @@ struct Air : NeutralEffect<Scalar> {
   Scalar wind_x{0};          ///< horizontal velocity of the air, world frame [m/s]
   Scalar wind_y{0};          ///< [m/s]
 
+  bool neutral() const { return is_constant_zero(linear_drag) && is_constant_zero(quadratic_drag); }
+
   Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>&,
                                const Parameters<Scalar>&) const {
     const Vector3<Scalar> through_air = state.velocity - Vector3<Scalar>(wind_x, wind_y, Scalar(0));

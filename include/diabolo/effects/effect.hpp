@@ -14,9 +14,11 @@ namespace diabolo {
 
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
 /// from this, holds its parameters (amplitude zero by default: then it changes no bit of the result) and
-/// hides the hooks that it needs. All hooks are const, allocate nothing and know no time.
+/// hides neutral() and the hooks that it needs. All hooks are const, allocate nothing and know no time.
 template <class Scalar>
 struct NeutralEffect {
+  /// Whether all amplitudes are zero, in every lane and with every derivative; then nobody asks the hooks.
+  bool neutral() const { return false; }
   /// Acceleration beside gravity and string [m/s^2].
   Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
     return Vector3<Scalar>::Constant(Scalar(0));
@@ -45,6 +47,10 @@ struct EffectSet {
   using Neutral = NeutralEffect<Scalar>;
   static constexpr bool kChangesTips =
       (!std::is_same_v<decltype(&Effects<Scalar>::tips), decltype(&Neutral::tips)> || ...);
+
+  static constexpr bool kTouches =
+      (!std::is_same_v<decltype(&Effects<Scalar>::contact_impulse), decltype(&Neutral::contact_impulse)> ||
+       ...);
 
   std::tuple<Effects<Scalar>...> members;
 
@@ -109,13 +115,17 @@ struct EffectSet {
   }
   /// Throws std::invalid_argument naming effect, field, value and range.
   void validate() const {
-    each([](const auto& effect) { validate_fields<Scalar>(effect, std::string(effect.kName) + " "); });
+    std::apply([](const auto&... effect) { (validate_one(effect), ...); }, members);
   }
 
  private:
+  template <class Effect>
+  static void validate_one(const Effect& effect) {
+    validate_fields<Scalar>(effect, std::string(Effect::kName) + " ");
+  }
   template <class Function>
   void each(Function&& function) const {
-    std::apply([&](const auto&... effect) { (function(effect), ...); }, members);
+    std::apply([&](const auto&... effect) { ((effect.neutral() ? void() : function(effect)), ...); }, members);
   }
 };
 

@@ -16,6 +16,8 @@ struct SpinLoss : NeutralEffect<Scalar> {
   Scalar air{0};   ///< [1/rad], >= 0
   Scalar axle{0};  ///< [rad/s^2], >= 0
 
+  bool neutral() const { return is_constant_zero(air) && is_constant_zero(axle); }
+
   Scalar spin_acceleration(const State<Scalar>& state, const Parameters<Scalar>&) const {
     using std::tanh;
     return -(air * state.spin * absolute(state.spin)) - axle * tanh(state.spin);

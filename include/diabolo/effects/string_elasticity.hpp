@@ -26,6 +26,8 @@ struct StringElasticity : NeutralEffect<Scalar> {
     return elasticity;
   }
 
+  bool neutral() const { return is_constant_zero(compliance_per_newton); }
+
   Scalar compliance() const { return compliance_per_newton; }
   Scalar damping_time() const { return damping * compliance_per_newton; }
 

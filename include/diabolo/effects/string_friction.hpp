@@ -21,6 +21,8 @@ struct StringFriction : NeutralEffect<Scalar> {
   static constexpr double kSlipScale = 0.02;
   Scalar coefficient{0};  ///< capstan coefficient, >= 0
 
+  bool neutral() const { return is_constant_zero(coefficient); }
+
   Vector3<Scalar> contact_impulse(const State<Scalar>& state, const Tips<Scalar>& tips,
                                   const StringStepResult<Scalar>& result, const Scalar& dt,
                                   const Parameters<Scalar>& parameters) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -67,6 +68,19 @@ inline std::vector<StringState> guess_string_states(const Recording& recording) 
   return states;
 }
 
+/// Direction of the axle in each row, or in the last row before it where it was seen; forward until then.
+inline Eigen::Matrix3Xd axes(const Recording& recording) {
+  Eigen::Matrix3Xd result(3, recording.size());
+  Vector3<double> axis = Vector3<double>::UnitX();
+  for (Eigen::Index i = 0; i < recording.size(); ++i) {
+    const OrientationTrack& track = recording.diabolo_orientation;
+    if (!track.empty() && track.valid[i])
+      axis = Eigen::Quaterniond(Eigen::Vector4d(track.quaternion.col(i))) * Vector3<double>::UnitX();
+    result.col(i) = axis;
+  }
+  return result;
+}
+
 /// Start states over a recording. A spin that is not known is zero.
 class StartStates {
  public:
@@ -77,6 +91,7 @@ class StartStates {
         published_velocity_(velocity(recording, recording.diabolo, forward_difference())),
         spin_before_(Eigen::VectorXd::Zero(recording.size())),
         spin_after_(Eigen::VectorXd::Zero(recording.size())),
+        axis_(axes(recording)),
         states_(guess_string_states(recording)) {
     const Spin spin = signed_rule ? signed_spin(recording) : unsigned_spin(recording);
     for (Eigen::Index i = 0; i < recording.size(); ++i) {
@@ -91,7 +106,7 @@ class StartStates {
   }
 
   /// The start at a row where it is known. Fair: the diabolo where it is, its velocity by
-  /// start_velocity_filter(), the last spin known by then, the string's state as guessed. Published: velocity
+  /// start_velocity_filter(), the last spin and axle known by then, the string's state as guessed. Published: velocity
   /// and spin from this row and the next, the string loose.
   State<double> at(Start kind, Eigen::Index row) const {
     const bool fair = kind == Start::kFair;
@@ -99,6 +114,7 @@ class StartStates {
     state.position = position_.col(row);
     state.velocity = (fair ? fair_velocity_ : published_velocity_).velocity.col(row);
     state.spin = (fair ? spin_before_ : spin_after_)[row];
+    state.axis = axis_.col(row);
     state.string_state = fair ? states_[static_cast<std::size_t>(row)] : StringState::kLoose;
     return state;
   }
@@ -107,6 +123,7 @@ class StartStates {
   Eigen::Matrix3Xd position_;
   Velocity fair_velocity_, published_velocity_;
   Eigen::VectorXd spin_before_, spin_after_;  ///< from the frames up to a row; from a row and the next
+  Eigen::Matrix3Xd axis_;
   std::vector<StringState> states_;
 };
 
