@@ -28,18 +28,35 @@ struct StringFriction : NeutralEffect<Scalar> {
                                   const Parameters<Scalar>& parameters) const {
     using std::atan2;
     using std::tanh;
-    const Vector3<Scalar> to_left = tips.left - result.position, to_right = tips.right - result.position;
-    const Vector3<Scalar> left = to_left * Scalar(Scalar(1) / norm(to_left));
-    const Vector3<Scalar> right = to_right * Scalar(Scalar(1) / norm(to_right));
+    // Everything at the middle of the step: the strands, the slip and the normal force.
+    const Scalar half = Scalar(0.5) * dt;
+    const Vector3<Scalar> middle = (state.position + result.position) * Scalar(0.5);
+    Tips<Scalar> there = tips;
+    there.left -= tips.left_velocity * half;
+    there.right -= tips.right_velocity * half;
+    const StringPath<Scalar> path(middle, there);
+    const Vector3<Scalar> left = path.from_left * Scalar(Scalar(-1) / path.left_length);
+    const Vector3<Scalar> right = path.from_right * Scalar(Scalar(-1) / path.right_length);
     const Vector3<Scalar> across = right - left, along = right + left;
     const Scalar sine = norm(across), cosine = norm(along);  // twice those of e
-    const Scalar contact = Scalar(2) * atan2(cosine, sine);
-    const Scalar slip = result.passed / dt - parameters.axle_radius * state.spin;
-    const Scalar lean = tanh(Scalar(0.5) * coefficient * contact * tanh(slip / Scalar(kSlipScale)));
+    const Vector3<Scalar> tangent = across * Scalar(Scalar(1) / maximum(sine, tiny<Scalar>()));
     // Nearly straight strings have no tangent worth the name: the constraint holds the diabolo there.
-    const Scalar tangent = sine / maximum(cosine, Scalar(0.02));
-    const Scalar impulse = norm(result.string_acceleration) * dt * lean * tangent;
-    return across * Scalar(select(result.taut, impulse, Scalar(0)) / maximum(sine, tiny<Scalar>()));
+    const Scalar thin = maximum(cosine, Scalar(0.02)), steepness = sine / thin;
+    const Scalar exponent = coefficient * atan2(cosine, sine);  // half of coefficient b
+    const Scalar largest = norm(result.string_acceleration) * dt * steepness;
+    const Scalar slip = result.passed / dt - parameters.axle_radius * state.spin;
+    const Scalar lean = tanh(exponent * tanh(slip_left(slip, Scalar(0.25) * sine * largest, exponent)));
+    // The normal force was found without friction, which bends the path by what it does to the velocity.
+    const Vector3<Scalar> velocity = (state.velocity + result.velocity) * Scalar(0.5);
+    const Scalar bend =
+        turn(left, tangent, Vector3<Scalar>(velocity - tips.left_velocity)) / path.left_length +
+        turn(right, tangent, Vector3<Scalar>(velocity - tips.right_velocity)) / path.right_length;
+    const Scalar feedback = tanh(half * lean * steepness * bend / thin);
+    const Scalar impulse = select(result.taut, Scalar(largest * lean * (Scalar(1) + feedback)), Scalar(0));
+    // Along the taut string at the end of the step: what points off it would come back as tension.
+    const Vector3<Scalar> normal = StringPath<Scalar>(result.position, tips).gradient();
+    const Scalar off = dot(normal, tangent) / maximum(squared_norm(normal), Scalar(4e-4));
+    return (tangent - normal * off) * impulse;
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -47,6 +64,24 @@ struct StringFriction : NeutralEffect<Scalar> {
   static void for_each(Self& self, Visitor&& visit) {
     visit(ParameterInfo{"coefficient", "1", 0.0, 3.0, "capstan coefficient of string on axle"},
           self.coefficient);
+  }
+
+ private:
+  /// Slip [kSlipScale] at the middle of the step, friction counted: y + reach tanh(exponent tanh(y)) = slip /
+  /// kSlipScale, with `reach` [m/s] what the largest friction takes away. Two steps of Newton's method from
+  /// zero; the left side is concave, so that they never pass the root and friction never turns the slip.
+  static Scalar slip_left(const Scalar& slip, const Scalar& reach, const Scalar& exponent) {
+    using std::tanh;
+    const Scalar wanted = slip / Scalar(kSlipScale), stiffness = reach / Scalar(kSlipScale);
+    const Scalar y = wanted / (Scalar(1) + stiffness * exponent);
+    const Scalar sign = tanh(y), lean = tanh(exponent * sign);
+    const Scalar slope = exponent * (Scalar(1) - lean * lean) * (Scalar(1) - sign * sign);
+    return y - (y + stiffness * lean - wanted) / (Scalar(1) + stiffness * slope);
+  }
+
+  /// Of the velocity v and the direction t, the product of the parts across the strand e.
+  static Scalar turn(const Vector3<Scalar>& e, const Vector3<Scalar>& t, const Vector3<Scalar>& v) {
+    return dot(t, v) - dot(e, t) * dot(e, v);
   }
 };
 

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// Derivatives of rollouts by every field of every effect: duals against differences, with all effects at work
+// and with all of them at amplitude zero.
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "diabolo/dual.hpp"
+#include "diabolo/effects/all.hpp"
+#include "smooth_tips.hpp"
+
+using namespace diabolo;
+using Vector = Vector3<double>;
+
+namespace {
+
+constexpr int kFields = 12;
+using D = Dual<double, kFields>;
+using Outputs = Eigen::Matrix<double, 7, 1>;  ///< position, velocity, spin
+
+template <class Scalar, class Visitor>
+void for_each_field(AllEffects<Scalar>& effects, Visitor&& visit) {
+  std::apply(
+      [&](auto&... effect) {
+        const auto one = [&]<class Effect>(Effect& e) {
+          Effect::for_each(e, [&](const ParameterInfo& info, Scalar& field) {
+            visit(std::string(Effect::kName) + "." + std::string(info.name), field);
+          });
+        };
+        (one(effect), ...);
+      },
+      effects.members);
+}
+
+std::vector<std::string> field_names() {
+  std::vector<std::string> names;
+  AllEffects<double> effects;
+  for_each_field(effects, [&](const std::string& name, double&) { names.push_back(name); });
+  return names;
+}
+
+int index_of(const std::string& name) {
+  const std::vector<std::string> names = field_names();
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+/// Sizes as in play, each acting on the outcome; elasticity damped, so that a taut string does not ring on.
+std::array<double, kFields> at_work() {
+  std::array<double, kFields> x{};
+  const auto set = [&](const char* name, double value) {
+    x.at(static_cast<std::size_t>(index_of(name))) = value;
+  };
+  set("string_elasticity.compliance", 1.0 / 400.0);
+  set("string_elasticity.damping", 1.0);
+  set("string_friction.coefficient", 0.2);
+  set("air.linear_drag", 0.1);
+  set("air.quadratic_drag", 0.03);
+  set("air.wind_x", 0.5);
+  set("air.wind_y", -0.7);
+  set("magnus_lift.coefficient", 1e-3);
+  set("spin_loss.air", 1e-3);
+  set("spin_loss.axle", 5.0);
+  set("gravity_tilt.x", 0.02);
+  set("gravity_tilt.y", -0.03);
+  return x;
+}
+
+struct Play {
+  SmoothTips player;
+  Vector start = Vector::Zero(), velocity = Vector::Zero();
+  double spin = 0.0;
+  StringState string_state = StringState::kOnString;
+};
+
+template <class Scalar>
+std::array<Scalar, 7> run(const Play& play, const std::array<Scalar, kFields>& x) {
+  AllEffects<Scalar> effects;
+  std::size_t next = 0;
+  for_each_field(effects, [&](const std::string&, Scalar& field) { field = x[next++]; });
+  Parameters<Scalar> parameters;
+  parameters.spin_coupling = Scalar(0.5);
+  // Without the check of ranges: a derivative at zero needs values on both sides of it.
+  const FullPredictor<Scalar> predictor(parameters, effects, typename FullPredictor<Scalar>::AlreadyValid{});
+  const auto cast = [](const Vector& v) { return Vector3<Scalar>(Scalar(v[0]), Scalar(v[1]), Scalar(v[2])); };
+  const auto tips_at = [&](double t) {
+    const Tips<double> tips = play.player.at(t);
+    return Tips<Scalar>{cast(tips.left), cast(tips.right), cast(tips.left_velocity),
+                        cast(tips.right_velocity)};
+  };
+  State<Scalar> state;
+  state.position = cast(play.start);
+  state.velocity = cast(play.velocity);
+  state.spin = Scalar(play.spin);
+  state.string_state = play.string_state;
+  for (int i = 0; i < 400; ++i)
+    predictor.step(state, tips_at(i * 1e-3), tips_at((i + 1) * 1e-3), Scalar(1e-3));
+  return {state.position[0], state.position[1], state.position[2], state.velocity[0],
+          state.velocity[1], state.velocity[2], state.spin};
+}
+
+Outputs values(const Play& play, const std::array<double, kFields>& x) {
+  const std::array<double, 7> result = run<double>(play, x);
+  return Eigen::Map<const Outputs>(result.data());
+}
+
+/// Derivatives by all fields, one column for each.
+Eigen::Matrix<double, 7, kFields> dual(const Play& play, const std::array<double, kFields>& x) {
+  std::array<D, kFields> inputs;
+  for (int k = 0; k < kFields; ++k)
+    inputs[static_cast<std::size_t>(k)] = D::variable(x[static_cast<std::size_t>(k)], k);
+  const std::array<D, 7> result = run<D>(play, inputs);
+  Eigen::Matrix<double, 7, kFields> jacobian;
+  for (int j = 0; j < 7; ++j) {
+    CHECK(is_finite(result[static_cast<std::size_t>(j)]));
+    jacobian.row(j) = result[static_cast<std::size_t>(j)].gradient.matrix().transpose();
+  }
+  return jacobian;
+}
+
+Outputs central(const Play& play, std::array<double, kFields> x, int k, double h) {
+  double& field = x[static_cast<std::size_t>(k)];
+  const double middle = field;
+  field = middle + h;
+  const Outputs up = values(play, x);
+  field = middle - h;
+  return (up - values(play, x)) / (2.0 * h);
+}
+
+Play hanging_play(Random& random) {
+  Play play;
+  play.player = SmoothTips::random(random, random.uniform(0.3, 0.7), 0.06, 6.0);
+  const Tips<double> begin = play.player.at(0.0);
+  const Spheroid<double> spheroid(begin.left, begin.right, 1.45);
+  TautReference taut;
+  taut.tips = play.player;
+  taut.position = spheroid.closest_point(spheroid.center() + random.vector(0.2) - Vector(0.0, 0.0, 1.0));
+  taut.velocity = random.vector(0.5);
+  taut.make_consistent();
+  play.start = taut.position;
+  play.velocity = taut.velocity;
+  play.spin = random.uniform(60.0, 120.0) * (random.chance(0.5) ? 1.0 : -1.0);
+  return play;
+}
+
+}  // namespace
+
+TEST_CASE("the fields of all effects are the ones that are differentiated here") {
+  REQUIRE(field_names().size() == kFields);
+  for (const double x : at_work()) CHECK(x != 0.0);
+}
+
+TEST_CASE("derivatives by every field, all effects at work, on the string") {
+  const unsigned seed = 930;
+  CAPTURE(seed);
+  Random random(seed);
+  const std::array<double, kFields> x = at_work();
+  for (int episode = 0; episode < 6; ++episode) {
+    const Play play = hanging_play(random);
+    const auto jacobian = dual(play, x);
+    for (int k = 0; k < kFields; ++k) {
+      const double h = 1e-4 * std::abs(x[static_cast<std::size_t>(k)]);
+      const Outputs difference = central(play, x, k, h);
+      CAPTURE(episode, field_names()[static_cast<std::size_t>(k)], difference.transpose(),
+              jacobian.col(k).transpose());
+      const double off = (jacobian.col(k) - difference).norm();
+      // The string is solved to 1e-10 of its length, its rate to 1e-10 L / dt: over the change of the field.
+      CHECK(off < 1e-4 * difference.norm() + 2e-8 / h);
+      CHECK(jacobian.col(k).norm() > 10.0 * off);
+    }
+  }
+}
+
+TEST_CASE("derivatives by every field, all effects at work, in flight") {
+  const unsigned seed = 931;
+  CAPTURE(seed);
+  Random random(seed);
+  const std::array<double, kFields> x = at_work();
+  for (int episode = 0; episode < 6; ++episode) {
+    Play play = hanging_play(random);
+    play.start.z() = 100.0;
+    play.velocity = random.vector(4.0);
+    play.string_state = StringState::kFlying;
+    const auto jacobian = dual(play, x);
+    for (int k = 0; k < kFields; ++k) {
+      const std::string name = field_names()[static_cast<std::size_t>(k)];
+      const Outputs difference = central(play, x, k, 1e-3 * std::abs(x[static_cast<std::size_t>(k)]));
+      CAPTURE(episode, name);
+      CHECK((jacobian.col(k) - difference).norm() < 1e-6 * difference.norm() + 1e-8);
+      const bool of_string = name.starts_with("string_");
+      CHECK((jacobian.col(k).norm() == 0.0) == of_string);
+    }
+  }
+}
+
+TEST_CASE("derivatives by every field where all amplitudes are zero") {
+  const unsigned seed = 932;
+  CAPTURE(seed);
+  Random random(seed);
+  const std::array<double, kFields> zero{};
+  for (int episode = 0; episode < 6; ++episode) {
+    const Play play = hanging_play(random);
+    const auto jacobian = dual(play, zero);
+    // Derivatives change no value.
+    const std::array<double, 7> plain = run<double>(play, zero);
+    const std::array<D, 7> carried = [&] {
+      std::array<D, kFields> inputs;
+      for (int k = 0; k < kFields; ++k) inputs[static_cast<std::size_t>(k)] = D::variable(0.0, k);
+      return run<D>(play, inputs);
+    }();
+    for (std::size_t j = 0; j < 7; ++j) CHECK(carried[j].value == Approx(plain[j]).margin(1e-8));
+    for (int k = 0; k < kFields; ++k) {
+      const std::string name = field_names()[static_cast<std::size_t>(k)];
+      CAPTURE(episode, name);
+      if (name == "string_elasticity.damping" || name.starts_with("air.wind")) {
+        CHECK(jacobian.col(k).norm() == 0.0);  // of no spring, of no drag: nothing
+        continue;
+      }
+      if (name == "string_elasticity.compliance") {
+        // On one side only, and stiff: elastic_derivatives.cpp looks at it more closely.
+        std::array<double, kFields> x{};
+        x[static_cast<std::size_t>(k)] = 1e-8;
+        const Vector difference = (values(play, x) - values(play, zero)).head<3>() / 1e-8;
+        CHECK(difference.norm() > 0.05);
+        CHECK((jacobian.col(k).head<3>() - difference).norm() < 2e-2 * difference.norm());
+        continue;
+      }
+      const double h = 1e-3 * std::abs(at_work()[static_cast<std::size_t>(k)]);
+      const Outputs difference = central(play, zero, k, h);
+      CAPTURE(difference.transpose(), jacobian.col(k).transpose());
+      CHECK((jacobian.col(k) - difference).norm() < 1e-4 * difference.norm() + 2e-8 / h);
+      CHECK(difference.norm() > 1e-2);
+    }
+  }
+}
+
+TEST_CASE("with both tips in one place friction's derivative is finite") {
+  Play play;
+  play.player.left.center = play.player.right.center = Vector(0.0, 0.0, 1.0);
+  play.start = Vector(0.0, 0.0, 0.275);
+  play.velocity = Vector(0.3, 0.2, 0.0);
+  play.spin = 80.0;
+  const auto jacobian = dual(play, at_work());
+  CHECK(jacobian.allFinite());
+}
