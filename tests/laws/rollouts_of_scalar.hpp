@@ -41,7 +41,7 @@ void check_rollouts_of_scalar() {
   const TipMotion<Scalar> motion_of_scalar(times, left_of_scalar, right_of_scalar, Interpolation::kSpline);
   const auto check = [&](const Parameters<double>& p, Parameters<Scalar> q,
                          [[maybe_unused]] Parameters<Dual<double, 1>> r) {
-    if constexpr (kInputsOf<Scalar> > 0) q.string_length.gradient[0] += 1.0;
+    if constexpr (kInputsOf<Scalar> > 0) q.string_length.gradient[0] = 1;
     const State<double> expected = rollout(Predictor<double>(p), start, motion, {0.0, 1e-3, 500});
     const State<Scalar> state =
         rollout(Predictor<Scalar>(q), start_of_scalar, motion_of_scalar, {0.0, 1e-3, 500});
@@ -62,7 +62,7 @@ void check_rollouts_of_scalar() {
         left_of_dual.emplace_back(D(left[i][0]), D(left[i][1]), D(left[i][2]));
         right_of_dual.emplace_back(D(right[i][0]), D(right[i][1]), D(right[i][2]));
       }
-      r.string_length.gradient[0] += 1.0;
+      r.string_length.gradient[0] = 1;
       State<D> start_of_dual;
       for (int k = 0; k < 3; ++k) start_of_dual.position[k] = D(start.position[k]);
       const State<D> slope = rollout(Predictor<D>(r), start_of_dual,

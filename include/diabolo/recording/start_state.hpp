@@ -68,14 +68,17 @@ inline std::vector<StringState> guess_string_states(const Recording& recording) 
   return states;
 }
 
-/// Direction of the axle in each row, or in the last row before it where it was seen; forward until then.
+/// Direction of the axle in each row, or in the last row before it where it was seen; forward (x >= 0), as
+/// signed_spin() has it.
 inline Eigen::Matrix3Xd axes(const Recording& recording) {
   Eigen::Matrix3Xd result(3, recording.size());
   Vector3<double> axis = Vector3<double>::UnitX();
   for (Eigen::Index i = 0; i < recording.size(); ++i) {
     const OrientationTrack& track = recording.diabolo_orientation;
-    if (!track.empty() && track.valid[i])
+    if (!track.empty() && track.valid[i]) {
       axis = Eigen::Quaterniond(Eigen::Vector4d(track.quaternion.col(i))) * Vector3<double>::UnitX();
+      if (axis.x() < 0.0) axis = -axis;
+    }
     result.col(i) = axis;
   }
   return result;

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "diabolo/diagnose/fit.hpp"
+
+namespace diabolo {
+
+/// What all windows say of the unknowns, as a quadratic in them about a fit: chi^2 of window w at the scaled
+/// unknowns x is constant_w - 2 slope_w x + x information_w x. Which explanation is best, how sure it is and
+/// what it would predict where it was not fitted are then algebra, without another simulation.
+class Evidence {
+ public:
+  explicit Evidence(const Fit& fit) : prior_(prior_precision()) {
+    const UnknownVector at = fit.at.cwiseQuotient(scales());
+    double chi_square = 0.0, numbers = 0.0;
+    for (const WindowScore& score : fit.scores) {
+      Part part;
+      part.information = score.weight * score.information;
+      part.slope = part.information * at + score.weight * score.score;
+      part.constant = score.weight * (score.chi_square + 2.0 * score.score.dot(at)) + at.dot(part.information * at);
+      information_ += part.information;
+      slope_ += part.slope;
+      chi_square += score.weight * score.chi_square;
+      numbers += score.weight * std::max(0, score.numbers - kStartUnknowns);
+      parts_.push_back(std::move(part));
+    }
+    dispersion_ = std::max(1.0, chi_square / std::max(1.0, numbers));
+  }
+
+  std::size_t windows() const { return parts_.size(); }
+
+  /// How much wider the residuals are than the noise says.
+  double dispersion() const { return dispersion_; }
+
+  /// Best scaled unknowns where all but `free` are zero.
+  UnknownVector solve(const ActiveSet& free) const { return solve(free, information_, slope_); }
+
+  /// chi^2 of all windows there, less a constant.
+  double cost(const ActiveSet& free) const {
+    const UnknownVector x = solve(free);
+    return -slope_.dot(x);
+  }
+
+  /// Covariance of the free unknowns, the larger of what the noise and what the windows' spread say.
+  UnknownMatrix covariance(const ActiveSet& free) const {
+    const std::vector<int> f = indices(free);
+    const Eigen::MatrixXd inverse = precision(f, information_).inverse();
+    const Eigen::MatrixXd spread = inverse * scatter(f, solve(free)) * inverse;
+    UnknownMatrix result = UnknownMatrix::Zero();
+    for (std::size_t i = 0; i < f.size(); ++i)
+      for (std::size_t j = 0; j < f.size(); ++j)
+        result(f[i], f[j]) = spread(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    for (std::size_t i = 0; i < f.size(); ++i)
+      result(f[i], f[i]) = std::max(result(f[i], f[i]),
+                                    dispersion_ * inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
+    return result;
+  }
+
+  /// Of one free unknown that would be zero: its estimate over its standard deviation, the latter the larger
+  /// of the two of covariance().
+  double z(int u, const ActiveSet& free) const {
+    ActiveSet with = free;
+    with[u] = true;
+    const double variance = covariance(with)(u, u);
+    return variance > 0.0 ? solve(with)[u] / std::sqrt(variance) : 0.0;
+  }
+
+  /// chi^2 of each window at unknowns fitted to the windows of other folds.
+  std::vector<double> cross_validated(const ActiveSet& free, std::size_t folds) const {
+    std::vector<double> result(parts_.size());
+    for (std::size_t fold = 0; fold < folds; ++fold) {
+      const std::size_t begin = parts_.size() * fold / folds, end = parts_.size() * (fold + 1) / folds;
+      UnknownMatrix information = information_;
+      UnknownVector slope = slope_;
+      for (std::size_t i = begin; i < end; ++i) {
+        information -= parts_[i].information;
+        slope -= parts_[i].slope;
+      }
+      const UnknownVector x = solve(free, information, slope);
+      for (std::size_t i = begin; i < end; ++i) result[i] = chi_square(i, x);
+    }
+    return result;
+  }
+
+  /// chi^2 of a window at scaled unknowns.
+  double chi_square(std::size_t i, const UnknownVector& x) const {
+    return parts_[i].constant - 2.0 * parts_[i].slope.dot(x) + x.dot(parts_[i].information * x);
+  }
+
+ private:
+  struct Part {
+    UnknownMatrix information;
+    UnknownVector slope;
+    double constant;
+  };
+
+  static std::vector<int> indices(const ActiveSet& free) {
+    std::vector<int> result;
+    for (int u = 0; u < kUnknowns; ++u)
+      if (free[u]) result.push_back(u);
+    return result;
+  }
+
+  Eigen::MatrixXd precision(const std::vector<int>& f, const UnknownMatrix& information) const {
+    Eigen::MatrixXd result = information(f, f);
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const Eigen::Index k = static_cast<Eigen::Index>(i);
+      result(k, k) += dispersion_ * prior_[f[i]] + 1e-9 * (1.0 + result(k, k));
+    }
+    return result;
+  }
+
+  UnknownVector solve(const ActiveSet& free, const UnknownMatrix& information, const UnknownVector& slope) const {
+    const std::vector<int> f = indices(free);
+    const Eigen::VectorXd x = precision(f, information).ldlt().solve(slope(f));
+    UnknownVector result = UnknownVector::Zero();
+    result(f) = x;
+    return result;
+  }
+
+  /// Sum of the outer products of the windows' own scores at x.
+  Eigen::MatrixXd scatter(const std::vector<int>& f, const UnknownVector& x) const {
+    const Eigen::Index n = static_cast<Eigen::Index>(f.size());
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+    for (const Part& part : parts_) {
+      const UnknownVector score = part.slope - part.information * x;
+      const Eigen::VectorXd own = score(f);
+      sum += own * own.transpose();
+    }
+    return sum;
+  }
+
+  UnknownVector prior_;
+  UnknownMatrix information_ = UnknownMatrix::Zero();
+  UnknownVector slope_ = UnknownVector::Zero();
+  double dispersion_ = 1.0;
+  std::vector<Part> parts_;
+};
+
+}  // namespace diabolo

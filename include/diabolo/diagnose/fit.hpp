@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "diabolo/diagnose/window_rollout.hpp"
+#include "diabolo/recording/bootstrap.hpp"
+#include "diabolo/recording/parallel.hpp"
+
+namespace diabolo {
+
+/// Which unknowns are free.
+using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
+
+/// What a window says of the unknowns once its start has been fitted, in the scales of kUnknownInfos.
+struct WindowScore {
+  UnknownVector score;        ///< half the slope of -chi^2
+  UnknownMatrix information;  ///< half its curvature
+  double chi_square = 0.0;    ///< with the best start
+  double weight = 1.0;        ///< less than 1 where the window lies far off all others
+  int numbers = 0;
+  Eigen::Matrix<double, kStartUnknowns, 1> start_step;                   ///< to the best start
+  Eigen::Matrix<double, kStartUnknowns, kUnknowns> start_by_unknowns;    ///< its change by the unknowns
+};
+
+/// Takes the window's start out of its system.
+inline WindowScore without_start(const WindowSystem& system) {
+  constexpr int s = kStartUnknowns, n = kUnknowns;
+  const auto& m = system.normal;
+  Eigen::Matrix<double, s, s> start = m.topLeftCorner<s, s>();
+  for (int i = 0; i < s; ++i) start(i, i) += 1.0 / (kStartPriors[i] * kStartPriors[i]);
+  const Eigen::LDLT<Eigen::Matrix<double, s, s>> solver(start);
+  const Eigen::Matrix<double, s, n> cross = m.block<s, n>(0, s);
+  const Eigen::Matrix<double, s, 1> slope = m.block<s, 1>(0, s + n);
+  WindowScore result;
+  result.start_by_unknowns = solver.solve(cross);
+  result.start_step = solver.solve(slope);
+  result.information = m.block<n, n>(s, s) - cross.transpose() * result.start_by_unknowns;
+  result.score = m.block<n, 1>(s, s + n) - cross.transpose() * result.start_step;
+  result.chi_square = std::max(0.0, m(s + n, s + n) - slope.dot(result.start_step));
+  result.numbers = system.numbers;
+  return result;
+}
+
+/// A model fitted to recordings, and what each window says around it.
+struct Fit {
+  UnknownVector at = UnknownVector::Zero();  ///< the unknowns, SI units
+  ActiveSet active = ActiveSet::Constant(false);
+  std::vector<Stage> stages;                 ///< with the fitted starts
+  std::vector<CameraNoise> noise;            ///< of each stage
+  std::vector<WindowSystem> systems;         ///< of all windows, stage after stage
+  std::vector<WindowScore> scores;
+  double cost = 0.0;                         ///< weighted chi^2 and priors
+  int iterations = 0;
+};
+
+/// 1 / prior variance in scaled numbers.
+inline UnknownVector prior_precision() {
+  UnknownVector result = UnknownVector::Zero();
+  for (int u = 0; u < kUnknowns; ++u) {
+    const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+    if (info.prior > 0.0) result[u] = std::pow(info.scale / info.prior, 2);
+  }
+  return result;
+}
+
+inline UnknownVector scales() {
+  UnknownVector result;
+  for (int u = 0; u < kUnknowns; ++u) result[u] = kUnknownInfos[static_cast<std::size_t>(u)].scale;
+  return result;
+}
+
+/// Predicts all windows at `fit.at`: systems and scores.
+inline void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;
+  std::vector<std::vector<StageTips>> grids;
+  std::vector<detail::FitPredictor> predictors;
+  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
+    grids.push_back(stage_tips(fit.stages[s], fit.at));
+    predictors.push_back(detail::fit_predictor(base, fit.stages[s].recording, fit.at));
+    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
+  }
+  fit.systems.resize(jobs.size());
+  fit.scores.resize(jobs.size());
+  for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
+    const auto [s, w] = jobs[i];
+    const Stage& stage = fit.stages[s];
+    fit.systems[i] = window_system(stage, grids[s], stage.windows[w], predictors[s], fit.at, fit.noise[s]);
+    fit.scores[i] = without_start(fit.systems[i]);
+  });
+  std::vector<double> sizes;
+  for (const WindowScore& score : fit.scores)
+    sizes.push_back(std::sqrt(score.chi_square / std::max(1, score.numbers)));
+  std::vector<double> sorted = sizes;
+  std::ranges::sort(sorted);
+  const double usual = sorted.empty() ? 1.0 : quantile(sorted, 0.5);
+  fit.cost = 0.0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    WindowScore& score = fit.scores[i];
+    const double off = sizes[i] / std::max(2.5 * usual, 1e-12);
+    score.weight = fit.systems[i].failed ? 0.0 : off > 1.0 ? 1.0 / (off * off) : 1.0;
+    // Beyond 2.5 times the usual size a window counts as its square root would: Huber's rule on windows.
+    fit.cost += fit.systems[i].failed ? 0.0
+                : off > 1.0           ? score.chi_square * (2.0 * off - 1.0) / (off * off)
+                                      : score.chi_square;
+  }
+  const UnknownVector prior = prior_precision(), scaled = fit.at.cwiseQuotient(scales());
+  fit.cost += scaled.dot(prior.cwiseProduct(scaled));
+}
+
+/// Noise of each recording from what the windows leave, once their starts are fitted.
+inline void update_noise(Fit& fit) {
+  std::size_t i = 0;
+  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
+    std::vector<double> position, spin;
+    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
+      const WindowSystem& system = fit.systems[i];
+      if (system.failed) continue;
+      if (system.position_numbers > 9) position.push_back(system.position_square / (system.position_numbers - 6));
+      if (system.spin_numbers > 5) spin.push_back(system.spin_square / (system.spin_numbers - 1));
+    }
+    const auto middle = [](std::vector<double>& values, double otherwise, double least) {
+      if (values.empty()) return otherwise;
+      std::ranges::sort(values);
+      return std::max(std::sqrt(quantile(values, 0.5)), least);
+    };
+    fit.noise[s].position = middle(position, fit.noise[s].position, 2e-5);
+    fit.noise[s].spin = middle(spin, fit.noise[s].spin, 0.02);
+  }
+}
+
+/// Numbers of the scaled normal equations of the active unknowns.
+struct Normal {
+  std::vector<int> free;  ///< which unknowns
+  Eigen::MatrixXd information;
+  Eigen::VectorXd score;
+};
+
+inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
+  Normal normal;
+  for (int u = 0; u < kUnknowns; ++u)
+    if (active[u]) normal.free.push_back(u);
+  UnknownMatrix information = UnknownMatrix::Zero();
+  UnknownVector score = UnknownVector::Zero();
+  for (const WindowScore& window : fit.scores) {
+    information += window.weight * window.information;
+    score += window.weight * window.score;
+  }
+  const UnknownVector prior = prior_precision();
+  information.diagonal() += prior;
+  score -= prior.cwiseProduct(fit.at.cwiseQuotient(scales()));
+  normal.information = information(normal.free, normal.free);
+  normal.score = score(normal.free);
+  normal.information.diagonal().array() += 1e-9 * (1.0 + normal.information.diagonal().array());
+  return normal;
+}
+
+/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is.
+inline void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
+                   const Watch& watch = {}) {
+  fit.active = active;
+  look(fit, base, threads, watch);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    ++fit.iterations;
+    const Normal normal = normal_equations(fit, active);
+    const Eigen::VectorXd step = normal.information.ldlt().solve(normal.score);
+    double share = 1.0;
+    Fit best = fit;
+    double largest = 0.0;
+    for (int attempt = 0; attempt < 4; ++attempt, share *= 0.3) {
+      UnknownVector scaled_step = UnknownVector::Zero();
+      largest = 0.0;
+      for (std::size_t i = 0; i < normal.free.size(); ++i) {
+        const int u = normal.free[i];
+        const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+        const double wanted = best.at[u] + share * step[static_cast<Eigen::Index>(i)] * info.scale;
+        fit.at[u] = std::clamp(wanted, info.minimum, info.maximum);
+        scaled_step[u] = (fit.at[u] - best.at[u]) / info.scale;
+        const double deviation = 1.0 / std::sqrt(normal.information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
+        largest = std::max(largest, std::abs(scaled_step[u]) / deviation);
+      }
+      std::size_t i = 0;
+      for (std::size_t s = 0; s < fit.stages.size(); ++s)
+        for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
+          const WindowScore& score = best.scores[i];
+          const Eigen::Matrix<double, kStartUnknowns, 1> move =
+              share * score.start_step - score.start_by_unknowns * scaled_step;
+          State<double> start = best.stages[s].windows[w].start;
+          for (int c = 0; c < 3; ++c) {
+            start.position[c] += kStartScales[c] * std::clamp(move[c], -10.0, 10.0);
+            start.velocity[c] += kStartScales[3 + c] * std::clamp(move[3 + c], -30.0, 30.0);
+          }
+          start.spin += kStartScales[6] * move[6];
+          fit.stages[s].windows[w].start = start;
+        }
+      look(fit, base, threads, watch);
+      if (fit.cost <= best.cost * (1.0 + 1e-9)) break;
+      if (attempt == 3) {
+        fit = best;
+        return;
+      }
+    }
+    const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
+    if (iteration < 3) {
+      update_noise(fit);
+      look(fit, base, threads, watch);
+    } else if (settled) {
+      return;
+    }
+  }
+}
+
+}  // namespace diabolo

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "diabolo/recording/recording.hpp"
+
+namespace diabolo {
+
+/// Acceleration by the noise of a tip that a simulation may see [m/s^2]. A rigid string follows its tips: more
+/// of it would let the string go slack and snap with the camera's noise, which takes energy like a drag.
+inline constexpr double kTipNoiseAcceleration = 0.3;
+
+/// Standard deviation of the white noise of a track, one coordinate [m]: the median of its third differences,
+/// to which motions below a tenth of the rate add little.
+inline double white_noise(const Track& track) {
+  std::vector<double> sizes;
+  for (Eigen::Index i = 0; i + 3 < track.valid.size(); ++i) {
+    if (!track.valid.segment(i, 4).all()) continue;
+    const Eigen::Vector3d third = track.position.col(i + 3) - 3.0 * track.position.col(i + 2) +
+                                  3.0 * track.position.col(i + 1) - track.position.col(i);
+    for (int k = 0; k < 3; ++k) sizes.push_back(std::abs(third[k]));
+  }
+  if (sizes.size() < 30) return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / (0.6745 * std::sqrt(20.0));
+}
+
+/// Half width of the window in rows at which the noise [m] becomes kTipNoiseAcceleration. The second
+/// derivative of a local quadratic under Tukey's biweight over 2 h + 1 rows has the variance 1430 noise^2
+/// rate^4 / (2 h)^5, nearly.
+inline int smoothing_half_width(double noise, double rate) {
+  const double rows = std::pow(1430.0 * std::pow(noise * rate * rate / kTipNoiseAcceleration, 2.0), 0.2) / 2.0;
+  return static_cast<int>(std::clamp(std::ceil(rows), 1.0, std::max(1.0, 0.12 * rate)));
+}
+
+/// The track through a local quadratic under Tukey's biweight (no delay; a parabola stays as it is). Rows
+/// without a sample stay so.
+inline Track smoothed(const Track& track, double rate) {
+  const int half = smoothing_half_width(white_noise(track), rate);
+  Track result = track;
+  if (half < 2) return result;
+  const Eigen::Index size = track.valid.size();
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (!track.valid[i]) continue;
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), sums = Eigen::Matrix3d::Zero();
+    int used = 0;
+    for (Eigen::Index j = std::max<Eigen::Index>(0, i - half); j <= std::min(size - 1, i + half); ++j) {
+      if (!track.valid[j]) continue;
+      const double x = static_cast<double>(j - i) / (half + 1);
+      const double weight = (1.0 - x * x) * (1.0 - x * x);
+      const Eigen::Vector3d powers(1.0, x, x * x);
+      normal += weight * powers * powers.transpose();
+      sums += weight * powers * track.position.col(j).transpose();
+      ++used;
+    }
+    if (used >= 4) result.position.col(i) = normal.ldlt().solve(sums).row(0).transpose();
+  }
+  return result;
+}
+
+}  // namespace diabolo

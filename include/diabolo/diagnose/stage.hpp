@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "diabolo/diagnose/smooth_tips.hpp"
+#include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/recording/spin.hpp"
+#include "diabolo/recording/start_state.hpp"
+#include "diabolo/recording/tip_motion.hpp"
+#include "diabolo/recording/windows.hpp"
+
+namespace diabolo {
+
+/// Rows over which the motion is predicted from a start of its own.
+struct FitWindow {
+  Eigen::Index first, last;  ///< both included
+  State<double> start;       ///< the present estimate; spin about the axle as in State
+};
+
+/// The tips at an instant, and how they change with a shift of time and with offsets in the sticks' frames.
+struct StageTips {
+  Tips<double> tips;
+  Vector3<double> left_acceleration, right_acceleration;        ///< [m/s^2]
+  Eigen::Matrix3d left_frame, right_frame;                      ///< stick to world
+  Eigen::Matrix3d left_frame_rate, right_frame_rate;            ///< their derivatives [1/s]
+};
+
+/// A recording, made ready for a diagnosis.
+struct Stage {
+  Recording recording;             ///< tips smoothed, edges of dropouts taken out
+  Eigen::VectorXd times;           ///< of the rows [s]
+  Spin spin;                       ///< between each row and the next
+  Eigen::Matrix3Xd axis;           ///< of the axle in each row
+  std::vector<StringState> states; ///< as guessed
+  std::shared_ptr<const TipMotion<double>> motion;
+  int substeps = 4;                ///< per row
+  std::vector<FitWindow> windows;
+  bool has_spin = false, has_orientation = false;
+};
+
+/// Length of a window [s].
+inline constexpr double kFitWindow = 0.5;
+/// Longest step of the simulation in a diagnosis [s].
+inline constexpr double kFitStep = 4.2e-3;
+
+/// The most frequent path length from tip to tip over the diabolo, where the diabolo is below the tips; none
+/// where no length stands out. That is the string's length while it is taut.
+inline std::optional<double> usual_path_length(const Recording& r) {
+  std::vector<double> lengths;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
+    Tips<double> tips;
+    tips.left = r.left.position.col(i);
+    tips.right = r.right.position.col(i);
+    const Vector3<double> diabolo = r.diabolo.position.col(i);
+    if (height_above_tips(diabolo, tips.left, tips.right) > 0.0) continue;
+    lengths.push_back(StringPath<double>(diabolo, tips).length());
+  }
+  if (lengths.size() < 20) return std::nullopt;
+  std::ranges::sort(lengths);
+  // The densest interval of 20 mm.
+  std::size_t best = 0, best_count = 0;
+  for (std::size_t low = 0, high = 0; low < lengths.size(); ++low) {
+    while (high < lengths.size() && lengths[high] < lengths[low] + 0.02) ++high;
+    if (high - low > best_count) best_count = high - low, best = low;
+  }
+  if (best_count * 4 < lengths.size()) return std::nullopt;
+  return lengths[best + best_count / 2];
+}
+
+/// Cuts the rows into windows of about kFitWindow that begin where the string's state is not about to change.
+inline std::vector<FitWindow> fit_windows(const Stage& stage) {
+  const Recording& r = stage.recording;
+  const Eigen::Index size = r.size(), wanted = std::max<Eigen::Index>(6, std::lround(kFitWindow * r.rate)),
+                     margin = std::max<Eigen::Index>(2, std::lround(0.035 * r.rate));
+  const std::vector<bool> left = in_long_gap(r.left, stage.times), right = in_long_gap(r.right, stage.times);
+  const Velocity centred = velocity(r, r.diabolo, local_polynomial(std::max(5, static_cast<int>(2 * margin + 1)), 2, Window::kCentred));
+  const auto row_ok = [&](Eigen::Index i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    return !left[k] && !right[k] && r.steps_evenly(i);
+  };
+  const auto start_ok = [&](Eigen::Index i) {
+    if (i < margin || i + margin >= size || !row_ok(i) || !centred.valid[i]) return false;
+    for (Eigen::Index j = i - margin; j <= i + margin; ++j)
+      if (stage.states[static_cast<std::size_t>(j)] != stage.states[static_cast<std::size_t>(i)]) return false;
+    return true;
+  };
+  std::vector<FitWindow> windows;
+  for (Eigen::Index i = 0; i < size;) {
+    if (!start_ok(i)) {
+      ++i;
+      continue;
+    }
+    Eigen::Index last = i;
+    while (last + 1 < size && last - i < wanted && row_ok(last)) ++last;
+    // Up to the next start, if that is near.
+    for (Eigen::Index j = last; j < std::min(size, i + wanted + wanted / 3) && last - i >= wanted; ++j) {
+      if (!row_ok(j)) break;
+      if (!start_ok(j)) continue;
+      last = j;
+      break;
+    }
+    const Eigen::Index rows = last - i + 1;
+    if (rows >= wanted / 2 && r.diabolo.valid.segment(i, rows).count() * 10 >= rows * 6) {
+      FitWindow window{i, last, {}};
+      window.start.position = r.diabolo.position.col(i);
+      window.start.velocity = centred.velocity.col(i);
+      window.start.string_state = stage.states[static_cast<std::size_t>(i)];
+      for (Eigen::Index j = i; j < std::min(size, i + 10); ++j)
+        if (stage.spin.valid[j]) {
+          window.start.spin = stage.spin.value[j];
+          break;
+        }
+      windows.push_back(window);
+    }
+    i = std::max(last, i + 1);
+  }
+  return windows;
+}
+
+/// Makes a recording ready. Throws RecordingError where the tips are never seen together.
+inline Stage make_stage(const Recording& given) {
+  Stage stage;
+  stage.recording = without_dropout_edges(given);
+  stage.recording.left = smoothed(given.left, given.rate);
+  stage.recording.right = smoothed(given.right, given.rate);
+  const RecordedTips tips(stage.recording, Interpolation::kSpline);
+  stage.times = tips.times();
+  stage.motion = tips.motion(0, given.size() - 1);
+  stage.spin = signed_spin(stage.recording);
+  stage.has_spin = stage.spin.valid.any();
+  stage.has_orientation = !given.diabolo_orientation.empty() && given.diabolo_orientation.valid.any();
+  stage.axis = axes(stage.recording);
+  Recording guessed = stage.recording;
+  if (const std::optional<double> usual = usual_path_length(stage.recording)) guessed.string_length = *usual;
+  stage.states = guess_string_states(guessed);
+  stage.substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (given.rate * kFitStep))));
+  stage.windows = fit_windows(stage);
+  return stage;
+}
+
+/// Stick frames in each row, held over dropouts; the world's where none were recorded.
+inline std::vector<Eigen::Matrix3d> stick_frames(const OrientationTrack& track, Eigen::Index size) {
+  std::vector<Eigen::Matrix3d> frames(static_cast<std::size_t>(size), Eigen::Matrix3d::Identity());
+  if (track.empty()) return frames;
+  Eigen::Index seen = -1;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (track.valid[i]) {
+      const Eigen::Matrix3d frame =
+          Eigen::Quaterniond(Eigen::Vector4d(track.quaternion.col(i))).toRotationMatrix();
+      if (seen < 0) std::fill_n(frames.begin(), i, frame);
+      frames[static_cast<std::size_t>(i)] = frame;
+      seen = i;
+    } else if (seen >= 0) {
+      frames[static_cast<std::size_t>(i)] = frames[static_cast<std::size_t>(seen)];
+    }
+  }
+  return frames;
+}
+
+/// Tips at each substep from row 0 on, read at the recorded time plus the time offset, less the tip offsets.
+inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector& at) {
+  const Eigen::Index rows = stage.times.size();
+  const std::vector<Eigen::Matrix3d> left = stick_frames(stage.recording.left_orientation, rows),
+                                     right = stick_frames(stage.recording.right_orientation, rows);
+  const double offset = at[index_of(Unknown::kTimeOffset)];
+  const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
+                        right_offset = at.segment<3>(index_of(Unknown::kRightX));
+  std::vector<StageTips> result(static_cast<std::size_t>((rows - 1) * stage.substeps + 1));
+  std::size_t hint = 0;
+  for (Eigen::Index i = 0, k = 0; i < rows; ++i)
+    for (int s = 0; s < (i + 1 < rows ? stage.substeps : 1); ++s, ++k) {
+      StageTips& out = result[static_cast<std::size_t>(k)];
+      const double fraction = static_cast<double>(s) / stage.substeps;
+      const Eigen::Index next = std::min(i + 1, rows - 1);
+      const double gap = std::max(stage.times[next] - stage.times[i], 1e-6);
+      const double time = stage.times[i] + fraction * gap + offset, h = 5e-4;
+      out.tips = stage.motion->at(time, hint);
+      const Tips<double> before = stage.motion->at(time - h), after = stage.motion->at(time + h);
+      out.left_acceleration = (after.left_velocity - before.left_velocity) / (2.0 * h);
+      out.right_acceleration = (after.right_velocity - before.right_velocity) / (2.0 * h);
+      const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(next);
+      out.left_frame = left[a] * (1.0 - fraction) + left[b] * fraction;
+      out.right_frame = right[a] * (1.0 - fraction) + right[b] * fraction;
+      out.left_frame_rate = (left[b] - left[a]) / gap;
+      out.right_frame_rate = (right[b] - right[a]) / gap;
+      out.tips.left -= out.left_frame * left_offset;
+      out.tips.right -= out.right_frame * right_offset;
+      out.tips.left_velocity -= out.left_frame_rate * left_offset;
+      out.tips.right_velocity -= out.right_frame_rate * right_offset;
+    }
+  return result;
+}
+
+}  // namespace diabolo

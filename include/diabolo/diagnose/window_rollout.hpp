@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "diabolo/diagnose/latent_force.hpp"
+#include "diabolo/diagnose/stage.hpp"
+#include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/dual.hpp"
+#include "diabolo/effects/all.hpp"
+#include "diabolo/recording/model.hpp"
+
+namespace diabolo {
+
+/// Numbers of a window's start: position, velocity and spin.
+inline constexpr int kStartUnknowns = 7;
+inline constexpr double kStartScales[kStartUnknowns] = {0.01, 0.01, 0.01, 0.1, 0.1, 0.1, 1.0};
+/// Standard deviation of a start about its first guess, in its scales; far wider than a camera's.
+inline constexpr double kStartPriors[kStartUnknowns] = {5.0, 5.0, 5.0, 50.0, 50.0, 50.0, 300.0};
+
+/// Columns: start, unknowns, residual.
+inline constexpr int kWindowColumns = kStartUnknowns + kUnknowns + 1;
+using WindowMatrix = Eigen::Matrix<double, kWindowColumns, kWindowColumns>;
+
+/// Standard deviations of what a camera reports.
+struct CameraNoise {
+  double position = 1e-3;  ///< one coordinate [m]
+  double spin = 3.0;       ///< [rad/s]
+};
+
+/// What one window says, in the scales of kUnknownInfos and kStartScales.
+struct WindowSystem {
+  WindowMatrix normal = WindowMatrix::Zero();  ///< [J r]^T [J r], whitened; r = recorded - predicted
+  int numbers = 0;                             ///< residuals in it
+  double position_square = 0.0, spin_square = 0.0;  ///< sums of squared residuals [m^2], [rad^2/s^2]
+  int position_numbers = 0, spin_numbers = 0;
+  UnknownVector reach = UnknownVector::Zero();       ///< displacement at the window's end per unknown [m]
+  UnknownVector spin_reach = UnknownVector::Zero();  ///< the same of the spin [rad/s]
+  double spin = 0.0;                                 ///< size of the spin [rad/s]
+  bool failed = false;                               ///< the prediction left the world
+  bool taut = false, free = false;                   ///< the string was taut, or not, in some rows
+};
+
+namespace detail {
+
+using FitDual = Dual<double, kStartUnknowns + kUnknowns>;
+
+template <class From, class To>
+void copy_fields(const From& from, To& to) {
+  std::vector<double> fields;
+  From::for_each(from, [&](const ParameterInfo&, const double& field) { fields.push_back(field); });
+  std::size_t next = 0;
+  To::for_each(to, [&](const ParameterInfo&, auto& field) {
+    field = std::remove_reference_t<decltype(field)>(fields[next++]);
+  });
+}
+
+inline FitDual unknown(Unknown u, const UnknownVector& at) {
+  FitDual result(at[index_of(u)]);
+  result.gradient[kStartUnknowns + index_of(u)] = info_of(u).scale;
+  return result;
+}
+
+using FitPredictor = Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
+                               GravityTilt, LatentForce>;
+
+/// The base with everything that may be missing, which carries its derivatives.
+inline FitPredictor fit_predictor(const Model& base, const Recording& recording, const UnknownVector& at) {
+  using D = FitDual;
+  const auto x = [&](Unknown u) { return unknown(u, at); };
+  const Parameters<double> given = parameters_for(base, recording);
+  Parameters<D> p;
+  p.copy_rules(given);
+  copy_fields(given, p);
+  const D scale = D(1.0) + x(Unknown::kLengthScale);
+  p.string_length = (p.string_length + x(Unknown::kStringLength)) * scale;
+  p.gravity = (p.gravity + x(Unknown::kGravity)) * scale;
+  p.axle_radius = p.axle_radius * scale;
+  p.spin_coupling = p.spin_coupling + x(Unknown::kSpinCoupling);
+  FitPredictor::Set effects;
+  const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (copy_fields(std::get<I>(base.effects.members), std::get<I>(effects.members)), ...);
+  };
+  copy(std::make_index_sequence<std::tuple_size_v<decltype(base.effects.members)>>{});
+  auto& tilt = effects.get<GravityTilt>();
+  tilt.x += x(Unknown::kTiltX);
+  tilt.y += x(Unknown::kTiltY);
+  auto& elasticity = effects.get<StringElasticity>();
+  elasticity.compliance_per_newton += x(Unknown::kCompliance) * scale;
+  elasticity.damping += x(Unknown::kDamping);
+  effects.get<StringFriction>().coefficient += x(Unknown::kFriction);
+  auto& air = effects.get<Air>();
+  air.linear_drag += x(Unknown::kLinearDrag);
+  air.quadratic_drag += x(Unknown::kQuadraticDrag);
+  air.wind_x += x(Unknown::kWindX);
+  air.wind_y += x(Unknown::kWindY);
+  effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
+  auto& loss = effects.get<SpinLoss>();
+  loss.air += x(Unknown::kSpinAir);
+  loss.axle += x(Unknown::kSpinAxle);
+  auto& latent = effects.get<LatentForce>();
+  latent.string_tangent = x(Unknown::kStringTangent);
+  latent.string_binormal = x(Unknown::kStringBinormal);
+  latent.flight_against = x(Unknown::kFlightAgainst);
+  latent.flight_vertical = x(Unknown::kFlightVertical);
+  latent.flight_lift = x(Unknown::kFlightLift);
+  latent.spin_string = x(Unknown::kSpinString);
+  latent.spin_free = x(Unknown::kSpinFree);
+  return FitPredictor(p, effects, FitPredictor::AlreadyValid{});
+}
+
+/// The tips with their derivatives by time offset and tip offsets.
+inline Tips<FitDual> fit_tips(const StageTips& s) {
+  const auto with = [](const Vector3<double>& value, const Vector3<double>& by_time,
+                       const Eigen::Matrix3d& by_offset, Unknown first) {
+    Vector3<FitDual> result;
+    for (int k = 0; k < 3; ++k) {
+      result[k] = FitDual(value[k]);
+      auto& slope = result[k].gradient;
+      slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] = by_time[k] * info_of(Unknown::kTimeOffset).scale;
+      for (int j = 0; j < 3; ++j)
+        slope[kStartUnknowns + index_of(first) + j] = -by_offset(k, j) * info_of(first).scale;
+    }
+    return result;
+  };
+  Tips<FitDual> tips;
+  tips.left = with(s.tips.left, s.tips.left_velocity, s.left_frame, Unknown::kLeftX);
+  tips.right = with(s.tips.right, s.tips.right_velocity, s.right_frame, Unknown::kRightX);
+  tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_frame_rate, Unknown::kLeftX);
+  tips.right_velocity = with(s.tips.right_velocity, s.right_acceleration, s.right_frame_rate, Unknown::kRightX);
+  return tips;
+}
+
+/// Moves a start ON_STRING to where the taut string allows it: path length and its rate.
+template <class D>
+void place_on_string(State<D>& state, const Tips<D>& tips, const D& length) {
+  for (int i = 0; i < 3; ++i) {
+    const StringPath<D> path(state.position, tips);
+    const Vector3<D> gradient = path.gradient();
+    state.position = state.position -
+                     gradient * D((path.length() - length) / (squared_norm(gradient) + D(1e-6)));
+  }
+  const StringPath<D> path(state.position, tips);
+  const Vector3<D> gradient = path.gradient();
+  const D rate = path.rate(state.velocity, tips.left_velocity, tips.right_velocity);
+  state.velocity = state.velocity - gradient * D(rate / (squared_norm(gradient) + D(1e-6)));
+}
+
+inline State<FitDual> fit_start(const FitWindow& window, const FitPredictor& predictor,
+                                const Tips<FitDual>& tips, const Tips<FitDual>& next, const FitDual& dt) {
+  using D = FitDual;
+  State<D> state;
+  for (int k = 0; k < 3; ++k) {
+    state.position[k] = D(window.start.position[k]);
+    state.position[k].gradient[k] = kStartScales[k];
+    state.velocity[k] = D(window.start.velocity[k]);
+    state.velocity[k].gradient[3 + k] = kStartScales[3 + k];
+    state.axis[k] = D(window.start.axis[k]);
+  }
+  state.spin = D(window.start.spin);
+  state.spin.gradient[6] = kStartScales[6];
+  state.string_state = window.start.string_state;
+  const D& length = predictor.parameters().string_length;
+  const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);
+  if (state.string_state != StringState::kOnString || !room) return state;
+  place_on_string(state, tips, length);
+  const auto& elasticity = predictor.effects().template get<StringElasticity>();
+  if (elasticity.neutral() || predictor.parameters().string_law != StringLaw::kInextensible) return state;
+  // At rest relative to its spring: longer by what the tension of the first step stretches it.
+  State<D> trial = state;
+  predictor.step(trial, tips, next, dt);
+  const D pull = norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
+  place_on_string(state, tips, D(length + elasticity.compliance_per_newton * predictor.parameters().mass * pull));
+  return state;
+}
+
+}  // namespace detail
+
+/// Predicts a window and compares it with the recording, with derivatives by its start and all unknowns.
+inline WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid,
+                                  const FitWindow& window, const detail::FitPredictor& predictor,
+                                  const UnknownVector& at, const CameraNoise& noise) {
+  using D = detail::FitDual;
+  constexpr int n = kStartUnknowns + kUnknowns;
+  const Recording& r = stage.recording;
+  WindowSystem system;
+  FitWindow begun = window;
+  begun.start.axis = stage.axis.col(window.first);
+  const auto tips_at = [&](Eigen::Index k) { return detail::fit_tips(grid[static_cast<std::size_t>(k)]); };
+  Eigen::Index k = window.first * stage.substeps;
+  Tips<D> now = tips_at(k), next = tips_at(k + 1);
+  const auto step_of = [&](Eigen::Index row) {
+    return D((stage.times[row + 1] - stage.times[row]) / stage.substeps);
+  };
+  State<D> state = detail::fit_start(begun, predictor, now, next, step_of(window.first));
+  const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
+  const double half = stage.times[window.first] + 0.5;
+  bool measured_reach = false;
+  Eigen::Matrix<double, n + 1, 1> line;
+  D spin_before = state.spin;
+  for (Eigen::Index row = window.first; row <= window.last; ++row) {
+    if (r.diabolo.valid[row]) {
+      // A catch that the prediction missed: what follows says nothing of the motion before it.
+      const Vector3<double> seen = r.diabolo.position.col(row);
+      if (state.string_state == StringState::kFlying &&
+          height_above_tips(seen, grid[static_cast<std::size_t>(k)].tips.left, grid[static_cast<std::size_t>(k)].tips.right) < -0.02)
+        break;
+      Vector3<double> shift = Vector3<double>::Zero();
+      Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();
+      bool known = true;
+      if (stage.has_orientation) {
+        known = r.diabolo_orientation.valid[row];
+        if (known)
+          frame = Eigen::Quaterniond(Eigen::Vector4d(r.diabolo_orientation.quaternion.col(row))).toRotationMatrix();
+        shift = frame * marker;
+      }
+      for (int c = 0; c < 3 && known; ++c) {
+        const double residual = r.diabolo.position(c, row) - state.position[c].value - shift[c];
+        line.head<n>() = state.position[c].gradient.matrix();
+        for (int j = 0; j < 3; ++j)
+          line[kStartUnknowns + index_of(Unknown::kMarkerX) + j] += frame(c, j) * kUnknownInfos[static_cast<std::size_t>(index_of(Unknown::kMarkerX) + j)].scale;
+        line[n] = residual;
+        system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line, 1.0 / (noise.position * noise.position));
+        system.position_square += residual * residual;
+        ++system.position_numbers;
+      }
+    }
+    if (row > window.first && stage.spin.valid[row - 1]) {
+      const D mean = (spin_before + state.spin) * D(0.5);
+      double residual = stage.spin.value[row - 1] - mean.value;
+      line.head<n>() = mean.gradient.matrix();
+      line[n] = residual;
+      system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line, 1.0 / (noise.spin * noise.spin));
+      system.spin_square += residual * residual;
+      ++system.spin_numbers;
+    }
+    if (!measured_reach && (row == window.last || stage.times[row] >= half)) {
+      measured_reach = true;
+      const double seconds = std::max(stage.times[row] - stage.times[window.first], 1e-3);
+      for (int u = 0; u < kUnknowns; ++u) {
+        double square = 0.0;
+        for (int c = 0; c < 3; ++c) square += std::pow(state.position[c].gradient[kStartUnknowns + u], 2);
+        // To the half second that sizes are stated for, as under a constant acceleration.
+        const double stretch = std::min(1.5, std::pow(0.5 / seconds, 2));
+        system.reach[u] = std::sqrt(square) * stretch;
+        system.spin_reach[u] = std::abs(state.spin.gradient[kStartUnknowns + u]) * std::min(1.5, 0.5 / seconds);
+      }
+    }
+    if (row == window.last) break;
+    spin_before = state.spin;
+    for (int s = 0; s < stage.substeps; ++s, ++k) {
+      next = tips_at(k + 1);
+      predictor.step(state, now, next, step_of(row));
+      now = next;
+    }
+    (state.string_state == StringState::kOnString ? system.taut : system.free) = true;
+    state.axis = stage.axis.col(row + 1).cast<D>();
+  }
+  system.numbers = system.position_numbers + system.spin_numbers;
+  system.spin = std::abs(state.spin.value);
+  system.failed = !system.normal.allFinite();
+  system.normal = WindowMatrix(system.normal.selfadjointView<Eigen::Lower>());
+  return system;
+}
+
+}  // namespace diabolo
