@@ -53,7 +53,7 @@ class Evidence {
     const std::vector<int> f = indices(free);
     const Eigen::MatrixXd inverse = precision(f, information_).inverse();
     const Eigen::MatrixXd spread = inverse * scatter(f, solve(free)) * inverse;
-    UnknownMatrix result = UnknownMatrix::Zero();
+    UnknownMatrix result = UnknownMatrix::Zero(kUnknowns, kUnknowns);
     for (std::size_t i = 0; i < f.size(); ++i)
       for (std::size_t j = 0; j < f.size(); ++j)
         result(f[i], f[j]) = spread(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
@@ -138,7 +138,7 @@ class Evidence {
   }
 
   UnknownVector prior_;
-  UnknownMatrix information_ = UnknownMatrix::Zero();
+  UnknownMatrix information_ = UnknownMatrix::Zero(kUnknowns, kUnknowns);
   UnknownVector slope_ = UnknownVector::Zero();
   double dispersion_ = 1.0;
   std::vector<Part> parts_;

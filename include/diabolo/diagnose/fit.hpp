@@ -14,6 +14,10 @@
 
 namespace diabolo {
 
+/// Windows whose residuals are so many times those of the middle one count less and less: a mistimed catch says
+/// nothing of the forces.
+inline constexpr double kFarWindow = 2.0;
+
 /// Which unknowns are free.
 using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
 
@@ -25,7 +29,7 @@ struct WindowScore {
   double weight = 1.0;        ///< less than 1 where the window lies far off all others
   int numbers = 0;
   Eigen::Matrix<double, kStartUnknowns, 1> start_step;                   ///< to the best start
-  Eigen::Matrix<double, kStartUnknowns, kUnknowns> start_by_unknowns;    ///< its change by the unknowns
+  Eigen::MatrixXd start_by_unknowns;     ///< its change by the unknowns
 };
 
 /// Takes the window's start out of its system.
@@ -35,13 +39,13 @@ inline WindowScore without_start(const WindowSystem& system) {
   Eigen::Matrix<double, s, s> start = m.topLeftCorner<s, s>();
   for (int i = 0; i < s; ++i) start(i, i) += 1.0 / (kStartPriors[i] * kStartPriors[i]);
   const Eigen::LDLT<Eigen::Matrix<double, s, s>> solver(start);
-  const Eigen::Matrix<double, s, n> cross = m.block<s, n>(0, s);
+  const Eigen::MatrixXd cross = m.block(0, s, s, n);
   const Eigen::Matrix<double, s, 1> slope = m.block<s, 1>(0, s + n);
   WindowScore result;
   result.start_by_unknowns = solver.solve(cross);
   result.start_step = solver.solve(slope);
-  result.information = m.block<n, n>(s, s) - cross.transpose() * result.start_by_unknowns;
-  result.score = m.block<n, 1>(s, s + n) - cross.transpose() * result.start_step;
+  result.information = m.block(s, s, n, n) - cross.transpose() * result.start_by_unknowns;
+  result.score = m.block(s, s + n, n, 1) - cross.transpose() * result.start_step;
   result.chi_square = std::max(0.0, m(s + n, s + n) - slope.dot(result.start_step));
   result.numbers = system.numbers;
   return result;
@@ -49,7 +53,8 @@ inline WindowScore without_start(const WindowSystem& system) {
 
 /// A model fitted to recordings, and what each window says around it.
 struct Fit {
-  UnknownVector at = UnknownVector::Zero();  ///< the unknowns, SI units
+  UnknownVector at = UnknownVector::Zero();      ///< the unknowns, SI units
+  UnknownVector centre = UnknownVector::Zero();  ///< what is expected of them
   ActiveSet active = ActiveSet::Constant(false);
   std::vector<Stage> stages;                 ///< with the fitted starts
   std::vector<CameraNoise> noise;            ///< of each stage
@@ -79,10 +84,10 @@ inline UnknownVector scales() {
 inline void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
   std::vector<std::pair<std::size_t, std::size_t>> jobs;
   std::vector<std::vector<StageTips>> grids;
-  std::vector<detail::FitPredictor> predictors;
+  std::vector<detail::FitModel> models;
   for (std::size_t s = 0; s < fit.stages.size(); ++s) {
     grids.push_back(stage_tips(fit.stages[s], fit.at));
-    predictors.push_back(detail::fit_predictor(base, fit.stages[s].recording, fit.at));
+    models.push_back(detail::fit_model(base, fit.stages[s].recording, fit.at));
     for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
   }
   fit.systems.resize(jobs.size());
@@ -90,7 +95,7 @@ inline void look(Fit& fit, const Model& base, int threads, const Watch& watch = 
   for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
     const auto [s, w] = jobs[i];
     const Stage& stage = fit.stages[s];
-    fit.systems[i] = window_system(stage, grids[s], stage.windows[w], predictors[s], fit.at, fit.noise[s]);
+    fit.systems[i] = window_system(stage, grids[s], stage.windows[w], models[s], fit.at, fit.noise[s]);
     fit.scores[i] = without_start(fit.systems[i]);
   });
   std::vector<double> sizes;
@@ -102,14 +107,12 @@ inline void look(Fit& fit, const Model& base, int threads, const Watch& watch = 
   fit.cost = 0.0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     WindowScore& score = fit.scores[i];
-    const double off = sizes[i] / std::max(2.5 * usual, 1e-12);
-    score.weight = fit.systems[i].failed ? 0.0 : off > 1.0 ? 1.0 / (off * off) : 1.0;
-    // Beyond 2.5 times the usual size a window counts as its square root would: Huber's rule on windows.
-    fit.cost += fit.systems[i].failed ? 0.0
-                : off > 1.0           ? score.chi_square * (2.0 * off - 1.0) / (off * off)
-                                      : score.chi_square;
+    const double off = sizes[i] / std::max(kFarWindow * usual, 1e-12), square = off * off;
+    score.weight = fit.systems[i].failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
+    if (!fit.systems[i].failed)
+      fit.cost += off > 1.0 ? score.chi_square / square * (2.0 - 1.0 / square) : score.chi_square;
   }
-  const UnknownVector prior = prior_precision(), scaled = fit.at.cwiseQuotient(scales());
+  const UnknownVector prior = prior_precision(), scaled = (fit.at - fit.centre).cwiseQuotient(scales());
   fit.cost += scaled.dot(prior.cwiseProduct(scaled));
 }
 
@@ -145,7 +148,7 @@ inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
   Normal normal;
   for (int u = 0; u < kUnknowns; ++u)
     if (active[u]) normal.free.push_back(u);
-  UnknownMatrix information = UnknownMatrix::Zero();
+  UnknownMatrix information = UnknownMatrix::Zero(kUnknowns, kUnknowns);
   UnknownVector score = UnknownVector::Zero();
   for (const WindowScore& window : fit.scores) {
     information += window.weight * window.information;
@@ -153,7 +156,7 @@ inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
   }
   const UnknownVector prior = prior_precision();
   information.diagonal() += prior;
-  score -= prior.cwiseProduct(fit.at.cwiseQuotient(scales()));
+  score -= prior.cwiseProduct((fit.at - fit.centre).cwiseQuotient(scales()));
   normal.information = information(normal.free, normal.free);
   normal.score = score(normal.free);
   normal.information.diagonal().array() += 1e-9 * (1.0 + normal.information.diagonal().array());

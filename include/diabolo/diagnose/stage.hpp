@@ -174,7 +174,7 @@ inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));
   std::vector<StageTips> result(static_cast<std::size_t>((rows - 1) * stage.substeps + 1));
-  std::size_t hint = 0;
+  std::size_t hint = 0, hint_before = 0, hint_after = 0;
   for (Eigen::Index i = 0, k = 0; i < rows; ++i)
     for (int s = 0; s < (i + 1 < rows ? stage.substeps : 1); ++s, ++k) {
       StageTips& out = result[static_cast<std::size_t>(k)];
@@ -183,7 +183,8 @@ inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector
       const double gap = std::max(stage.times[next] - stage.times[i], 1e-6);
       const double time = stage.times[i] + fraction * gap + offset, h = 5e-4;
       out.tips = stage.motion->at(time, hint);
-      const Tips<double> before = stage.motion->at(time - h), after = stage.motion->at(time + h);
+      const Tips<double> before = stage.motion->at(time - h, hint_before),
+                         after = stage.motion->at(time + h, hint_after);
       out.left_acceleration = (after.left_velocity - before.left_velocity) / (2.0 * h);
       out.right_acceleration = (after.right_velocity - before.right_velocity) / (2.0 * h);
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(next);

@@ -21,9 +21,12 @@ inline constexpr double kStartScales[kStartUnknowns] = {0.01, 0.01, 0.01, 0.1, 0
 /// Standard deviation of a start about its first guess, in its scales; far wider than a camera's.
 inline constexpr double kStartPriors[kStartUnknowns] = {5.0, 5.0, 5.0, 50.0, 50.0, 50.0, 300.0};
 
+/// Of the string on the diabolo [m/s^2]: beyond, it is the jerk of a string that came taut.
+inline constexpr double kHardestPull = 60.0;
+
 /// Columns: start, unknowns, residual.
 inline constexpr int kWindowColumns = kStartUnknowns + kUnknowns + 1;
-using WindowMatrix = Eigen::Matrix<double, kWindowColumns, kWindowColumns>;
+using WindowMatrix = Eigen::MatrixXd;  ///< kWindowColumns x kWindowColumns
 
 /// Standard deviations of what a camera reports.
 struct CameraNoise {
@@ -33,7 +36,7 @@ struct CameraNoise {
 
 /// What one window says, in the scales of kUnknownInfos and kStartScales.
 struct WindowSystem {
-  WindowMatrix normal = WindowMatrix::Zero();  ///< [J r]^T [J r], whitened; r = recorded - predicted
+  WindowMatrix normal = WindowMatrix::Zero(kWindowColumns, kWindowColumns);  ///< [J r]^T [J r], whitened; r = recorded - predicted
   int numbers = 0;                             ///< residuals in it
   double position_square = 0.0, spin_square = 0.0;  ///< sums of squared residuals [m^2], [rad^2/s^2]
   int position_numbers = 0, spin_numbers = 0;
@@ -64,11 +67,21 @@ inline FitDual unknown(Unknown u, const UnknownVector& at) {
   return result;
 }
 
+/// Softer than this [m/N] the string's own oscillation is slow enough for the step of a diagnosis; a stiffer
+/// one follows its tension at once (see string_shift), and only its mean stretch can be seen.
+inline constexpr double kSoftString = 1.5e-3;
+inline bool dynamic_spring(const UnknownVector& at) { return at[index_of(Unknown::kCompliance)] > kSoftString; }
+
 using FitPredictor = Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
                                GravityTilt, LatentForce>;
 
 /// The base with everything that may be missing, which carries its derivatives.
-inline FitPredictor fit_predictor(const Model& base, const Recording& recording, const UnknownVector& at) {
+struct FitModel {
+  Parameters<FitDual> parameters;
+  FitPredictor::Set effects;
+};
+
+inline FitModel fit_model(const Model& base, const Recording& recording, const UnknownVector& at) {
   using D = FitDual;
   const auto x = [&](Unknown u) { return unknown(u, at); };
   const Parameters<double> given = parameters_for(base, recording);
@@ -88,9 +101,11 @@ inline FitPredictor fit_predictor(const Model& base, const Recording& recording,
   auto& tilt = effects.get<GravityTilt>();
   tilt.x += x(Unknown::kTiltX);
   tilt.y += x(Unknown::kTiltY);
-  auto& elasticity = effects.get<StringElasticity>();
-  elasticity.compliance_per_newton += x(Unknown::kCompliance) * scale;
-  elasticity.damping += x(Unknown::kDamping);
+  if (dynamic_spring(at)) {
+    auto& elasticity = effects.get<StringElasticity>();
+    elasticity.compliance_per_newton += x(Unknown::kCompliance) * scale;
+    elasticity.damping += x(Unknown::kDamping);
+  }
   effects.get<StringFriction>().coefficient += x(Unknown::kFriction);
   auto& air = effects.get<Air>();
   air.linear_drag += x(Unknown::kLinearDrag);
@@ -109,7 +124,7 @@ inline FitPredictor fit_predictor(const Model& base, const Recording& recording,
   latent.flight_lift = x(Unknown::kFlightLift);
   latent.spin_string = x(Unknown::kSpinString);
   latent.spin_free = x(Unknown::kSpinFree);
-  return FitPredictor(p, effects, FitPredictor::AlreadyValid{});
+  return {p, effects};
 }
 
 /// The tips with their derivatives by time offset and tip offsets.
@@ -132,6 +147,51 @@ inline Tips<FitDual> fit_tips(const StageTips& s) {
   tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_frame_rate, Unknown::kLeftX);
   tips.right_velocity = with(s.tips.right_velocity, s.right_acceleration, s.right_frame_rate, Unknown::kRightX);
   return tips;
+}
+
+/// Angle over which the string lies around the axle, for a thin one.
+template <class Scalar>
+Scalar contact_angle(const StringPath<Scalar>& path) {
+  using std::atan2;
+  const Vector3<Scalar> left = path.from_left * Scalar(Scalar(1) / path.left_length),
+                        right = path.from_right * Scalar(Scalar(1) / path.right_length);
+  return Scalar(2) * atan2(norm<Scalar>(left + right), Scalar(norm<Scalar>(left - right) + Scalar(1e-9)));
+}
+
+/// Means over a window: contact angle, and tension over mass as if at rest. The model's string is as much
+/// shorter and longer as these make it; string_shift() is about what varies.
+struct UsualString {
+  double wrap = 0.0, pull = 0.0;
+};
+
+inline UsualString usual_string(const Recording& r, const FitWindow& window) {
+  UsualString usual;
+  int rows = 0;
+  for (Eigen::Index i = window.first; i <= window.last; ++i) {
+    if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
+    Tips<double> tips;
+    tips.left = r.left.position.col(i);
+    tips.right = r.right.position.col(i);
+    const StringPath<double> path(r.diabolo.position.col(i), tips);
+    usual.wrap += contact_angle(path);
+    usual.pull += kStandardGravity / std::max(0.2, path.gradient().norm());
+    ++rows;
+  }
+  if (rows > 0) usual.wrap /= rows, usual.pull /= rows;
+  return usual;
+}
+
+/// How far the taut string of a real axle and a stiff spring leaves the diabolo from where a point on a rigid
+/// string would be: the path over the tips is shorter by what lies around the axle, longer by the stretch.
+inline Vector3<FitDual> string_shift(const State<FitDual>& state, const Tips<FitDual>& tips, const FitDual& radius,
+                                     const FitDual& stretch_per_acceleration, const UsualString& usual) {
+  using D = FitDual;
+  const StringPath<D> path(state.position, tips);
+  const Vector3<D> gradient = path.gradient();
+  const D square = squared_norm(gradient) + D(1e-3);
+  const D pull = norm(state.string_acceleration) / sqrt(square) - D(usual.pull);
+  const D longer = stretch_per_acceleration * pull - radius * D(contact_angle(path) - D(usual.wrap));
+  return gradient * D(longer / square);
 }
 
 /// Moves a start ON_STRING to where the taut string allows it: path length and its rate.
@@ -181,12 +241,19 @@ inline State<FitDual> fit_start(const FitWindow& window, const FitPredictor& pre
 
 /// Predicts a window and compares it with the recording, with derivatives by its start and all unknowns.
 inline WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid,
-                                  const FitWindow& window, const detail::FitPredictor& predictor,
+                                  const FitWindow& window, const detail::FitModel& model,
                                   const UnknownVector& at, const CameraNoise& noise) {
   using D = detail::FitDual;
   constexpr int n = kStartUnknowns + kUnknowns;
   const Recording& r = stage.recording;
   WindowSystem system;
+  const detail::UsualString usual = detail::usual_string(r, window);
+  const D radius = detail::unknown(Unknown::kAxleRadius, at);
+  const D stretch =
+      detail::dynamic_spring(at) ? D(0.0) : D(detail::unknown(Unknown::kCompliance, at) * model.parameters.mass);
+  Parameters<D> parameters = model.parameters;
+  parameters.string_length = parameters.string_length + stretch * D(usual.pull) - radius * D(usual.wrap);
+  const detail::FitPredictor predictor(parameters, model.effects, detail::FitPredictor::AlreadyValid{});
   FitWindow begun = window;
   begun.start.axis = stage.axis.col(window.first);
   const auto tips_at = [&](Eigen::Index k) { return detail::fit_tips(grid[static_cast<std::size_t>(k)]); };
@@ -199,7 +266,7 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
   const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
   const double half = stage.times[window.first] + 0.5;
   bool measured_reach = false;
-  Eigen::Matrix<double, n + 1, 1> line;
+  Eigen::VectorXd line(n + 1);
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
     if (r.diabolo.valid[row]) {
@@ -217,9 +284,13 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
           frame = Eigen::Quaterniond(Eigen::Vector4d(r.diabolo_orientation.quaternion.col(row))).toRotationMatrix();
         shift = frame * marker;
       }
+      Vector3<D> centre = state.position;
+      const double pull = value_of(squared_norm(state.string_acceleration));
+      if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
+        centre = centre + detail::string_shift(state, now, radius, stretch, usual);
       for (int c = 0; c < 3 && known; ++c) {
-        const double residual = r.diabolo.position(c, row) - state.position[c].value - shift[c];
-        line.head<n>() = state.position[c].gradient.matrix();
+        const double residual = r.diabolo.position(c, row) - centre[c].value - shift[c];
+        line.head(n) = centre[c].gradient.matrix();
         for (int j = 0; j < 3; ++j)
           line[kStartUnknowns + index_of(Unknown::kMarkerX) + j] += frame(c, j) * kUnknownInfos[static_cast<std::size_t>(index_of(Unknown::kMarkerX) + j)].scale;
         line[n] = residual;
@@ -231,7 +302,7 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
     if (row > window.first && stage.spin.valid[row - 1]) {
       const D mean = (spin_before + state.spin) * D(0.5);
       double residual = stage.spin.value[row - 1] - mean.value;
-      line.head<n>() = mean.gradient.matrix();
+      line.head(n) = mean.gradient.matrix();
       line[n] = residual;
       system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line, 1.0 / (noise.spin * noise.spin));
       system.spin_square += residual * residual;
