@@ -35,10 +35,10 @@ template <class Scalar>
 struct TipOffset : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "tip_offset";
   Scalar height{0};  ///< of both real tips above the given ones [m]
-  Tips<Scalar> tips(Tips<Scalar> given) const {
-    given.left.z() += height;
-    given.right.z() += height;
-    return given;
+  TipShift<Scalar> tip_shift(const State<Scalar>&, const Tips<Scalar>&) const {
+    TipShift<Scalar> shift;
+    shift.left[2] = shift.right[2] = height;
+    return shift;
   }
   template <class Self, class Visitor>
   static void for_each(Self& self, Visitor&& visit) {

@@ -51,19 +51,28 @@ class Predictor {
   StepStatus<Scalar> step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                           const Scalar& dt) const {
     assert(all(dt > Scalar(0)));
-    if constexpr (!Set::kChangesTips)
-      return dispatch(state, begin, end, dt);
-    else
-      return dispatch(state, effects_.tips(begin), effects_.tips(end), dt);
+    if constexpr (Set::kChangesTips)
+      if (effects_.moves_tips()) return step_with_shifted_tips(state, begin, end, dt);
+    return dispatch(state, begin, end, dt, length_);
   }
 
  private:
+  [[gnu::noinline]] StepStatus<Scalar> step_with_shifted_tips(State<Scalar>& state, Tips<Scalar> begin,
+                                                              Tips<Scalar> end, const Scalar& dt) const {
+    const TipShift<Scalar> shift = effects_.tip_shift(state, begin);
+    begin.left += shift.left;
+    begin.right += shift.right;
+    end.left += shift.left;
+    end.right += shift.right;
+    return dispatch(state, begin, end, dt, length_ - effects_.bound_length(state, begin));
+  }
+
   StepStatus<Scalar> dispatch(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
-                              const Scalar& dt) const {
-    if (parameters_.string_law != StringLaw::kInextensible) return pull_step(state, begin, end, dt);
+                              const Scalar& dt, const Scalar& length) const {
+    if (parameters_.string_law != StringLaw::kInextensible) return pull_step(state, begin, end, dt, length);
     if constexpr (ScalarTraits<Scalar>::kLanes == 1)
-      if (usual_string_step(state, begin, end, dt)) return {};
-    return string_step(state, begin, end, dt);
+      if (usual_string_step(state, begin, end, dt, length)) return {};
+    return string_step(state, begin, end, dt, length);
   }
 
   /// Time that the per-step factors stand for.
@@ -74,12 +83,13 @@ class Predictor {
   /// string_step() in fewer instructions, bit for bit, while the string stays taut. False where it may not;
   /// then the state is as it was.
   bool usual_string_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
-                         const Scalar& dt) const {
-    if (state.string_state != StringState::kOnString || plane_.active || overstretched(end)) return false;
+                         const Scalar& dt, const Scalar& length) const {
+    if (state.string_state != StringState::kOnString || plane_.active || overstretched(end, length))
+      return false;
     const PlaneProjector<Scalar> no_plane;
     const Vector3<Scalar> outer = effects_.acceleration(state, begin, parameters_);
     const StringStep<Scalar> step{
-        state.position, state.velocity, outer,   begin, end, dt, length_, state.string_acceleration,
+        state.position, state.velocity, outer,   begin, end, dt, length, state.string_acceleration,
         compliance_,    damping_time_,  no_plane};
     StringStepResult<Scalar> result;
     if (!(elastic() ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
@@ -90,12 +100,13 @@ class Predictor {
 
   /// Ours: a massless string that pulls along the bisector of its two segments.
   [[gnu::noinline]] StepStatus<Scalar> string_step(State<Scalar>& state, const Tips<Scalar>& begin,
-                                                   const Tips<Scalar>& end, const Scalar& dt) const {
+                                                   const Tips<Scalar>& end, const Scalar& dt,
+                                                   const Scalar& length) const {
     StepStatus<Scalar> status;
     const Vector3<Scalar> velocity = plane_(state.velocity);
     const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, parameters_));
     const StringStep<Scalar> step{
-        state.position, velocity,      outer, begin, end, dt, length_, state.string_acceleration,
+        state.position, velocity,      outer, begin, end, dt, length, state.string_acceleration,
         compliance_,    damping_time_, plane_};
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
     const StringStepResult<Scalar> result =
@@ -106,7 +117,7 @@ class Predictor {
       state.string_state = slack_string_state(state.string_state, state.position, result.slack,
                                               result.gradient_squared, end.left, end.right, parameters_);
     status.snapped_taut = result.snapped_taut;
-    const Mask<Scalar> straight = overstretched(end);
+    const Mask<Scalar> straight = overstretched(end, length);
     if (any(straight)) status.overstretched = hold(state, end, dt, captured && straight);
     return status;
   }
@@ -132,14 +143,14 @@ class Predictor {
     assign_where(result.taut, state.string_state, StringState::kOnString);
   }
 
-  Mask<Scalar> overstretched(const Tips<Scalar>& tips) const {
-    return squared_norm<Scalar>(tips.left - tips.right) >= length_ * length_;
+  static Mask<Scalar> overstretched(const Tips<Scalar>& tips, const Scalar& length) {
+    return squared_norm<Scalar>(tips.left - tips.right) >= length * length;
   }
 
   /// The paper's and the published program's: back onto the spheroid, and a capped part of the way as
   /// velocity.
   StepStatus<Scalar> pull_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
-                               const Scalar& dt) const {
+                               const Scalar& dt, const Scalar& length) const {
     const Parameters<Scalar>& p = parameters_;
     StepStatus<Scalar> status;
     const Scalar length_change =
@@ -155,7 +166,7 @@ class Predictor {
     if (p.integrator == Integrator::kParabolic) position += a * (Scalar(0.5) * dt * dt);
     velocity += a * dt;
 
-    const Spheroid<Scalar> before(begin.left, begin.right, length_), after(end.left, end.right, length_);
+    const Spheroid<Scalar> before(begin.left, begin.right, length), after(end.left, end.right, length);
     const bool published = p.flight_rule == FlightRule::kPublished;
     state.string_state = published ? published_string_state(state.string_state, position, after, p)
                                    : paper_string_state(state.string_state, position, after, p);
@@ -165,7 +176,7 @@ class Predictor {
     if (any(held)) {
       const Vector3<Scalar> target =
           plane_.on(from, p.projection == Projection::kRadial ? after.radial_point(position)
-                                                             : after.closest_point(position));
+                                                              : after.closest_point(position));
       const Vector3<Scalar> gradient = after.path_gradient(target);
       const Scalar give =
           compliance_ / (compliance_ + Scalar(0.5) * dt * dt * squared_norm(gradient) + tiny<Scalar>());
@@ -174,7 +185,7 @@ class Predictor {
       const Vector3<Scalar> facing = normal_at(after, position);
       const Vector3<Scalar> cap = facing * Scalar(-p.cap_scale * pull_cap(before, after, facing, dt));
       Vector3<Scalar> pull = capped_pull<Scalar>(put - position, normal, cap, dt, p.pull_scale);
-      const Mask<Scalar> thin = after.tip_distance() >= length_ - p.thin_slack;
+      const Mask<Scalar> thin = after.tip_distance() >= length - p.thin_slack;
       pull = select<Scalar>(thin,
                             p.thin_rule == ThinRule::kPublished
                                 ? pull_in_vertical_plane<Scalar>(pull, end.left, end.right)
@@ -263,15 +274,16 @@ class Predictor {
     }
     const Tips<Scalar> there = step.tips_at(high);
     const Vector3<Scalar> crossing = step.free_position(high * step.dt);
-    const Spheroid<Scalar> spheroid(there.left, there.right, length_);
+    const Spheroid<Scalar> spheroid(there.left, there.right, step.string_length);
     caught = falls && taut_catch(crossing, spheroid, parameters_) && spheroid.contains(crossing);
     const Scalar fraction = select(caught, minimum(high, Scalar(1.0 - 1e-6)), Scalar(0));
     const Scalar t = fraction * step.dt;
     const Tips<Scalar> tips = step.tips_at(fraction);
     const Vector3<Scalar> position = step.free_position(t), velocity = step.free_velocity(t);
-    const StringStep<Scalar> rest{position,    velocity, step.acceleration,        tips,        step.end,
-                                  step.dt - t, length_,  step.string_acceleration, compliance_, damping_time_,
-                                  plane_};
+    const StringStep<Scalar> rest{
+        position,    velocity,           step.acceleration,        tips,        step.end,
+        step.dt - t, step.string_length, step.string_acceleration, compliance_, damping_time_,
+        plane_};
     assign_where(caught, state.string_state, StringState::kLoose);
     StringStepResult<Scalar> result = advance(rest, !is(state.string_state, StringState::kFlying));
     result.string_acceleration = result.string_acceleration * Scalar(rest.dt / step.dt);

@@ -30,6 +30,15 @@ struct StringPath {
   /// Right strand minus left strand [m]; half its change is the string that has passed the axle.
   Scalar imbalance() const { return right_length - left_length; }
 
+  /// Angle over which the string lies around a thin axle: pi where both strands hang together, 0 where they
+  /// are one straight line.
+  friend Scalar contact_angle(const StringPath& path) {
+    using std::atan2;
+    const Vector3<Scalar> left = path.from_left * Scalar(Scalar(1) / path.left_length),
+                          right = path.from_right * Scalar(Scalar(1) / path.right_length);
+    return Scalar(2) * atan2(norm<Scalar>(left + right), Scalar(norm<Scalar>(left - right) + tiny<Scalar>()));
+  }
+
   /// Derivative of the length with respect to the diabolo's position.
   [[gnu::always_inline]] inline Vector3<Scalar> gradient() const {
     return from_left * Scalar(Scalar(1) / left_length) + from_right * Scalar(Scalar(1) / right_length);

@@ -14,9 +14,9 @@ namespace diabolo {
 enum class Unknown : int {
   kTiltX,  ///< of gravity in the recording's frame [rad]
   kTiltY,
-  kLengthScale,   ///< recorded / true length, less 1
-  kTimeOffset,    ///< the recorded diabolo is ahead of the sticks [s]
-  kMarkerX,       ///< recorded centre less true centre in the diabolo's body, x along the axle [m]
+  kLengthScale,  ///< recorded / true length, less 1
+  kTimeOffset,   ///< the recorded diabolo is ahead of the sticks [s]
+  kMarkerX,      ///< recorded centre less true centre in the diabolo's body, x along the axle [m]
   kMarkerY,
   kMarkerZ,
   kLeftX,  ///< recorded less true left tip, in the stick's frame or, without one, the world's [m]
@@ -25,20 +25,20 @@ enum class Unknown : int {
   kRightX,
   kRightY,
   kRightZ,
-  kStringLength,  ///< true less given [m]
-  kSpinCoupling,  ///< of the string to the spin, less the base's [1/s]
-  kAxleRadius,    ///< that the string runs around, less nothing: the base knows a point [m]
-  kGravity,       ///< magnitude, less the base's [m/s^2]
-  kCompliance,    ///< of the string [m/N]
-  kDamping,       ///< of the string [N s/m]; counts where there is compliance
-  kFriction,      ///< capstan coefficient
-  kLinearDrag,    ///< [1/s]
-  kQuadraticDrag, ///< [1/m]
-  kWindX,         ///< [m/s]; counts where there is drag
+  kStringLength,   ///< true less given [m]
+  kSpinCoupling,   ///< of the string to the spin, less the base's [1/s]
+  kAxleRadius,     ///< that the string runs around, beyond the base's [m]
+  kGravity,        ///< magnitude, less the base's [m/s^2]
+  kCompliance,     ///< of the string [m/N]
+  kDamping,        ///< of the string [N s/m]; counts where there is compliance
+  kFriction,       ///< capstan coefficient
+  kLinearDrag,     ///< [1/s]
+  kQuadraticDrag,  ///< [1/m]
+  kWindX,          ///< [m/s]; counts where there is drag
   kWindY,
-  kLift,          ///< Magnus [1/rad]
-  kSpinAir,       ///< [1/rad]
-  kSpinAxle,      ///< [rad/s^2]
+  kLift,      ///< Magnus [1/rad]
+  kSpinAir,   ///< [1/rad]
+  kSpinAxle,  ///< [rad/s^2]
   // Latent accelerations: what is left, wherever it comes from [m/s^2], [rad/s^2].
   kStringTangent,
   kStringBinormal,

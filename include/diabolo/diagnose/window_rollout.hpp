@@ -36,8 +36,9 @@ struct CameraNoise {
 
 /// What one window says, in the scales of kUnknownInfos and kStartScales.
 struct WindowSystem {
-  WindowMatrix normal = WindowMatrix::Zero(kWindowColumns, kWindowColumns);  ///< [J r]^T [J r], whitened; r = recorded - predicted
-  int numbers = 0;                             ///< residuals in it
+  WindowMatrix normal = WindowMatrix::Zero(
+      kWindowColumns, kWindowColumns);              ///< [J r]^T [J r], whitened; r = recorded - predicted
+  int numbers = 0;                                  ///< residuals in it
   double position_square = 0.0, spin_square = 0.0;  ///< sums of squared residuals [m^2], [rad^2/s^2]
   int position_numbers = 0, spin_numbers = 0;
   UnknownVector reach = UnknownVector::Zero();       ///< displacement at the window's end per unknown [m]
@@ -70,10 +71,12 @@ inline FitDual unknown(Unknown u, const UnknownVector& at) {
 /// Softer than this [m/N] the string's own oscillation is slow enough for the step of a diagnosis; a stiffer
 /// one follows its tension at once (see string_shift), and only its mean stretch can be seen.
 inline constexpr double kSoftString = 1.5e-3;
-inline bool dynamic_spring(const UnknownVector& at) { return at[index_of(Unknown::kCompliance)] > kSoftString; }
+inline bool dynamic_spring(const UnknownVector& at) {
+  return at[index_of(Unknown::kCompliance)] > kSoftString;
+}
 
 using FitPredictor = Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                               GravityTilt, LatentForce>;
+                               GravityTilt, FiniteAxle, LatentForce>;
 
 /// The base with everything that may be missing, which carries its derivatives.
 struct FitModel {
@@ -116,6 +119,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   auto& loss = effects.get<SpinLoss>();
   loss.air += x(Unknown::kSpinAir);
   loss.axle += x(Unknown::kSpinAxle);
+  effects.get<FiniteAxle>().radius += x(Unknown::kAxleRadius) * scale;
   auto& latent = effects.get<LatentForce>();
   latent.string_tangent = x(Unknown::kStringTangent);
   latent.string_binormal = x(Unknown::kStringBinormal);
@@ -135,7 +139,8 @@ inline Tips<FitDual> fit_tips(const StageTips& s) {
     for (int k = 0; k < 3; ++k) {
       result[k] = FitDual(value[k]);
       auto& slope = result[k].gradient;
-      slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] = by_time[k] * info_of(Unknown::kTimeOffset).scale;
+      slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] =
+          by_time[k] * info_of(Unknown::kTimeOffset).scale;
       for (int j = 0; j < 3; ++j)
         slope[kStartUnknowns + index_of(first) + j] = -by_offset(k, j) * info_of(first).scale;
     }
@@ -145,63 +150,51 @@ inline Tips<FitDual> fit_tips(const StageTips& s) {
   tips.left = with(s.tips.left, s.tips.left_velocity, s.left_frame, Unknown::kLeftX);
   tips.right = with(s.tips.right, s.tips.right_velocity, s.right_frame, Unknown::kRightX);
   tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_frame_rate, Unknown::kLeftX);
-  tips.right_velocity = with(s.tips.right_velocity, s.right_acceleration, s.right_frame_rate, Unknown::kRightX);
+  tips.right_velocity =
+      with(s.tips.right_velocity, s.right_acceleration, s.right_frame_rate, Unknown::kRightX);
   return tips;
 }
 
-/// Angle over which the string lies around the axle, for a thin one.
-template <class Scalar>
-Scalar contact_angle(const StringPath<Scalar>& path) {
-  using std::atan2;
-  const Vector3<Scalar> left = path.from_left * Scalar(Scalar(1) / path.left_length),
-                        right = path.from_right * Scalar(Scalar(1) / path.right_length);
-  return Scalar(2) * atan2(norm<Scalar>(left + right), Scalar(norm<Scalar>(left - right) + Scalar(1e-9)));
-}
-
-/// Means over a window: contact angle, and tension over mass as if at rest. The model's string is as much
-/// shorter and longer as these make it; string_shift() is about what varies.
-struct UsualString {
-  double wrap = 0.0, pull = 0.0;
-};
-
-inline UsualString usual_string(const Recording& r, const FitWindow& window) {
-  UsualString usual;
+/// Tension over mass as if at rest, the mean over a window [m/s^2]. The model's string is as much longer as
+/// this stretches it; string_shift() is about what varies.
+inline double usual_pull(const Recording& r, const FitWindow& window) {
+  double sum = 0.0;
   int rows = 0;
   for (Eigen::Index i = window.first; i <= window.last; ++i) {
     if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
     Tips<double> tips;
     tips.left = r.left.position.col(i);
     tips.right = r.right.position.col(i);
-    const StringPath<double> path(r.diabolo.position.col(i), tips);
-    usual.wrap += contact_angle(path);
-    usual.pull += kStandardGravity / std::max(0.2, path.gradient().norm());
+    sum += kStandardGravity /
+           std::max(0.2, StringPath<double>(r.diabolo.position.col(i), tips).gradient().norm());
     ++rows;
   }
-  if (rows > 0) usual.wrap /= rows, usual.pull /= rows;
-  return usual;
+  return rows > 0 ? sum / rows : 0.0;
 }
 
-/// How far the taut string of a real axle and a stiff spring leaves the diabolo from where a point on a rigid
-/// string would be: the path over the tips is shorter by what lies around the axle, longer by the stretch.
-inline Vector3<FitDual> string_shift(const State<FitDual>& state, const Tips<FitDual>& tips, const FitDual& radius,
-                                     const FitDual& stretch_per_acceleration, const UsualString& usual) {
+/// How far a string with a stiff spring leaves the diabolo from where a rigid one of its usual length would.
+inline Vector3<FitDual> string_shift(const State<FitDual>& state, const Tips<FitDual>& tips,
+                                     const FitDual& stretch_per_acceleration, double usual) {
   using D = FitDual;
   const StringPath<D> path(state.position, tips);
   const Vector3<D> gradient = path.gradient();
   const D square = squared_norm(gradient) + D(1e-3);
-  const D pull = norm(state.string_acceleration) / sqrt(square) - D(usual.pull);
-  const D longer = stretch_per_acceleration * pull - radius * D(contact_angle(path) - D(usual.wrap));
-  return gradient * D(longer / square);
+  const D pull = norm(state.string_acceleration) / sqrt(square) - D(usual);
+  return gradient * D(stretch_per_acceleration * pull / square);
 }
 
 /// Moves a start ON_STRING to where the taut string allows it: path length and its rate.
 template <class D>
-void place_on_string(State<D>& state, const Tips<D>& tips, const D& length) {
+void place_on_string(State<D>& state, Tips<D> tips, D length, const FitPredictor::Set& effects) {
+  const TipShift<D> shift = effects.tip_shift(state, tips);
+  tips.left += shift.left;
+  tips.right += shift.right;
+  length = length - effects.bound_length(state, tips);
   for (int i = 0; i < 3; ++i) {
     const StringPath<D> path(state.position, tips);
     const Vector3<D> gradient = path.gradient();
-    state.position = state.position -
-                     gradient * D((path.length() - length) / (squared_norm(gradient) + D(1e-6)));
+    state.position =
+        state.position - gradient * D((path.length() - length) / (squared_norm(gradient) + D(1e-6)));
   }
   const StringPath<D> path(state.position, tips);
   const Vector3<D> gradient = path.gradient();
@@ -226,14 +219,17 @@ inline State<FitDual> fit_start(const FitWindow& window, const FitPredictor& pre
   const D& length = predictor.parameters().string_length;
   const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);
   if (state.string_state != StringState::kOnString || !room) return state;
-  place_on_string(state, tips, length);
+  place_on_string(state, tips, length, predictor.effects());
   const auto& elasticity = predictor.effects().template get<StringElasticity>();
   if (elasticity.neutral() || predictor.parameters().string_law != StringLaw::kInextensible) return state;
   // At rest relative to its spring: longer by what the tension of the first step stretches it.
   State<D> trial = state;
   predictor.step(trial, tips, next, dt);
-  const D pull = norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
-  place_on_string(state, tips, D(length + elasticity.compliance_per_newton * predictor.parameters().mass * pull));
+  const D pull =
+      norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
+  place_on_string(state, tips,
+                  D(length + elasticity.compliance_per_newton * predictor.parameters().mass * pull),
+                  predictor.effects());
   return state;
 }
 
@@ -247,12 +243,12 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
   constexpr int n = kStartUnknowns + kUnknowns;
   const Recording& r = stage.recording;
   WindowSystem system;
-  const detail::UsualString usual = detail::usual_string(r, window);
-  const D radius = detail::unknown(Unknown::kAxleRadius, at);
-  const D stretch =
-      detail::dynamic_spring(at) ? D(0.0) : D(detail::unknown(Unknown::kCompliance, at) * model.parameters.mass);
+  const double usual = detail::usual_pull(r, window);
+  const D stretch = detail::dynamic_spring(at)
+                        ? D(0.0)
+                        : D(detail::unknown(Unknown::kCompliance, at) * model.parameters.mass);
   Parameters<D> parameters = model.parameters;
-  parameters.string_length = parameters.string_length + stretch * D(usual.pull) - radius * D(usual.wrap);
+  parameters.string_length = parameters.string_length + stretch * D(usual);
   const detail::FitPredictor predictor(parameters, model.effects, detail::FitPredictor::AlreadyValid{});
   FitWindow begun = window;
   begun.start.axis = stage.axis.col(window.first);
@@ -273,7 +269,8 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
       // A catch that the prediction missed: what follows says nothing of the motion before it.
       const Vector3<double> seen = r.diabolo.position.col(row);
       if (state.string_state == StringState::kFlying &&
-          height_above_tips(seen, grid[static_cast<std::size_t>(k)].tips.left, grid[static_cast<std::size_t>(k)].tips.right) < -0.02)
+          height_above_tips(seen, grid[static_cast<std::size_t>(k)].tips.left,
+                            grid[static_cast<std::size_t>(k)].tips.right) < -0.02)
         break;
       Vector3<double> shift = Vector3<double>::Zero();
       Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();
@@ -281,20 +278,23 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
       if (stage.has_orientation) {
         known = r.diabolo_orientation.valid[row];
         if (known)
-          frame = Eigen::Quaterniond(Eigen::Vector4d(r.diabolo_orientation.quaternion.col(row))).toRotationMatrix();
+          frame = Eigen::Quaterniond(Eigen::Vector4d(r.diabolo_orientation.quaternion.col(row)))
+                      .toRotationMatrix();
         shift = frame * marker;
       }
       Vector3<D> centre = state.position;
       const double pull = value_of(squared_norm(state.string_acceleration));
       if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
-        centre = centre + detail::string_shift(state, now, radius, stretch, usual);
+        centre = centre + detail::string_shift(state, now, stretch, usual);
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = r.diabolo.position(c, row) - centre[c].value - shift[c];
         line.head(n) = centre[c].gradient.matrix();
         for (int j = 0; j < 3; ++j)
-          line[kStartUnknowns + index_of(Unknown::kMarkerX) + j] += frame(c, j) * kUnknownInfos[static_cast<std::size_t>(index_of(Unknown::kMarkerX) + j)].scale;
+          line[kStartUnknowns + index_of(Unknown::kMarkerX) + j] +=
+              frame(c, j) * kUnknownInfos[static_cast<std::size_t>(index_of(Unknown::kMarkerX) + j)].scale;
         line[n] = residual;
-        system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line, 1.0 / (noise.position * noise.position));
+        system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line,
+                                                                 1.0 / (noise.position * noise.position));
         system.position_square += residual * residual;
         ++system.position_numbers;
       }
@@ -317,7 +317,8 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
         // To the half second that sizes are stated for, as under a constant acceleration.
         const double stretch = std::min(1.5, std::pow(0.5 / seconds, 2));
         system.reach[u] = std::sqrt(square) * stretch;
-        system.spin_reach[u] = std::abs(state.spin.gradient[kStartUnknowns + u]) * std::min(1.5, 0.5 / seconds);
+        system.spin_reach[u] =
+            std::abs(state.spin.gradient[kStartUnknowns + u]) * std::min(1.5, 0.5 / seconds);
       }
     }
     if (row == window.last) break;

@@ -12,6 +12,12 @@
 
 namespace diabolo {
 
+/// Displacements of the two tips [m].
+template <class Scalar>
+struct TipShift {
+  Vector3<Scalar> left = Vector3<Scalar>::Constant(Scalar(0)), right = Vector3<Scalar>::Constant(Scalar(0));
+};
+
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
 /// from this, holds its parameters (amplitude zero by default: then it changes no bit of the result) and
 /// hides neutral() and the hooks that it needs. All hooks are const, allocate nothing and know no time.
@@ -23,8 +29,11 @@ struct NeutralEffect {
   Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
     return Vector3<Scalar>::Constant(Scalar(0));
   }
-  /// The tips that the string is really fixed to.
-  Tips<Scalar> tips(const Tips<Scalar>& given) const { return given; }
+  /// Where the string's strands begin, relative to the given tips at the beginning of a step; the same for
+  /// its end.
+  TipShift<Scalar> tip_shift(const State<Scalar>&, const Tips<Scalar>&) const { return {}; }
+  /// String that is not in the strands [m], at the beginning of a step; `tips` are shifted.
+  Scalar bound_length(const State<Scalar>&, const Tips<Scalar>&) const { return Scalar(0); }
   /// Addition to the string's length [m].
   Scalar added_length(const Parameters<Scalar>&) const { return Scalar(0); }
   /// Extension of the path length per tension [m/N].
@@ -46,7 +55,7 @@ template <class Scalar, template <class> class... Effects>
 struct EffectSet {
   using Neutral = NeutralEffect<Scalar>;
   static constexpr bool kChangesTips =
-      (!std::is_same_v<decltype(&Effects<Scalar>::tips), decltype(&Neutral::tips)> || ...);
+      (!std::is_same_v<decltype(&Effects<Scalar>::tip_shift), decltype(&Neutral::tip_shift)> || ...);
 
   static constexpr bool kTouches =
       (!std::is_same_v<decltype(&Effects<Scalar>::contact_impulse), decltype(&Neutral::contact_impulse)> ||
@@ -73,9 +82,27 @@ struct EffectSet {
     });
     return sum;
   }
-  Tips<Scalar> tips(Tips<Scalar> given) const {
-    each([&](const auto& effect) { given = effect.tips(given); });
-    return given;
+  TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& given) const {
+    TipShift<Scalar> sum;
+    each([&](const auto& effect) {
+      const TipShift<Scalar> own = effect.tip_shift(state, given);
+      sum.left = sum.left + own.left;
+      sum.right = sum.right + own.right;
+    });
+    return sum;
+  }
+  Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted) const {
+    Scalar sum{0};
+    each([&](const auto& effect) { sum += effect.bound_length(state, shifted); });
+    return sum;
+  }
+  /// Whether any effect moves the tips.
+  bool moves_tips() const {
+    bool moves = false;
+    each([&]<class Effect>(const Effect&) {
+      moves = moves || !std::is_same_v<decltype(&Effect::tip_shift), decltype(&Neutral::tip_shift)>;
+    });
+    return moves;
   }
   /// Of the string with all additions [m].
   Scalar string_length(const Parameters<Scalar>& parameters) const {
@@ -125,7 +152,8 @@ struct EffectSet {
   }
   template <class Function>
   void each(Function&& function) const {
-    std::apply([&](const auto&... effect) { ((effect.neutral() ? void() : function(effect)), ...); }, members);
+    std::apply([&](const auto&... effect) { ((effect.neutral() ? void() : function(effect)), ...); },
+               members);
   }
 };
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "diabolo/effects/effect.hpp"
+#include "diabolo/string_path.hpp"
+
+namespace diabolo {
+
+/// An axle that is not thin: the strands leave it along its tangents, and `radius` times the contact angle of
+/// the string lies around it. The strands pull as those to a thin axle would from tips that are moved by the
+/// radius, square to each strand and towards the other. While the string swings, what the strands lose is
+/// what the axle takes up (the strands' ends run along an involute), so that one step sees a string of
+/// constant length from tips of a constant shift. For an axle square to both strands.
+template <class Scalar>
+struct FiniteAxle : NeutralEffect<Scalar> {
+  static constexpr std::string_view kName = "finite_axle";
+  Scalar radius{0};  ///< of the axle and of the string's centre line around it [m]
+
+  bool neutral() const { return is_constant_zero(radius); }
+
+  TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips) const {
+    const StringPath<Scalar> path(state.position, tips);
+    const Vector3<Scalar> to_left = path.from_left * Scalar(Scalar(-1) / path.left_length),
+                          to_right = path.from_right * Scalar(Scalar(-1) / path.right_length);
+    const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
+    return {select<Scalar>(captured, shift(to_left, to_right, path.left_length), TipShift<Scalar>().left),
+            select<Scalar>(captured, shift(to_right, to_left, path.right_length), TipShift<Scalar>().right)};
+  }
+
+  Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted) const {
+    const StringPath<Scalar> path(state.position, shifted);
+    return select(is(state.string_state, StringState::kFlying), Scalar(0),
+                  Scalar(radius * contact_angle(path)));
+  }
+
+  /// Calls `visit(info, field)` for every field.
+  template <class Self, class Visitor>
+  static void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"radius", "m", 0.0, 0.1, "of the axle, to the string's centre line"}, self.radius);
+  }
+
+ private:
+  /// Of the tip that the unit vector `own` points to, `length` away.
+  Vector3<Scalar> shift(const Vector3<Scalar>& own, const Vector3<Scalar>& other,
+                        const Scalar& length) const {
+    const Vector3<Scalar> across = other - own * dot<Scalar>(other, own);
+    const Vector3<Scalar> inward = across * Scalar(Scalar(1) / (norm(across) + Scalar(1e-9)));
+    const Scalar sine = radius / length;
+    const Scalar cosine = positive_sqrt<Scalar>(Scalar(1) - sine * sine);
+    return inward * Scalar(radius * cosine) - own * Scalar(radius * sine);
+  }
+};
+
+}  // namespace diabolo
