@@ -30,6 +30,7 @@ FLOORS: list[list[str]] = [
         "rotation.hpp",
         "pull_velocity.hpp",
         "hold_between_tips.hpp",
+        "settle_on_string.hpp",
     ],
     ["effects/", "sensor/"],
     ["predictor.hpp", "effects/all.hpp", "rollout.hpp", "lanes.hpp", "batch_kernels.hpp", "batch.hpp"],

@@ -7,15 +7,14 @@
 
 namespace diabolo {
 
-/// The tips are as far apart as the string is long, or farther: there is no spheroid, and in the lanes `where`
-/// the diabolo rests on the straight string and moves with it. Returns `where`.
+/// The tips are as far apart as the string is long, or farther: there is no spheroid, and in the lanes
+/// `where` the diabolo rests on the straight string and moves with it. Returns `where`.
 template <class Scalar>
 [[gnu::noinline]] Mask<Scalar> hold_between_tips(State<Scalar>& state, const Tips<Scalar>& tips,
                                                  const Scalar& dt, const Mask<Scalar>& where,
                                                  const PlaneProjector<Scalar>& plane) {
   const Vector3<Scalar> span = tips.left - tips.right;
-  const Scalar along =
-      dot<Scalar>(state.position - tips.right, span) / (squared_norm(span) + tiny<Scalar>());
+  const Scalar along = dot<Scalar>(state.position - tips.right, span) / (squared_norm(span) + tiny<Scalar>());
   const Scalar fraction = minimum(maximum(along, Scalar(0)), Scalar(1));
   const Vector3<Scalar> velocity =
       plane(tips.right_velocity + (tips.left_velocity - tips.right_velocity) * fraction);

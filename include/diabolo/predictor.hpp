@@ -8,6 +8,7 @@
 #include "diabolo/hold_between_tips.hpp"
 #include "diabolo/pull_velocity.hpp"
 #include "diabolo/rotation.hpp"
+#include "diabolo/settle_on_string.hpp"
 #include "diabolo/spheroid.hpp"
 #include "diabolo/state_machine.hpp"
 #include "diabolo/taut_string.hpp"
@@ -64,7 +65,9 @@ class Predictor {
     begin.right += shift.right;
     end.left += shift.left;
     end.right += shift.right;
-    return dispatch(state, begin, end, dt, length_ - effects_.bound_length(state, begin));
+    const Scalar length = length_ - effects_.bound_length(state, begin);
+    if (!elastic()) settle_on_string(state, begin, length);
+    return dispatch(state, begin, end, dt, length);
   }
 
   StepStatus<Scalar> dispatch(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
@@ -227,7 +230,6 @@ class Predictor {
   }
 
   bool elastic() const { return sizeof...(Effects) > 0 && !is_constant_zero(compliance_); }
-
   /// On a straight string; an elastic one is longer.
   Mask<Scalar> hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
                     const Mask<Scalar>& where) const {
@@ -244,9 +246,8 @@ class Predictor {
     return select(where, Scalar(exp(-parameters_.dissipation_rate * factor_time(dt))), Scalar(1));
   }
 
-  Vector3<Scalar> normal_at(const Spheroid<Scalar>& spheroid, const Vector3<Scalar>& point) const {
-    return parameters_.normal_rule == NormalRule::kPublished ? spheroid.published_normal(point)
-                                                             : spheroid.normal(point);
+  Vector3<Scalar> normal_at(const Spheroid<Scalar>& s, const Vector3<Scalar>& point) const {
+    return parameters_.normal_rule == NormalRule::kPublished ? s.published_normal(point) : s.normal(point);
   }
 
   /// A step in which some lane is in flight. A diabolo that falls through the plane of the tips is caught

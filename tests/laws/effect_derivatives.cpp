@@ -17,7 +17,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr int kFields = 12;
+constexpr int kFields = 13;
 using D = Dual<double, kFields>;
 using Outputs = Eigen::Matrix<double, 7, 1>;  ///< position, velocity, spin
 
@@ -65,6 +65,7 @@ std::array<double, kFields> at_work() {
   set("spin_loss.axle", 5.0);
   set("gravity_tilt.x", 0.02);
   set("gravity_tilt.y", -0.03);
+  set("finite_axle.radius", 0.007);
   return x;
 }
 
@@ -129,6 +130,13 @@ Outputs central(const Play& play, std::array<double, kFields> x, int k, double h
   return (up - values(play, x)) / (2.0 * h);
 }
 
+/// Whether the outcome jumps nearby: where the string comes taut in the step before or after, the spin is
+/// driven for a step more or less. No difference tells a derivative there.
+bool has_kink(const Play& play, const std::array<double, kFields>& x, int k, double h) {
+  const Outputs fine = central(play, x, k, 0.5 * h), coarse = central(play, x, k, h);
+  return (coarse - fine).norm() > 1e-3 * (1.0 + fine.norm());
+}
+
 Play hanging_play(Random& random) {
   Play play;
   play.player = SmoothTips::random(random, random.uniform(0.3, 0.7), 0.06, 6.0);
@@ -139,7 +147,8 @@ Play hanging_play(Random& random) {
   taut.position = spheroid.closest_point(spheroid.center() + random.vector(0.2) - Vector(0.0, 0.0, 1.0));
   taut.velocity = random.vector(0.5);
   taut.make_consistent();
-  play.start = taut.position;
+  // Inside by a millimetre: on the surface itself a thicker axle would begin outside, a thinner one inside.
+  play.start = taut.position + Vector(0.0, 0.0, 1e-3);
   play.velocity = taut.velocity;
   play.spin = random.uniform(60.0, 120.0) * (random.chance(0.5) ? 1.0 : -1.0);
   return play;
@@ -157,11 +166,14 @@ TEST_CASE("derivatives by every field, all effects at work, on the string") {
   CAPTURE(seed);
   Random random(seed);
   const std::array<double, kFields> x = at_work();
+  int compared = 0;
   for (int episode = 0; episode < 6; ++episode) {
     const Play play = hanging_play(random);
     const auto jacobian = dual(play, x);
     for (int k = 0; k < kFields; ++k) {
       const double h = 1e-4 * std::abs(x[static_cast<std::size_t>(k)]);
+      if (has_kink(play, x, k, h)) continue;
+      ++compared;
       const Outputs difference = central(play, x, k, h);
       CAPTURE(episode, field_names()[static_cast<std::size_t>(k)], difference.transpose(),
               jacobian.col(k).transpose());
@@ -171,6 +183,7 @@ TEST_CASE("derivatives by every field, all effects at work, on the string") {
       CHECK(jacobian.col(k).norm() > 10.0 * off);
     }
   }
+  CHECK(compared > 70);  // of 78
 }
 
 TEST_CASE("derivatives by every field, all effects at work, in flight") {
@@ -189,7 +202,7 @@ TEST_CASE("derivatives by every field, all effects at work, in flight") {
       const Outputs difference = central(play, x, k, 1e-3 * std::abs(x[static_cast<std::size_t>(k)]));
       CAPTURE(episode, name);
       CHECK((jacobian.col(k) - difference).norm() < 1e-6 * difference.norm() + 1e-8);
-      const bool of_string = name.starts_with("string_");
+      const bool of_string = name.starts_with("string_") || name.starts_with("finite_axle");
       CHECK((jacobian.col(k).norm() == 0.0) == of_string);
     }
   }
@@ -200,6 +213,7 @@ TEST_CASE("derivatives by every field where all amplitudes are zero") {
   CAPTURE(seed);
   Random random(seed);
   const std::array<double, kFields> zero{};
+  int compared = 0;
   for (int episode = 0; episode < 6; ++episode) {
     const Play play = hanging_play(random);
     const auto jacobian = dual(play, zero);
@@ -228,12 +242,15 @@ TEST_CASE("derivatives by every field where all amplitudes are zero") {
         continue;
       }
       const double h = 1e-3 * std::abs(at_work()[static_cast<std::size_t>(k)]);
+      if (has_kink(play, zero, k, h)) continue;
+      ++compared;
       const Outputs difference = central(play, zero, k, h);
       CAPTURE(difference.transpose(), jacobian.col(k).transpose());
       CHECK((jacobian.col(k) - difference).norm() < 1e-4 * difference.norm() + 2e-8 / h);
       CHECK(difference.norm() > 1e-2);
     }
   }
+  CHECK(compared > 48);  // of 54
 }
 
 TEST_CASE("with both tips in one place friction's derivative is finite") {

@@ -24,7 +24,8 @@ class Evidence {
       Part part;
       part.information = score.weight * score.information;
       part.slope = part.information * at + score.weight * score.score;
-      part.constant = score.weight * (score.chi_square + 2.0 * score.score.dot(at)) + at.dot(part.information * at);
+      part.constant =
+          score.weight * (score.chi_square + 2.0 * score.score.dot(at)) + at.dot(part.information * at);
       information_ += part.information;
       slope_ += part.slope;
       chi_square += score.weight * score.chi_square;
@@ -58,8 +59,8 @@ class Evidence {
       for (std::size_t j = 0; j < f.size(); ++j)
         result(f[i], f[j]) = spread(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     for (std::size_t i = 0; i < f.size(); ++i)
-      result(f[i], f[i]) = std::max(result(f[i], f[i]),
-                                    dispersion_ * inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
+      result(f[i], f[i]) = std::max(result(f[i], f[i]), dispersion_ * inverse(static_cast<Eigen::Index>(i),
+                                                                              static_cast<Eigen::Index>(i)));
     return result;
   }
 
@@ -117,7 +118,8 @@ class Evidence {
     return result;
   }
 
-  UnknownVector solve(const ActiveSet& free, const UnknownMatrix& information, const UnknownVector& slope) const {
+  UnknownVector solve(const ActiveSet& free, const UnknownMatrix& information,
+                      const UnknownVector& slope) const {
     const std::vector<int> f = indices(free);
     const Eigen::VectorXd x = precision(f, information).ldlt().solve(slope(f));
     UnknownVector result = UnknownVector::Zero();

@@ -14,8 +14,8 @@
 
 namespace diabolo {
 
-/// Windows whose residuals are so many times those of the middle one count less and less: a mistimed catch says
-/// nothing of the forces.
+/// Windows whose residuals are so many times those of the middle one count less and less: a mistimed catch
+/// says nothing of the forces.
 inline constexpr double kFarWindow = 2.0;
 
 /// Which unknowns are free.
@@ -28,8 +28,8 @@ struct WindowScore {
   double chi_square = 0.0;    ///< with the best start
   double weight = 1.0;        ///< less than 1 where the window lies far off all others
   int numbers = 0;
-  Eigen::Matrix<double, kStartUnknowns, 1> start_step;                   ///< to the best start
-  Eigen::MatrixXd start_by_unknowns;     ///< its change by the unknowns
+  Eigen::Matrix<double, kStartUnknowns, 1> start_step;  ///< to the best start
+  Eigen::MatrixXd start_by_unknowns;                    ///< its change by the unknowns
 };
 
 /// Takes the window's start out of its system.
@@ -56,11 +56,11 @@ struct Fit {
   UnknownVector at = UnknownVector::Zero();      ///< the unknowns, SI units
   UnknownVector centre = UnknownVector::Zero();  ///< what is expected of them
   ActiveSet active = ActiveSet::Constant(false);
-  std::vector<Stage> stages;                 ///< with the fitted starts
-  std::vector<CameraNoise> noise;            ///< of each stage
-  std::vector<WindowSystem> systems;         ///< of all windows, stage after stage
+  std::vector<Stage> stages;          ///< with the fitted starts
+  std::vector<CameraNoise> noise;     ///< of each stage
+  std::vector<WindowSystem> systems;  ///< of all windows, stage after stage
   std::vector<WindowScore> scores;
-  double cost = 0.0;                         ///< weighted chi^2 and priors
+  double cost = 0.0;  ///< weighted chi^2 and priors
   int iterations = 0;
 };
 
@@ -124,7 +124,8 @@ inline void update_noise(Fit& fit) {
     for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
       const WindowSystem& system = fit.systems[i];
       if (system.failed) continue;
-      if (system.position_numbers > 9) position.push_back(system.position_square / (system.position_numbers - 6));
+      if (system.position_numbers > 9)
+        position.push_back(system.position_square / (system.position_numbers - 6));
       if (system.spin_numbers > 5) spin.push_back(system.spin_square / (system.spin_numbers - 1));
     }
     const auto middle = [](std::vector<double>& values, double otherwise, double least) {
@@ -184,7 +185,8 @@ inline void refine(Fit& fit, const Model& base, const ActiveSet& active, int mos
         const double wanted = best.at[u] + share * step[static_cast<Eigen::Index>(i)] * info.scale;
         fit.at[u] = std::clamp(wanted, info.minimum, info.maximum);
         scaled_step[u] = (fit.at[u] - best.at[u]) / info.scale;
-        const double deviation = 1.0 / std::sqrt(normal.information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
+        const double deviation =
+            1.0 / std::sqrt(normal.information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
         largest = std::max(largest, std::abs(scaled_step[u]) / deviation);
       }
       std::size_t i = 0;

@@ -24,11 +24,13 @@ struct LatentForce : NeutralEffect<Scalar> {
                                const Parameters<Scalar>&) const {
     const Vector3<Scalar> zero = Vector3<Scalar>::Constant(Scalar(0));
     if (is(state.string_state, StringState::kOnString)) {
-      const Vector3<Scalar> left = unit(tips.left - state.position), right = unit(tips.right - state.position);
+      const Vector3<Scalar> left = unit(tips.left - state.position),
+                            right = unit(tips.right - state.position);
       return unit(right - left) * string_tangent + unit(cross(left, right)) * string_binormal;
     }
     const Scalar sign = state.spin > Scalar(0) ? Scalar(-1) : Scalar(1);
-    return zero - unit(state.velocity) * flight_against + unit(cross(state.axis, state.velocity)) * (flight_lift * sign) +
+    return zero - unit(state.velocity) * flight_against +
+           unit(cross(state.axis, state.velocity)) * (flight_lift * sign) +
            Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical);
   }
 

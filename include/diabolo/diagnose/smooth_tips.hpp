@@ -12,8 +12,8 @@
 
 namespace diabolo {
 
-/// Acceleration by the noise of a tip that a simulation may see [m/s^2]. A rigid string follows its tips: more
-/// of it would let the string go slack and snap with the camera's noise, which takes energy like a drag.
+/// Acceleration by the noise of a tip that a simulation may see [m/s^2]. A rigid string follows its tips:
+/// more of it would let the string go slack and snap with the camera's noise, which takes energy like a drag.
 inline constexpr double kTipNoiseAcceleration = 0.3;
 
 /// Standard deviation of the white noise of a track, one coordinate [m]: the median of its third differences,
@@ -36,7 +36,8 @@ inline double white_noise(const Track& track) {
 /// derivative of a local quadratic under Tukey's biweight over 2 h + 1 rows has the variance 1430 noise^2
 /// rate^4 / (2 h)^5, nearly.
 inline int smoothing_half_width(double noise, double rate) {
-  const double rows = std::pow(1430.0 * std::pow(noise * rate * rate / kTipNoiseAcceleration, 2.0), 0.2) / 2.0;
+  const double rows =
+      std::pow(1430.0 * std::pow(noise * rate * rate / kTipNoiseAcceleration, 2.0), 0.2) / 2.0;
   return static_cast<int>(std::clamp(std::ceil(rows), 1.0, std::max(1.0, 0.12 * rate)));
 }
 

@@ -27,20 +27,20 @@ struct FitWindow {
 /// The tips at an instant, and how they change with a shift of time and with offsets in the sticks' frames.
 struct StageTips {
   Tips<double> tips;
-  Vector3<double> left_acceleration, right_acceleration;        ///< [m/s^2]
-  Eigen::Matrix3d left_frame, right_frame;                      ///< stick to world
-  Eigen::Matrix3d left_frame_rate, right_frame_rate;            ///< their derivatives [1/s]
+  Vector3<double> left_acceleration, right_acceleration;  ///< [m/s^2]
+  Eigen::Matrix3d left_frame, right_frame;                ///< stick to world
+  Eigen::Matrix3d left_frame_rate, right_frame_rate;      ///< their derivatives [1/s]
 };
 
 /// A recording, made ready for a diagnosis.
 struct Stage {
-  Recording recording;             ///< tips smoothed, edges of dropouts taken out
-  Eigen::VectorXd times;           ///< of the rows [s]
-  Spin spin;                       ///< between each row and the next
-  Eigen::Matrix3Xd axis;           ///< of the axle in each row
-  std::vector<StringState> states; ///< as guessed
+  Recording recording;              ///< tips smoothed, edges of dropouts taken out
+  Eigen::VectorXd times;            ///< of the rows [s]
+  Spin spin;                        ///< between each row and the next
+  Eigen::Matrix3Xd axis;            ///< of the axle in each row
+  std::vector<StringState> states;  ///< as guessed
   std::shared_ptr<const TipMotion<double>> motion;
-  int substeps = 4;                ///< per row
+  int substeps = 4;  ///< per row
   std::vector<FitWindow> windows;
   bool has_spin = false, has_orientation = false;
 };
@@ -81,7 +81,8 @@ inline std::vector<FitWindow> fit_windows(const Stage& stage) {
   const Eigen::Index size = r.size(), wanted = std::max<Eigen::Index>(6, std::lround(kFitWindow * r.rate)),
                      margin = std::max<Eigen::Index>(2, std::lround(0.035 * r.rate));
   const std::vector<bool> left = in_long_gap(r.left, stage.times), right = in_long_gap(r.right, stage.times);
-  const Velocity centred = velocity(r, r.diabolo, local_polynomial(std::max(5, static_cast<int>(2 * margin + 1)), 2, Window::kCentred));
+  const Velocity centred = velocity(
+      r, r.diabolo, local_polynomial(std::max(5, static_cast<int>(2 * margin + 1)), 2, Window::kCentred));
   const auto row_ok = [&](Eigen::Index i) {
     const std::size_t k = static_cast<std::size_t>(i);
     return !left[k] && !right[k] && r.steps_evenly(i);
@@ -89,7 +90,8 @@ inline std::vector<FitWindow> fit_windows(const Stage& stage) {
   const auto start_ok = [&](Eigen::Index i) {
     if (i < margin || i + margin >= size || !row_ok(i) || !centred.valid[i]) return false;
     for (Eigen::Index j = i - margin; j <= i + margin; ++j)
-      if (stage.states[static_cast<std::size_t>(j)] != stage.states[static_cast<std::size_t>(i)]) return false;
+      if (stage.states[static_cast<std::size_t>(j)] != stage.states[static_cast<std::size_t>(i)])
+        return false;
     return true;
   };
   std::vector<FitWindow> windows;

@@ -86,7 +86,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"axle_radius", "m", 0.001, 0.002, 0.0, 0.03},
     {"gravity", "m/s^2", 0.1, 0.0, -5.0, 5.0},
     {"compliance", "m/N", 1e-3, 3e-3, 0.0, 1.0 / 30.0},
-    {"damping", "N s/m", 10.0, 20.0, 0.0, 1e3},
+    {"damping", "N s/m", 10.0, 10.0, 0.0, 1e3},
     {"friction", "1", 0.1, 0.3, 0.0, 0.6},
     {"linear_drag", "1/s", 0.1, 0.3, 0.0, 1.0},
     {"quadratic_drag", "1/m", 0.1, 0.15, 0.0, 0.5},

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "diabolo/diagnose/latent_force.hpp"
+#include "diabolo/diagnose/stage.hpp"
+#include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/dual.hpp"
+#include "diabolo/effects/all.hpp"
+#include "diabolo/recording/model.hpp"
+
+namespace diabolo {
+
+/// Numbers of a window's start: position, velocity and spin.
+inline constexpr int kStartUnknowns = 7;
+inline constexpr double kStartScales[kStartUnknowns] = {0.01, 0.01, 0.01, 0.1, 0.1, 0.1, 1.0};
+/// Standard deviation of a start about its first guess, in its scales; far wider than a camera's.
+inline constexpr double kStartPriors[kStartUnknowns] = {5.0, 5.0, 5.0, 50.0, 50.0, 50.0, 300.0};
+
+namespace detail {
+
+using FitDual = Dual<double, kStartUnknowns + kUnknowns>;
+
+template <class From, class To>
+void copy_fields(const From& from, To& to) {
+  std::vector<double> fields;
+  From::for_each(from, [&](const ParameterInfo&, const double& field) { fields.push_back(field); });
+  std::size_t next = 0;
+  To::for_each(to, [&](const ParameterInfo&, auto& field) {
+    field = std::remove_reference_t<decltype(field)>(fields[next++]);
+  });
+}
+
+inline FitDual unknown(Unknown u, const UnknownVector& at) {
+  FitDual result(at[index_of(u)]);
+  result.gradient[kStartUnknowns + index_of(u)] = info_of(u).scale;
+  return result;
+}
+
+/// Softer than this [m/N] the string's own oscillation is slow enough for the step of a diagnosis; a stiffer
+/// one follows its tension at once (see string_shift), and only its mean stretch can be seen.
+inline constexpr double kSoftString = 3e-4;
+inline bool dynamic_spring(const UnknownVector& at) {
+  return at[index_of(Unknown::kCompliance)] > kSoftString;
+}
+
+using FitPredictor = Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
+                               GravityTilt, FiniteAxle, LatentForce>;
+
+/// The base with everything that may be missing, which carries its derivatives.
+struct FitModel {
+  Parameters<FitDual> parameters;
+  FitPredictor::Set effects;
+};
+
+inline FitModel fit_model(const Model& base, const Recording& recording, const UnknownVector& at) {
+  using D = FitDual;
+  const auto x = [&](Unknown u) { return unknown(u, at); };
+  const Parameters<double> given = parameters_for(base, recording);
+  Parameters<D> p;
+  p.copy_rules(given);
+  copy_fields(given, p);
+  const D scale = D(1.0) + x(Unknown::kLengthScale);
+  p.string_length = (p.string_length + x(Unknown::kStringLength)) * scale;
+  p.gravity = (p.gravity + x(Unknown::kGravity)) * scale;
+  p.axle_radius = p.axle_radius * scale;
+  p.spin_coupling = p.spin_coupling + x(Unknown::kSpinCoupling);
+  FitPredictor::Set effects;
+  const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (copy_fields(std::get<I>(base.effects.members), std::get<I>(effects.members)), ...);
+  };
+  copy(std::make_index_sequence<std::tuple_size_v<decltype(base.effects.members)>>{});
+  auto& tilt = effects.get<GravityTilt>();
+  tilt.x += x(Unknown::kTiltX);
+  tilt.y += x(Unknown::kTiltY);
+  if (dynamic_spring(at)) {
+    auto& elasticity = effects.get<StringElasticity>();
+    elasticity.compliance_per_newton += x(Unknown::kCompliance) * scale;
+    elasticity.damping += x(Unknown::kDamping);
+  }
+  effects.get<StringFriction>().coefficient += x(Unknown::kFriction);
+  auto& air = effects.get<Air>();
+  air.linear_drag += x(Unknown::kLinearDrag);
+  air.quadratic_drag += x(Unknown::kQuadraticDrag);
+  air.wind_x += x(Unknown::kWindX);
+  air.wind_y += x(Unknown::kWindY);
+  effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
+  auto& loss = effects.get<SpinLoss>();
+  loss.air += x(Unknown::kSpinAir);
+  loss.axle += x(Unknown::kSpinAxle);
+  effects.get<FiniteAxle>().radius += x(Unknown::kAxleRadius) * scale;
+  auto& latent = effects.get<LatentForce>();
+  latent.string_tangent = x(Unknown::kStringTangent);
+  latent.string_binormal = x(Unknown::kStringBinormal);
+  latent.flight_against = x(Unknown::kFlightAgainst);
+  latent.flight_vertical = x(Unknown::kFlightVertical);
+  latent.flight_lift = x(Unknown::kFlightLift);
+  latent.spin_string = x(Unknown::kSpinString);
+  latent.spin_free = x(Unknown::kSpinFree);
+  return {p, effects};
+}
+
+/// The tips with their derivatives by time offset and tip offsets.
+inline Tips<FitDual> fit_tips(const StageTips& s) {
+  const auto with = [](const Vector3<double>& value, const Vector3<double>& by_time,
+                       const Eigen::Matrix3d& by_offset, Unknown first) {
+    Vector3<FitDual> result;
+    for (int k = 0; k < 3; ++k) {
+      result[k] = FitDual(value[k]);
+      auto& slope = result[k].gradient;
+      slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] =
+          by_time[k] * info_of(Unknown::kTimeOffset).scale;
+      for (int j = 0; j < 3; ++j)
+        slope[kStartUnknowns + index_of(first) + j] = -by_offset(k, j) * info_of(first).scale;
+    }
+    return result;
+  };
+  Tips<FitDual> tips;
+  tips.left = with(s.tips.left, s.tips.left_velocity, s.left_frame, Unknown::kLeftX);
+  tips.right = with(s.tips.right, s.tips.right_velocity, s.right_frame, Unknown::kRightX);
+  tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_frame_rate, Unknown::kLeftX);
+  tips.right_velocity =
+      with(s.tips.right_velocity, s.right_acceleration, s.right_frame_rate, Unknown::kRightX);
+  return tips;
+}
+
+/// Tension over mass as if at rest, the mean over a window [m/s^2]. The model's string is as much longer as
+/// this stretches it; string_shift() is about what varies.
+inline double usual_pull(const Recording& r, const FitWindow& window) {
+  double sum = 0.0;
+  int rows = 0;
+  for (Eigen::Index i = window.first; i <= window.last; ++i) {
+    if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
+    Tips<double> tips;
+    tips.left = r.left.position.col(i);
+    tips.right = r.right.position.col(i);
+    sum += kStandardGravity /
+           std::max(0.2, StringPath<double>(r.diabolo.position.col(i), tips).gradient().norm());
+    ++rows;
+  }
+  return rows > 0 ? sum / rows : 0.0;
+}
+
+/// How far a string with a stiff spring leaves the diabolo from where a rigid one of its usual length would.
+inline Vector3<FitDual> string_shift(const State<FitDual>& state, const Tips<FitDual>& tips,
+                                     const FitDual& stretch_per_acceleration, double usual) {
+  using D = FitDual;
+  const StringPath<D> path(state.position, tips);
+  const Vector3<D> gradient = path.gradient();
+  const D square = squared_norm(gradient) + D(1e-3);
+  const D pull = norm(state.string_acceleration) / sqrt(square) - D(usual);
+  return gradient * D(stretch_per_acceleration * pull / square);
+}
+
+/// Moves a start ON_STRING to where the taut string allows it: path length and its rate.
+template <class D>
+void place_on_string(State<D>& state, Tips<D> tips, D length, const FitPredictor::Set& effects) {
+  const TipShift<D> shift = effects.tip_shift(state, tips);
+  tips.left += shift.left;
+  tips.right += shift.right;
+  length = length - effects.bound_length(state, tips);
+  for (int i = 0; i < 3; ++i) {
+    const StringPath<D> path(state.position, tips);
+    const Vector3<D> gradient = path.gradient();
+    state.position =
+        state.position - gradient * D((path.length() - length) / (squared_norm(gradient) + D(1e-6)));
+  }
+  const StringPath<D> path(state.position, tips);
+  const Vector3<D> gradient = path.gradient();
+  const D rate = path.rate(state.velocity, tips.left_velocity, tips.right_velocity);
+  state.velocity = state.velocity - gradient * D(rate / (squared_norm(gradient) + D(1e-6)));
+}
+
+inline State<FitDual> fit_start(const FitWindow& window, const FitPredictor& predictor,
+                                const Tips<FitDual>& tips, const Tips<FitDual>& next, const FitDual& dt) {
+  using D = FitDual;
+  State<D> state;
+  for (int k = 0; k < 3; ++k) {
+    state.position[k] = D(window.start.position[k]);
+    state.position[k].gradient[k] = kStartScales[k];
+    state.velocity[k] = D(window.start.velocity[k]);
+    state.velocity[k].gradient[3 + k] = kStartScales[3 + k];
+    state.axis[k] = D(window.start.axis[k]);
+  }
+  state.spin = D(window.start.spin);
+  state.spin.gradient[6] = kStartScales[6];
+  state.string_state = window.start.string_state;
+  const D& length = predictor.parameters().string_length;
+  const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);
+  if (state.string_state != StringState::kOnString || !room) return state;
+  place_on_string(state, tips, length, predictor.effects());
+  const auto& elasticity = predictor.effects().template get<StringElasticity>();
+  if (elasticity.neutral() || predictor.parameters().string_law != StringLaw::kInextensible) return state;
+  // At rest relative to its spring: longer by what the tension of the first step stretches it.
+  State<D> trial = state;
+  predictor.step(trial, tips, next, dt);
+  const D pull =
+      norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
+  place_on_string(state, tips,
+                  D(length + elasticity.compliance_per_newton * predictor.parameters().mass * pull),
+                  predictor.effects());
+  return state;
+}
+
+}  // namespace detail
+
+}  // namespace diabolo
