@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'HorizonScore', 'Interval', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'State', 'StepStatus', 'StringElasticity', 'TipMotion', 'baseline', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StringElasticity', 'StringFriction', 'TipMotion', 'baseline', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -359,6 +359,265 @@ class StringElasticity:
     @damping.setter
     def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
+class StringFriction:
+    """
+    A string that rubs on the axle: Euler's and Eytelwein's capstan law.
+    
+    While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). Its torque on the
+    spin is that of Parameters.spin_coupling.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> StringFriction:
+        ...
+    def __deepcopy__(self, memo: dict) -> StringFriction:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def coefficient(self) -> float:
+        """
+        capstan coefficient of string on axle [1]; within [0.0, 3.0]
+        """
+    @coefficient.setter
+    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class Air:
+    """
+    Air that holds the diabolo back: a = -(linear_drag + quadratic_drag |u|) u, u = v - wind.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> Air:
+        ...
+    def __deepcopy__(self, memo: dict) -> Air:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def linear_drag(self) -> float:
+        """
+        deceleration per speed [1/s]; within [0.0, 10.0]
+        """
+    @linear_drag.setter
+    def linear_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def quadratic_drag(self) -> float:
+        """
+        deceleration per squared speed [1/m]; within [0.0, 10.0]
+        """
+    @quadratic_drag.setter
+    def quadratic_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def wind_x(self) -> float:
+        """
+        velocity of the air, forward [m/s]; within [-100.0, 100.0]
+        """
+    @wind_x.setter
+    def wind_x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def wind_y(self) -> float:
+        """
+        velocity of the air, to the left [m/s]; within [-100.0, 100.0]
+        """
+    @wind_y.setter
+    def wind_y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class MagnusLift:
+    """
+    Lift of a spinning diabolo: a = coefficient * omega x v, omega = -spin * axis.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> MagnusLift:
+        ...
+    def __deepcopy__(self, memo: dict) -> MagnusLift:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def coefficient(self) -> float:
+        """
+        acceleration per angular velocity and speed [1/rad]; within [-1.0, 1.0]
+        """
+    @coefficient.setter
+    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class SpinLoss:
+    """
+    What slows the spin beside the string: dw/dt = -air w|w| - axle sign(w).
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> SpinLoss:
+        ...
+    def __deepcopy__(self, memo: dict) -> SpinLoss:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def air(self) -> float:
+        """
+        deceleration per squared spin [1/rad]; within [0.0, 1.0]
+        """
+    @air.setter
+    def air(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def axle(self) -> float:
+        """
+        constant deceleration [rad/s^2]; within [0.0, 10000.0]
+        """
+    @axle.setter
+    def axle(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class GravityTilt:
+    """
+    Gravity along (x, y, -sqrt(1 - x^2 - y^2)) instead of -z: a frame that is not level.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> GravityTilt:
+        ...
+    def __deepcopy__(self, memo: dict) -> GravityTilt:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def x(self) -> float:
+        """
+        gravity's direction, forward [1]; within [-0.5, 0.5]
+        """
+    @x.setter
+    def x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def y(self) -> float:
+        """
+        gravity's direction, to the left [1]; within [-0.5, 0.5]
+        """
+    @y.setter
+    def y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class FiniteAxle:
+    """
+    An axle that is not thin: string lies around it, and the strands leave it along its tangents.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> FiniteAxle:
+        ...
+    def __deepcopy__(self, memo: dict) -> FiniteAxle:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        of the axle, to the string's centre line [m]; within [0.0, 0.1]
+        """
+    @radius.setter
+    def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
 class Model:
     """
     Everything that decides a prediction.
@@ -373,11 +632,17 @@ class Model:
     says that its own count.
     """
     __hash__: typing.ClassVar[None] = None
+    air: Air
+    finite_axle: FiniteAxle
+    gravity_tilt: GravityTilt
+    magnus_lift: MagnusLift
     name: str
     own_axle_radius: bool
     own_mass: bool
     parameters: Parameters
+    spin_loss: SpinLoss
     string_elasticity: StringElasticity
+    string_friction: StringFriction
     @staticmethod
     def consistent() -> Model:
         """
@@ -447,20 +712,33 @@ class State:
     
     `position` [m] and `velocity` [m/s] have the shape (3,), world frame: x forward (away from the player), y left,
     z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
-    string is 'on_string', 'loose' or 'flying', as in diabolo.StringState.
+    string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
+    is the axle's direction, which no step changes and only MagnusLift looks at.
     """
     def __copy__(self) -> State:
         ...
     def __deepcopy__(self, memo: dict) -> State:
         ...
-    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (0.0, 0.0, 0.0), spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, string_state: typing.Any = 'loose') -> None:
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float, int, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+        ...
+    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (0.0, 0.0, 0.0), spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, string_state: typing.Any = 'loose', axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (1.0, 0.0, 0.0)) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def to_array(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         Position, velocity and spin, shape (7,).
         """
+    @property
+    def axis(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Direction of the axle, forward: a unit vector, shape (3,).
+        """
+    @axis.setter
+    def axis(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
     @property
     def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -627,11 +905,15 @@ class Recording:
         """
         Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.
         """
+    def __getstate__(self) -> tuple:
+        ...
     def __init__(self, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], diabolo: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, *, diabolo_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, left_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.46) -> None:
         ...
     def __len__(self) -> int:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def cut(self, first: typing.SupportsInt | typing.SupportsIndex, last: typing.SupportsInt | typing.SupportsIndex) -> Recording:
         """
@@ -893,11 +1175,15 @@ class Predictor:
     
     It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().
     """
+    def __getstate__(self) -> tuple[Model]:
+        ...
     @typing.overload
     def __init__(self, parameters: Parameters, **kwargs) -> None:
         ...
     @typing.overload
     def __init__(self, model: Model, **kwargs) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None) -> StepStatus:
         """

@@ -17,7 +17,7 @@ namespace diabolo {
 /// what it would predict where it was not fitted are then algebra, without another simulation.
 class Evidence {
  public:
-  explicit Evidence(const Fit& fit) : prior_(prior_precision()) {
+  explicit Evidence(const Fit& fit) : prior_(prior_precision()), centre_(fit.centre.cwiseQuotient(scales())) {
     const UnknownVector at = fit.at.cwiseQuotient(scales());
     double chi_square = 0.0, numbers = 0.0;
     for (const WindowScore& score : fit.scores) {
@@ -73,21 +73,16 @@ class Evidence {
     return variance > 0.0 ? solve(with)[u] / std::sqrt(variance) : 0.0;
   }
 
-  /// chi^2 of each window at unknowns fitted to the windows of other folds.
-  std::vector<double> cross_validated(const ActiveSet& free, std::size_t folds) const {
-    std::vector<double> result(parts_.size());
-    for (std::size_t fold = 0; fold < folds; ++fold) {
-      const std::size_t begin = parts_.size() * fold / folds, end = parts_.size() * (fold + 1) / folds;
-      UnknownMatrix information = information_;
-      UnknownVector slope = slope_;
-      for (std::size_t i = begin; i < end; ++i) {
-        information -= parts_[i].information;
-        slope -= parts_[i].slope;
-      }
-      const UnknownVector x = solve(free, information, slope);
-      for (std::size_t i = begin; i < end; ++i) result[i] = chi_square(i, x);
+  /// Best scaled unknowns as the windows see them that are not marked `left_out`.
+  UnknownVector solve_without(const ActiveSet& free, const std::vector<bool>& left_out) const {
+    UnknownMatrix information = information_;
+    UnknownVector slope = slope_;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (!left_out[i]) continue;
+      information -= parts_[i].information;
+      slope -= parts_[i].slope;
     }
-    return result;
+    return solve(free, information, slope);
   }
 
   /// chi^2 of a window at scaled unknowns.
@@ -121,7 +116,8 @@ class Evidence {
   UnknownVector solve(const ActiveSet& free, const UnknownMatrix& information,
                       const UnknownVector& slope) const {
     const std::vector<int> f = indices(free);
-    const Eigen::VectorXd x = precision(f, information).ldlt().solve(slope(f));
+    const UnknownVector expected = dispersion_ * prior_.cwiseProduct(centre_);
+    const Eigen::VectorXd x = precision(f, information).ldlt().solve(slope(f) + expected(f));
     UnknownVector result = UnknownVector::Zero();
     result(f) = x;
     return result;
@@ -139,7 +135,7 @@ class Evidence {
     return sum;
   }
 
-  UnknownVector prior_;
+  UnknownVector prior_, centre_;  ///< scaled
   UnknownMatrix information_ = UnknownMatrix::Zero(kUnknowns, kUnknowns);
   UnknownVector slope_ = UnknownVector::Zero();
   double dispersion_ = 1.0;

@@ -83,7 +83,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"right_z", "m", 0.01, 0.01, -0.04, 0.04},
     {"string_length", "m", 0.01, 0.02, -0.08, 0.08},
     {"spin_coupling", "1/s", 0.1, 1.0, -1e3, 1e3},
-    {"axle_radius", "m", 0.001, 0.002, 0.0, 0.03},
+    {"axle_radius", "m", 0.001, 0.0007, 0.0, 0.03},
     {"gravity", "m/s^2", 0.1, 0.0, -5.0, 5.0},
     {"compliance", "m/N", 1e-3, 3e-3, 0.0, 1.0 / 30.0},
     {"damping", "N s/m", 10.0, 10.0, 0.0, 1e3},

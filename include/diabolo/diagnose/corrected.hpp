@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+
+#include "diabolo/diagnose/stage.hpp"
+#include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/recording/model.hpp"
+
+namespace diabolo {
+
+/// The base with the physics of a fit.
+inline Model augmented_model(const Model& base, const UnknownVector& at, const std::string& name) {
+  const auto x = [&](Unknown u) { return at[index_of(u)]; };
+  Model model = base;
+  model.name = name;
+  model.parameters.gravity += x(Unknown::kGravity);
+  model.parameters.spin_coupling = std::max(0.0, model.parameters.spin_coupling + x(Unknown::kSpinCoupling));
+  auto& tilt = model.effects.get<GravityTilt>();
+  tilt.x += x(Unknown::kTiltX);
+  tilt.y += x(Unknown::kTiltY);
+  auto& elasticity = model.effects.get<StringElasticity>();
+  elasticity.compliance_per_newton += std::max(0.0, x(Unknown::kCompliance));
+  if (x(Unknown::kCompliance) > 0.0) elasticity.damping += std::max(0.0, x(Unknown::kDamping));
+  model.effects.get<StringFriction>().coefficient += std::max(0.0, x(Unknown::kFriction));
+  auto& air = model.effects.get<Air>();
+  air.linear_drag += std::max(0.0, x(Unknown::kLinearDrag));
+  air.quadratic_drag += std::max(0.0, x(Unknown::kQuadraticDrag));
+  air.wind_x += x(Unknown::kWindX);
+  air.wind_y += x(Unknown::kWindY);
+  model.effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
+  auto& loss = model.effects.get<SpinLoss>();
+  loss.air += std::max(0.0, x(Unknown::kSpinAir));
+  loss.axle += std::max(0.0, x(Unknown::kSpinAxle));
+  model.effects.get<FiniteAxle>().radius += std::max(0.0, x(Unknown::kAxleRadius));
+  return model;
+}
+
+/// The recording as a camera without the faults of a fit would have made it: tips at the diabolo's time and
+/// where they are, the diabolo's centre, lengths and the string's length true. Orientations stay.
+inline Recording corrected(const Recording& given, const UnknownVector& at) {
+  const double scale = 1.0 + at[index_of(Unknown::kLengthScale)], offset = at[index_of(Unknown::kTimeOffset)];
+  const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
+  Recording result = given;
+  const Eigen::VectorXd times = row_times(given);
+  const RecordedTips recorded(given, Interpolation::kSpline);
+  const auto motion = recorded.motion(0, given.size() - 1);
+  const auto place = [&](Track& tip, const OrientationTrack& orientation, Unknown first, bool left) {
+    const std::vector<Eigen::Matrix3d> frames = stick_frames(orientation, given.size());
+    std::size_t hint = 0;
+    for (Eigen::Index i = 0; i < given.size(); ++i) {
+      if (!tip.valid[i]) continue;
+      const Tips<double> tips = motion->at(times[i] + offset, hint);
+      tip.position.col(i) = ((left ? tips.left : tips.right) -
+                             frames[static_cast<std::size_t>(i)] * at.segment<3>(index_of(first))) /
+                            scale;
+    }
+  };
+  place(result.left, given.left_orientation, Unknown::kLeftX, true);
+  place(result.right, given.right_orientation, Unknown::kRightX, false);
+  const OrientationTrack& body = given.diabolo_orientation;
+  for (Eigen::Index i = 0; i < given.size(); ++i) {
+    if (!given.diabolo.valid[i]) continue;
+    Vector3<double> centre = given.diabolo.position.col(i);
+    if (!body.empty() && body.valid[i])
+      centre -= Eigen::Quaterniond(Eigen::Vector4d(body.quaternion.col(i))) * marker;
+    result.diabolo.position.col(i) = centre / scale;
+  }
+  result.string_length += at[index_of(Unknown::kStringLength)];
+  return result;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/select.hpp"
+
+namespace diabolo {
+
+/// How a diagnosis is done.
+struct DiagnosisOptions {
+  Model base = consistent_model();  ///< the simulator that is asked about
+  std::uint64_t seed = 1;           ///< of the bootstrap
+  int threads = 2;                  ///< 1 or 2; the result is the same
+};
+
+/// How a diagnosis is watched: the name of the step, and the fraction done of it all.
+struct DiagnosisWatch {
+  std::function<void(const std::string&, double)> progress;
+  std::function<bool()> cancelled;
+};
+
+/// Fewest windows from which anything is concluded.
+inline constexpr std::size_t kFewestWindows = 8;
+
+namespace detail {
+
+/// Why nothing can be concluded; empty where something can.
+inline std::string insufficient(const std::vector<Stage>& stages) {
+  std::size_t windows = 0, taut = 0;
+  bool length_known = false, plausible = true;
+  std::string lengths;
+  for (const Stage& stage : stages) {
+    windows += stage.windows.size();
+    for (const FitWindow& window : stage.windows)
+      taut += window.start.string_state == StringState::kOnString ? 1 : 0;
+    if (const std::optional<double> usual = usual_path_length(stage.recording)) {
+      length_known = true;
+      const double given = stage.recording.string_length;
+      if (std::abs(*usual - given) > info_of(Unknown::kStringLength).maximum) {
+        plausible = false;
+        lengths = shown(*usual) + " m where the string is " + shown(given) + " m long";
+      }
+    }
+  }
+  if (windows < kFewestWindows)
+    return "only " + std::to_string(windows) + " windows of half a second can be compared; " +
+           std::to_string(kFewestWindows) + " are needed";
+  if (!plausible)
+    return "the path from tip to tip over the diabolo is mostly " + lengths +
+           ": wrong units, swapped bodies, or another string";
+  if (!length_known || taut * 10 < windows) return "the string is never seen taut for long";
+  return {};
+}
+
+inline Fit prepared(const std::vector<Recording>& recordings) {
+  Fit fit;
+  for (const Recording& recording : recordings) {
+    fit.stages.push_back(make_stage(recording));
+    fit.noise.emplace_back();
+  }
+  // A string's centre line lies half its thickness outside the axle: some 0.7 mm.
+  fit.centre[index_of(Unknown::kAxleRadius)] = fit.stages.front().recording.properties.axle_radius + 7e-4;
+  fit.centre[index_of(Unknown::kDamping)] = 10.0;
+  fit.at = fit.centre;
+  return fit;
+}
+
+}  // namespace detail
+
+/// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
+/// std::invalid_argument about options, and Cancelled.
+inline Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOptions& options = {},
+                          const DiagnosisWatch& watch = {}) {
+  if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
+  if (options.threads < 1 || options.threads > 2)
+    throw std::invalid_argument("threads: " + std::to_string(options.threads) + "; must be 1 or 2");
+  const auto step = [&](const std::string& name, double done) {
+    if (watch.progress) watch.progress(name, done);
+    return Watch{{}, watch.cancelled};
+  };
+  Diagnosis result;
+  result.base = options.base.name;
+  step("reading the motion", 0.0);
+  Fit fit = detail::prepared(recordings);
+  result.reason = detail::insufficient(fit.stages);
+  if (!result.reason.empty()) {
+    conclude(result);
+    return result;
+  }
+  // The published rules are numerical: physics is looked for on the string that obeys its constraint.
+  const bool numerical = options.base.parameters.string_law != StringLaw::kInextensible;
+  Model physics = options.base;
+  if (numerical) {
+    physics = consistent_model();
+    physics.effects = options.base.effects;
+  }
+  refine(fit, physics, ActiveSet::Constant(false), 2, options.threads, step("fitting starts", 0.05));
+  remember_before(result, fit);
+  ActiveSet set = nuisances();
+  for (const Candidate& candidate : candidates()) set = with(set, candidate);
+  refine(fit, physics, set, 8, options.threads, step("fitting everything", 0.15));
+  set = eliminate(Evidence(fit), set);
+  for (int round = 0; round < 3; ++round) {
+    for (int u = 0; u < kUnknowns; ++u)
+      if (!set[u]) fit.at[u] = fit.centre[u] * (u == index_of(Unknown::kDamping) ? 1.0 : 0.0);
+    refine(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
+    const Evidence evidence(fit);
+    ActiveSet next = eliminate(evidence, set);
+    if (const Candidate* candidate = strongest_left_out(evidence, next)) next = with(next, *candidate);
+    if ((next == set).all()) break;
+    set = next;
+  }
+  const Evidence evidence(fit);
+  result.at = fit.at;
+  result.model = augmented_model(physics, fit.at, "diagnosed");
+  result.model.own_string_length = false;
+  find(result, fit, evidence, set);
+  step("comparing on data left out", 0.85);
+  result.heldout = held_out(fit, evidence, options.base, physics, set, options.seed, options.threads,
+                            step("comparing on data left out", 0.85));
+  if (numerical) result.numerical = compare_rules(fit, options.base, physics, options.threads);
+  for (std::size_t s = 0; s < fit.stages.size(); ++s)
+    result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
+  conclude(result);
+  step("done", 1.0);
+  return result;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/diagnose/evidence.hpp"
+#include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/select.hpp"
+
+namespace diabolo {
+
+/// A candidate and what speaks for it and against it.
+struct Finding {
+  const Candidate* candidate = nullptr;
+  UnknownVector estimate = UnknownVector::Zero();   ///< SI units; those of the candidate's unknowns count
+  UnknownVector deviation = UnknownVector::Zero();  ///< standard deviations
+  double z = 0.0;                                   ///< significance in standard deviations
+  double p_value = 1.0;                             ///< over all candidates
+  double size = 0.0;                                ///< see size_of()
+  bool claimed = false;
+  bool material = false;
+  double confidence = 0.0;
+  std::vector<std::string> tied_with;
+  std::string reason;  ///< why it is claimed, or not
+};
+
+/// A force that is left over, without a name.
+struct Leftover {
+  Unknown unknown;
+  double value, deviation, z, size;
+};
+
+/// What was seen in a window before anything was added, and what is left.
+struct WindowFinding {
+  std::size_t recording;
+  double begin, end;  ///< [s]
+  StringState mode;
+  double residual_before, residual_after;  ///< root mean square, position [m]
+  std::array<double, 7> z;                 ///< of the latent accelerations before; NaN where they say nothing
+};
+
+enum class Headline {
+  kInsufficientData,
+  kTie,
+  kNamed,
+  kMeasurementFault,
+  kNumerical,
+  kUnnamedStructure,
+  kNothingMissing
+};
+
+/// The answer.
+struct Diagnosis {
+  Headline headline = Headline::kNothingMissing;
+  std::string base, sentence, reason;
+  std::vector<Finding> findings;  ///< of every candidate, the surest first
+  std::vector<Leftover> leftovers;
+  std::vector<WindowFinding> windows;
+  std::vector<std::pair<std::string, CameraNoise>> noise;
+  UnknownVector at = UnknownVector::Zero();
+  UnknownVector deviation = UnknownVector::Zero();
+  Model model;
+  HeldOut heldout;
+  std::optional<double> numerical;  ///< share of the base's error that its numerical rules make
+};
+
+inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7;
+
+/// Takes down how the base alone does, window by window.
+inline void remember_before(Diagnosis& result, const Fit& fit) {
+  std::size_t i = 0;
+  for (std::size_t s = 0; s < fit.stages.size(); ++s)
+    for (const FitWindow& window : fit.stages[s].windows) {
+      const WindowSystem& system = fit.systems[i];
+      const WindowScore& score = fit.scores[i++];
+      WindowFinding found{};
+      found.recording = s;
+      found.begin = fit.stages[s].times[window.first];
+      found.end = fit.stages[s].times[window.last];
+      found.mode = window.start.string_state;
+      found.residual_before = std::sqrt(system.position_square / std::max(1, system.position_numbers));
+      for (int k = 0; k < kLatents; ++k) {
+        const double information = score.information(kLatentFirst + k, kLatentFirst + k);
+        found.z[static_cast<std::size_t>(k)] =
+            information > 1e-6 ? score.score[kLatentFirst + k] / std::sqrt(information) : kNaN;
+      }
+      result.windows.push_back(found);
+    }
+}
+
+/// The chance that any of so many normal variables is beyond z.
+inline double family_wise(double z) {
+  return std::min(1.0, static_cast<double>(candidates().size()) * std::erfc(std::abs(z) / std::sqrt(2.0)));
+}
+
+/// Whether another explanation does as well: exchanging one candidate for another costs no more than three
+/// standard deviations' worth, and the other is as sure.
+inline bool is_tied(const Evidence& evidence, const ActiveSet& set, const Candidate& one,
+                    const Candidate& other) {
+  if (is_in(set, other)) return false;
+  const ActiveSet exchanged = with(with(set, one, false), other);
+  if (!speaks_for(other, significance(other, standing(evidence, exchanged)))) return false;
+  return evidence.cost(exchanged) - evidence.cost(set) < 9.0 * evidence.dispersion();
+}
+
+/// Judges every candidate at the final fit.
+inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const ActiveSet& set) {
+  std::size_t i = 0;
+  for (WindowFinding& window : result.windows) {
+    const WindowSystem& system = fit.systems[i++];
+    window.residual_after = std::sqrt(system.position_square / std::max(1, system.position_numbers));
+  }
+  const Standing final_standing = standing(evidence, set);
+  for (int u = 0; u < kUnknowns; ++u)
+    if (set[u]) result.deviation[u] = std::sqrt(std::max(0.0, final_standing.covariance(u, u)));
+  for (const Candidate& candidate : candidates()) {
+    Finding f;
+    f.candidate = &candidate;
+    const Standing own = is_in(set, candidate) ? final_standing : standing(evidence, with(set, candidate));
+    f.estimate = own.estimate;
+    for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = std::sqrt(std::max(0.0, own.covariance(u, u)));
+    f.z = significance(candidate, own);
+    f.p_value = family_wise(f.z);
+    f.size = size_of(candidate, f.estimate, fit.systems);
+    const bool sure = speaks_for(candidate, f.z);
+    if (candidate.kind == CandidateKind::kPhysics) {
+      f.material = f.size > (is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach);
+    } else {
+      for (const Unknown u : candidate.unknowns) {
+        const double value = std::abs(f.estimate[index_of(u)]);
+        f.material = f.material || (value > candidate.floor && value > 3.0 * f.deviation[index_of(u)]);
+      }
+    }
+    f.claimed = sure && f.material && is_in(set, candidate);
+    f.reason = !sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"
+                                                                   : "too small to be told from nothing")
+               : !f.material ? "there, but too small to matter"
+                             : "sure, and large enough to matter";
+    if (f.claimed && candidate.kind == CandidateKind::kPhysics)
+      for (const Candidate& other : candidates())
+        if (other.kind == CandidateKind::kPhysics && &other != &candidate &&
+            is_tied(evidence, set, candidate, other))
+          f.tied_with.emplace_back(other.name);
+    // Calibrated by no proof yet: grows with how far it stands out, less where another does as well.
+    f.confidence =
+        f.claimed ? (f.tied_with.empty() ? 1.0 - 0.5 * std::exp(-(std::abs(f.z) - 3.0) / 2.0) : 0.5) : 0.0;
+    result.findings.push_back(f);
+  }
+  const auto claimed = [&](std::string_view name) {
+    return std::ranges::any_of(result.findings,
+                               [&](const Finding& f) { return f.claimed && f.candidate->name == name; });
+  };
+  if (claimed("string_friction"))  // its torque slows the spin
+    for (Finding& f : result.findings)
+      if (f.claimed && is_of_spin(*f.candidate)) {
+        f.claimed = false;
+        f.reason = "the rubbing string slows the spin as well";
+      }
+  for (int k = 0; k < kLatents; ++k) {
+    ActiveSet with_latent = set;
+    with_latent[kLatentFirst + k] = true;
+    const Standing own = standing(evidence, with_latent);
+    const int u = kLatentFirst + k;
+    const double deviation = std::sqrt(std::max(0.0, own.covariance(u, u)));
+    if (!(deviation > 0.0)) continue;
+    const Candidate latent{"", CandidateKind::kPhysics, {static_cast<Unknown>(u)}, 0.0, false};
+    const double z = own.estimate[u] / deviation, size = size_of(latent, own.estimate, fit.systems);
+    const bool of_spin = k >= 5;
+    if (std::abs(z) > 5.0 && !of_spin && size > 2.0 * kSmallestReach)
+      result.leftovers.push_back({static_cast<Unknown>(u), own.estimate[u], deviation, z, size});
+  }
+  std::ranges::stable_sort(result.findings, [](const Finding& a, const Finding& b) {
+    if (a.claimed != b.claimed) return a.claimed;
+    return std::abs(a.z) > std::abs(b.z);
+  });
+}
+
+/// Which share of the base's error its numerical rules make: one less the ratio of the windows' root mean
+/// squares, by the consistent rules over by the base's, both with starts fitted. Not above one.
+inline double compare_rules(Fit fit, const Model& base, const Model& physics, int threads) {
+  const auto middle = [&](const Model& model) {
+    for (std::size_t s = 0; s < fit.stages.size(); ++s)
+      for (FitWindow& window : fit.stages[s].windows) window.start.string_acceleration.setZero();
+    refine(fit, model, ActiveSet::Constant(false), 3, threads);
+    std::vector<double> sizes;
+    for (const WindowSystem& system : fit.systems)
+      sizes.push_back(std::sqrt(system.position_square / std::max(1, system.position_numbers)));
+    std::ranges::sort(sizes);
+    return quantile(sizes, 0.5);
+  };
+  fit.at = fit.centre;
+  const double consistent = middle(physics), own = middle(base);
+  return 1.0 - consistent / std::max(own, 1e-9);
+}
+
+/// Headline and sentence.
+inline void conclude(Diagnosis& d) {
+  std::vector<const Finding*> physics, faults;
+  bool tied = false;
+  for (const Finding& f : d.findings) {
+    if (!f.claimed) continue;
+    (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
+    tied = tied || !f.tied_with.empty();
+  }
+  const auto names = [](const std::vector<const Finding*>& list) {
+    std::string text;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + std::string(list[i]->candidate->name);
+    return text;
+  };
+  if (!d.reason.empty()) {
+    d.headline = Headline::kInsufficientData;
+    d.sentence = "Nothing can be concluded: " + d.reason + ".";
+  } else if (tied) {
+    d.headline = Headline::kTie;
+    d.sentence = "Something is missing, and " + names(physics) + " explains it; so would " +
+                 physics.front()->tied_with.front() + ": this recording cannot tell.";
+  } else if (!physics.empty()) {
+    d.headline = Headline::kNamed;
+    d.sentence = "The simulator leaves out " + names(physics) +
+                 (faults.empty() ? "." : "; the measurement is off by " + names(faults) + ".");
+  } else if (!faults.empty()) {
+    d.headline = Headline::kMeasurementFault;
+    d.sentence = "The measurement is off by " + names(faults) + "; no physics is missing.";
+  } else if (d.numerical && *d.numerical > 0.1) {
+    d.headline = Headline::kNumerical;
+    d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
+  } else if (!d.leftovers.empty()) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence =
+        "A force without a name is left: " + std::string(info_of(d.leftovers.front().unknown).name) + ".";
+  } else {
+    d.headline = Headline::kNothingMissing;
+    d.sentence = "Nothing is missing that this recording could show.";
+  }
+}
+
+}  // namespace diabolo

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "diabolo/diagnose/corrected.hpp"
+#include "diabolo/diagnose/evidence.hpp"
+#include "diabolo/recording/horizon_score.hpp"
+
+namespace diabolo {
+
+/// Errors on data that the model was not fitted to, of the base and with what was found.
+struct HeldOut {
+  bool whole_recordings = false;                      ///< left out one by one; else blocks of rows
+  std::vector<double> horizons{0.1, 0.25, 0.5, 1.0};  ///< [s]
+  std::vector<std::optional<double>> base_error, augmented_error;  ///< mean distances [m]
+  std::vector<std::optional<Interval>> improvement_ci95;           ///< of base less augmented [m]
+  std::size_t windows = 0;
+};
+
+/// Rows of a recording that a model is fitted without.
+struct Fold {
+  std::size_t stage;
+  Eigen::Index first, last;
+};
+
+/// Whole recordings where there are several; else three blocks of the only one.
+inline std::vector<Fold> folds_of(const std::vector<Stage>& stages) {
+  constexpr Eigen::Index kBlocks = 3;
+  std::vector<Fold> folds;
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    const Eigen::Index size = stages[s].recording.size(), blocks = stages.size() > 1 ? 1 : kBlocks;
+    for (Eigen::Index b = 0; b < blocks; ++b)
+      folds.push_back({s, size * b / blocks, size * (b + 1) / blocks - 1});
+  }
+  return folds;
+}
+
+/// Predicts each fold from fair starts, by the base and by the model that the other folds' evidence for the
+/// free unknowns makes of it. No row within a window of the fold takes part in that evidence.
+inline HeldOut held_out(const Fit& fit, const Evidence& evidence, const Model& base,
+                        const Model& base_physics, const ActiveSet& free, std::uint64_t seed, int threads,
+                        const Watch& watch = {}) {
+  HeldOut result;
+  result.whole_recordings = fit.stages.size() > 1;
+  HorizonOptions options;
+  options.starts_every = 0.2;
+  options.horizons = result.horizons;
+  options.threads = threads;
+  const std::size_t horizons = options.horizons.size();
+  std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons);
+  for (const Fold& fold : folds_of(fit.stages)) {
+    std::vector<bool> left_out;
+    for (std::size_t s = 0; s < fit.stages.size(); ++s)
+      for (const FitWindow& window : fit.stages[s].windows)
+        left_out.push_back(s == fold.stage && window.first <= fold.last && window.last >= fold.first);
+    if (std::ranges::count(left_out, false) < 4) continue;
+    UnknownVector at = evidence.solve_without(free, left_out).cwiseProduct(scales());
+    for (int u = 0; u < kUnknowns; ++u) {
+      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+      at[u] = std::clamp(at[u], info.minimum, info.maximum);
+    }
+    const Recording rows = cut(fit.stages[fold.stage].recording, fold.first, fold.last);
+    const HorizonTask plain(rows, base, options);
+    const Recording right = corrected(rows, at);
+    const HorizonTask better(right, augmented_model(base_physics, at, "augmented"), options);
+    const std::size_t count = std::min(plain.size(), better.size());
+    std::vector<std::vector<WindowError>> without(count), with(count);
+    for_each_index(count, threads, watch, [&](std::size_t i) {
+      without[i] = plain.errors(i);
+      with[i] = better.errors(i);
+    });
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t h = 0; h < horizons; ++h) {
+        const WindowError &a = without[i][h], &b = with[i][h];
+        if (!a.comparable || !b.comparable || a.failed || b.failed) continue;
+        base_errors[h].push_back(a.model);
+        augmented_errors[h].push_back(b.model);
+        gains[h].push_back(a.model - b.model);
+      }
+  }
+  std::mt19937_64 generator(seed);
+  for (std::size_t h = 0; h < horizons; ++h) {
+    const bool any = !gains[h].empty();
+    result.windows = std::max(result.windows, gains[h].size());
+    result.base_error.push_back(any ? std::optional(mean_of(base_errors[h])) : std::nullopt);
+    result.augmented_error.push_back(any ? std::optional(mean_of(augmented_errors[h])) : std::nullopt);
+    const std::size_t overlap =
+        1 + static_cast<std::size_t>(std::ceil(options.horizons[h] / options.starts_every));
+    const std::optional<ErrorSummary> gain = summarize(gains[h], overlap, generator);
+    result.improvement_ci95.push_back(gain ? gain->mean_ci95 : std::nullopt);
+  }
+  return result;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,533 @@
+# SPDX-License-Identifier: MIT
+"""A diagnosis as a page for people: one HTML file, with its pictures inside."""
+
+from __future__ import annotations
+
+import base64
+import io
+import math
+from collections.abc import Iterable
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SCHEMA = "diabolo.diagnosis/1"
+SIGNIFICANCE = 4.0
+"""Standard deviations beyond which a candidate counts; kSignificance of the engine."""
+LONGEST_BAR = 3.0 * SIGNIFICANCE
+CLIPPED = 6.0
+FIRST_RECORDINGS = 4
+"""So many are shown at once; the others unfold."""
+
+HEADLINES = {
+    "NOTHING_MISSING": ("Nothing missing", "The base simulator explains these recordings."),
+    "NAMED": ("Physics named", "The base simulator leaves out physics that has a name."),
+    "MEASUREMENT_FAULT": ("Measurement fault", "The recordings are off, not the simulator's physics."),
+    "NUMERICAL": ("Numerical artefact", "The simulator's own solver explains the difference."),
+    "TIE": ("Tie", "Several explanations fit equally well; this data cannot tell them apart."),
+    "UNNAMED_STRUCTURE": ("Unnamed structure", "Something is missing that fits none of the known names."),
+    "INSUFFICIENT_DATA": ("Too little data", "These recordings cannot decide what is missing."),
+}
+WORDS = {
+    "string_elasticity": "Stretching of the string",
+    "string_friction": "Friction between string and axle",
+    "string_wrap": "String wrapped around the axle",
+    "string_mass": "Mass of the string",
+    "stick_flex": "Bending of the sticks",
+    "air_drag_linear": "Air drag, growing with speed",
+    "air_drag_quadratic": "Air drag, growing with speed squared",
+    "wind": "Wind",
+    "magnus_lift": "Sideways lift by the spin (Magnus)",
+    "spin_drag": "Air slows the spin",
+    "axle_drag": "Bearing slows the spin",
+    "gyroscopic_tilt": "Gyroscopic tilt of the axle",
+    "landing_restitution": "Bounce at a catch",
+    "spin_coupling": "How string motion drives the spin",
+    "gravity_magnitude": "Strength of gravity",
+    "gravity_tilt": "Frame tilted against gravity",
+    "length_scale": "Lengths recorded too long or short",
+    "time_offset": "Diabolo ahead of the sticks in time",
+    "marker_offset": "Recorded centre beside the true one",
+    "stick_tip_offset": "Recorded stick tips beside the true ones",
+    "string_length": "True length of the string",
+    "axle_radius": "Radius of the axle",
+    "frame_rate": "Frame rate",
+    "filter_lag": "Lag of the recording's filter",
+    "body_swap": "Bodies swapped in the recording",
+    "robot_servo_lag": "Lag of the robot's servos",
+    "solver_artefact": "Artefact of the simulator's solver",
+    "ON_STRING": "on the string",
+    "LOOSE": "string slack",
+    "FLYING": "in flight",
+    "string_normal": "along the string's pull",
+    "string_tangent": "along the string",
+    "string_binormal": "across the string's plane",
+    "flight_against_v": "against the velocity",
+    "flight_vertical": "up",
+    "flight_axis_x_v": "axle × velocity",
+    "axis_x_v": "axle × velocity",
+    "spin_on_string": "against the spin",
+    "spin_off_string": "against the spin",
+}
+MODE_COLORS = {"ON_STRING": "#3b6ea5", "LOOSE": "#d9a441", "FLYING": "#8e6bb0"}
+BEFORE, AFTER = "#6b7280", "#0b5fa5"
+
+
+def check(path: str | Path) -> None:
+    """Raise ValueError where a report cannot be made for want of a library."""
+    try:
+        for name in ("jinja2", "matplotlib"):
+            import_module(name)
+    except ModuleNotFoundError as error:
+        raise ValueError(
+            f"{path}: to make a report, install {error.name} (pip install 'diabolo[plot]')"
+        ) from error
+
+
+def report_html(result: dict[str, Any]) -> str:
+    """The page of a result of schema diabolo.diagnosis/1; what it lacks, the page says in words."""
+    check("report")
+    if result.get("schema") != SCHEMA:
+        raise ValueError(f"schema: found {result.get('schema')!r}; expected {SCHEMA!r}")
+    import jinja2
+    import matplotlib
+
+    folder = Path(__file__).with_name("templates")
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(folder),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    headline = result.get("headline") or "without headline"
+    badge, meaning = HEADLINES.get(headline, (words(headline), ""))
+    style = {"font.size": 10, "svg.hashsalt": "diabolo", "axes.spines.top": False, "axes.spines.right": False}
+    with matplotlib.rc_context({**matplotlib.rcParamsDefault, **style}):  # the same page on every machine
+        return environment.get_template("diagnosis.html.j2").render(
+            result=result,
+            headline=headline,
+            badge=badge,
+            meaning=meaning,
+            sentence=result.get("sentence") or meaning or badge,
+            fit=_fit(result.get("fit") or {}),
+            effects=[_effect(effect) for effect in _rows(result, "effects")],
+            unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
+            strips=_strips(result.get("locate") or {}),
+            first_strips=FIRST_RECORDINGS,
+            ladder=_ladder(result),
+            threshold=f"{SIGNIFICANCE:g}",
+            threshold_percent=100.0 * SIGNIFICANCE / LONGEST_BAR,
+            ties=_ties(result),
+            nuisances=[
+                [_named(row), quantity(row.get("value"), row.get("unit"), row.get("ci90"))]
+                for row in _rows(result, "nuisances")
+            ],
+            limits=[
+                [
+                    _named(row),
+                    words(row.get("parameter")),
+                    "below " + quantity(row["limit95"], row.get("unit")),
+                ]
+                if row.get("limit95") is not None
+                else [_named(row), words(row.get("parameter")), "no limit: this data cannot show it"]
+                for row in _rows(result, "upper_limits")
+            ],
+            experiments=[_experiment(row) for row in _rows(result, "next_experiment")],
+            inputs=[[row.get("file"), (row.get("sha256") or "")[:16]] for row in _rows(result, "inputs")],
+            noise=[
+                [
+                    row.get("recording"),
+                    quantity(row.get("position_m"), "m"),
+                    quantity(row.get("spin_rad_s"), "rad/s"),
+                ]
+                for row in _rows(result, "noise")
+            ],
+            seconds=quantity(result.get("seconds"), "s"),
+        )
+
+
+# ---- words and numbers ----
+
+
+def words(key: Any) -> str:
+    """A key in plain words."""
+    return WORDS.get(str(key), str(key).replace("_", " ")) if key else "not given"
+
+
+def quantity(value: Any, unit: str | None, interval: Any = None) -> str:
+    """A number with its unit, in one that people read, and its interval with as many digits as it supports."""
+    if value is None:
+        return "not known"
+    ends = [end for end in interval or () if end is not None]
+    largest = max(abs(number) for number in (value, *ends))
+    factor, shown = _readable(largest, unit or "1")
+    largest *= factor
+    exponent = math.floor(math.log10(largest)) if largest > 0.0 else 0
+    power = exponent if not -3 <= exponent < 6 else 0
+    factor /= 10.0**power
+    width = abs(ends[1] - ends[0]) / 2.0 if len(ends) == 2 else 0.0
+    smallest = width or abs(value) / 10.0
+    decimals = 1 - math.floor(math.log10(smallest * factor)) if smallest * factor > 0.0 else 0
+    decimals = min(max(decimals, 0), 6)
+
+    def text(number: float | None) -> str:
+        if number is None:
+            return "open"
+        rounded = f"{number * factor:.{decimals}f}"
+        return rounded.replace("-", "\N{MINUS SIGN}") if float(rounded) else rounded.removeprefix("-")
+
+    both = text(value) + (f" [{text(interval[0])}, {text(interval[1])}]" if interval else "")
+    return f"{both}{f' × {_power_of_ten(power)}' if power else ''} {shown}"
+
+
+def _readable(largest: float, unit: str) -> tuple[float, str]:
+    if unit == "m":
+        return (1e3, "mm") if largest < 0.1 else (1.0, "m")
+    if unit == "s":
+        return (1e3, "ms") if largest < 0.1 else (1.0, "s")
+    if unit == "rad":
+        return 180.0 / math.pi, "deg"
+    if unit == "m/N":
+        return 1e3, "mm/N"
+    return 1.0, "(no unit)" if unit == "1" else unit.replace("^2", "²").replace("*", " ")
+
+
+def _power_of_ten(power: int) -> str:
+    return "10" + str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def probability(p: float | None) -> str:
+    if p is None:
+        return "not known"
+    if p >= 1e-3 or p == 0.0:
+        return f"{p:.2g}" if p else "below what can be counted"
+    digit, power = f"{p:.0e}".split("e")
+    return f"{digit} × {_power_of_ten(int(power))}"
+
+
+def percent(share: float | None) -> str:
+    return "not known" if share is None else f"{100.0 * share:.0f} %"
+
+
+def _rows(parent: dict[str, Any], key: str) -> list[dict[str, Any]]:
+    return [row for row in parent.get(key) or [] if row]
+
+
+def _named(row: dict[str, Any]) -> dict[str, str]:
+    """A cell: the name in plain words beside the key."""
+    return {"words": words(row.get("name")), "key": row.get("name") or ""}
+
+
+def _joined(parts: Iterable[str]) -> str:
+    found = list(parts)
+    return " and ".join([", ".join(found[:-1]), found[-1]] if len(found) > 1 else found)
+
+
+# ---- what the sections say ----
+
+
+def _fit(fit: dict[str, Any]) -> dict[str, Any]:
+    """Errors on data that was not fitted, before and after, and whether they differ."""
+    horizons, before = fit.get("horizons_s") or [], fit.get("base_error_m") or []
+    after = fit.get("augmented_error_m") or [None] * len(before)
+    intervals = fit.get("improvement_ci95_m") or [None] * len(before)
+    rows = [
+        row
+        for row in zip(horizons, before, after, intervals, strict=False)
+        if None not in row[:2] and row[0] > 0
+    ]
+    if not rows:
+        return {
+            "sentence": "There is no held-out error: nothing could be predicted and compared.",
+            "rows": [],
+        }
+    horizon, base, augmented, interval = rows[-1]
+    held_out = {
+        "recordings": "whole recordings that the fit did not see",
+        "blocks": "stretches of the recordings that the fit did not see",
+    }.get(fit.get("heldout") or "", "data that the fit did not see")
+    where = f"On {held_out}, the prediction's position error after {quantity(horizon, 's')}"
+    windows = f" ({fit['windows']} windows)" if fit.get("windows") is not None else ""
+    tile = f"{quantity(base, 'm')}"
+    if augmented is None:
+        sentence = f"{where} is {tile}{windows}. There is no corrected simulator to compare with."
+    else:
+        tile += f" → {quantity(augmented, 'm')}"
+        share = (
+            f" ({abs(augmented / base - 1.0):.0%} {'less' if augmented <= base else 'more'})" if base else ""
+        )
+        sentence = f"{where} goes from {quantity(base, 'm')} to {quantity(augmented, 'm')}{share}{windows}. "
+        sentence += _improvement(base - augmented, interval)
+    table = [
+        [
+            quantity(row[0], "s"),
+            quantity(row[1], "m"),
+            quantity(row[2], "m"),
+            "not known" if None in row[1:] else quantity(row[1] - row[2], "m", row[3]),
+        ]
+        for row in rows
+    ]
+    tile_label = f"error after {quantity(horizon, 's')}, data not fitted"
+    picture = _picture(_error_figure(rows))
+    return {"sentence": sentence, "rows": table, "tile": tile, "tile_label": tile_label, "picture": picture}
+
+
+def _improvement(gain: float, interval: Any) -> str:
+    if not interval or None in interval:
+        return "How sure this is, the result does not say."
+    shown = f"The improvement is {quantity(gain, 'm', interval)} with its 95 % interval"
+    if interval[0] > 0.0:
+        return f"{shown}, which excludes zero."
+    return f"{shown}: {'it got worse' if interval[1] < 0.0 else 'zero is inside, so none is shown'}."
+
+
+def _effect(effect: dict[str, Any]) -> list[Any]:
+    where, size = effect.get("where") or {}, effect.get("size") or {}
+    sizes = [
+        f"{quantity(size[key], unit)}{after}"
+        for key, unit, after in (
+            ("acceleration_mps2", "m/s^2", ""),
+            ("position_1s_m", "m", " after 1 s"),
+            ("spin_share", "1", " of the spin in 1 s"),
+        )
+        if size.get(key) is not None
+    ]
+    parameters = [
+        f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
+        for row in _rows(effect, "parameters")
+    ]
+    notes = [f"a {effect['kind']} effect"] if effect.get("kind") else []
+    notes += ["too small to matter"] if effect.get("material") is False else []
+    return [
+        {**_named(effect), "notes": notes},
+        parameters or ["none"],
+        _where(where),
+        sizes or ["not known"],
+        probability(effect.get("p_value")),
+        percent(effect.get("confidence")),
+    ]
+
+
+def _where(where: dict[str, Any]) -> list[str]:
+    lines = [", ".join(words(mode) for mode in where.get("modes") or [])]
+    lines += [words(where["direction"])] if where.get("direction") else []
+    intervals = where.get("intervals") or []
+    spans = [f"{begin:.1f} to {end:.1f} s" for begin, end in intervals[:3]]
+    lines += [", ".join(spans) + (f" and {len(intervals) - 3} more" if len(intervals) > 3 else "")]
+    return [line for line in lines if line] or ["everywhere or not known"]
+
+
+def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
+    curve = [point for point in item.get("curve") or [] if None not in point]
+    return {
+        "law": item.get("law") or "no law found",
+        "where": "; ".join(_where(item.get("where") or {})),
+        "explained": percent(item.get("explained")),
+        "picture": _picture(_curve_figure(curve)) if curve else None,
+    }
+
+
+def _ladder(result: dict[str, Any]) -> list[dict[str, Any]]:
+    """All candidates, the most significant first."""
+    rows = sorted(_rows(result, "ladder"), key=lambda row: -abs(row.get("z") or 0.0))
+    return [
+        {
+            **_named(row),
+            "kind": row.get("kind") or "other",
+            "claimed": bool(row.get("claimed")),
+            "z": "no z" if row.get("z") is None else f"{abs(row['z']):.1f}",
+            "bar": 100.0 * min(abs(row.get("z") or 0.0) / LONGEST_BAR, 1.0),
+            "beyond": abs(row.get("z") or 0.0) > LONGEST_BAR,
+            "reason": row.get("reason") or ("no reason given" if not row.get("claimed") else ""),
+            "facts": [
+                f"{words(row.get('parameter'))} {quantity(row.get('estimate'), row.get('unit'))}",
+                *(
+                    [f"moves it {quantity(row['size_m'], 'm')} in 0.5 s"]
+                    if row.get("size_m") is not None
+                    else []
+                ),
+                f"p {probability(row.get('p_value'))}",
+            ],
+        }
+        for row in rows
+    ]
+
+
+def _ties(result: dict[str, Any]) -> list[str]:
+    """Every class of explanations that this data cannot tell apart, once, and what would."""
+    classes = {
+        frozenset([effect.get("name") or "", *effect["tied_with"]]): None
+        for effect in _rows(result, "effects")
+        if effect.get("tied_with")
+    }
+    sentences = []
+    for names in classes:
+        listed = _joined(f"{words(name)} ({name})" for name in sorted(names))
+        parting = [
+            words(row.get("motion"))
+            for row in _rows(result, "next_experiment")
+            if len(names & set(row.get("parts") or [])) > 1
+        ]
+        would = f" What would: {_joined(parting)}." if parting else ""
+        sentences.append(f"{listed} predict the same here; this data cannot tell them apart.{would}")
+    return sentences
+
+
+def _experiment(row: dict[str, Any]) -> list[Any]:
+    odds, parts = row.get("odds"), row.get("parts") or []
+    return [
+        words(row.get("motion")),
+        [f"{words(part)} ({part})" for part in parts] or ["not given"],
+        "not known" if odds is None else f"{odds:.3g} to 1",
+        quantity(row.get("seconds"), "s"),
+    ]
+
+
+# ---- pictures ----
+
+
+def _figure(width: float, height: float) -> Figure:
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def _picture(figure: Figure) -> str:
+    """As an address that holds the picture itself."""
+    stream = io.BytesIO()
+    figure.savefig(stream, format="svg", dpi=200, metadata={"Date": None, "Creator": None})
+    return "data:image/svg+xml;base64," + base64.b64encode(stream.getvalue()).decode()
+
+
+def _error_figure(rows: list[Any]) -> Figure:
+    largest = max(number for row in rows for number in row[1:3] if number is not None)
+    factor, unit = (1e3, "mm") if largest < 0.2 else (1e2, "cm")
+    figure = _figure(5.6, 3.6)
+    axes = figure.add_subplot()
+    axes.plot([r[0] for r in rows], [factor * r[1] for r in rows], "o--", color=BEFORE, lw=2, label="base")
+    after = [row for row in rows if row[2] is not None]
+    style: dict[str, Any] = {"color": AFTER, "lw": 2.4}
+    axes.plot([r[0] for r in after], [factor * r[2] for r in after], "o-", label="corrected", **style)
+    sure = [row for row in after if row[3] and None not in row[3]]
+    low = [factor * max(r[1] - r[3][1], 0.0) for r in sure]
+    high = [factor * (r[1] - r[3][0]) for r in sure]
+    label = "95 % of the improvement"
+    axes.fill_between([r[0] for r in sure], low, high, color=AFTER, alpha=0.2, lw=0, label=label)
+    axes.set(
+        xlabel="time predicted ahead [s]", ylabel=f"position error [{unit}]", ylim=(0, None), xlim=(0, None)
+    )
+    axes.grid(alpha=0.25)
+    axes.legend(frameon=False, loc="upper left")
+    return figure
+
+
+def _curve_figure(curve: list[Any]) -> Figure:
+    figure = _figure(5.6, 3.0)
+    axes = figure.add_subplot()
+    axes.plot([x for x, _ in curve], [y for _, y in curve], color=AFTER, lw=2.4)
+    axes.set(xlabel="argument of the law [SI unit]", ylabel="what is missing [SI unit]")
+    axes.grid(alpha=0.25)
+    return figure
+
+
+def _strips(locate: dict[str, Any]) -> list[dict[str, Any]]:
+    """Of each recording: a picture of what is missing, by direction and time, and what it shows in words."""
+    directions = _rows(locate, "directions")
+    windows: dict[str, list[dict[str, Any]]] = {}
+    for window in _rows(locate, "windows"):
+        if window.get("begin_s") is not None and window.get("end_s") is not None:
+            windows.setdefault(window.get("recording") or "recording", []).append(window)
+    strips = []
+    for recording, own in windows.items():
+        own.sort(key=lambda window: window["begin_s"])
+        cells = [
+            (abs(z), direction, window)
+            for window in own
+            for z, direction in zip(window.get("z") or [], directions, strict=False)
+            if z is not None
+        ]
+        said = "No direction could be tested here."
+        if cells:
+            z, direction, window = max(cells, key=lambda cell: cell[0])
+            label, begin = _direction(direction), window["begin_s"]
+            said = (
+                f"Strongest: {label}, {z:.1f} standard deviations at {begin:.1f} s."
+                if z > SIGNIFICANCE
+                else f"Nothing beyond {SIGNIFICANCE:g} standard deviations; the most is {z:.1f}, {label}."
+            )
+        strips.append({"recording": recording, "said": said, "picture": _picture(_strip(own, directions))})
+    return strips
+
+
+def _direction(direction: dict[str, Any]) -> str:
+    unit = " (spin)" if str(direction.get("unit", "")).startswith("rad") else ""
+    return f"{words(direction.get('mode'))}: {words(direction.get('name'))}{unit}"
+
+
+def _strip(windows: list[dict[str, Any]], directions: list[dict[str, Any]]) -> Figure:
+    from matplotlib.collections import PolyCollection
+
+    spans = [
+        (window["begin_s"], min(window["end_s"], following["begin_s"]))
+        for window, following in zip(windows, [*windows[1:], {"begin_s": math.inf}], strict=True)
+    ]
+    count = max(len(directions), 1)
+    figure = _figure(9.0, 2.6 + 0.3 * count)
+    heat, mode, line = figure.subplots(3, 1, sharex=True, height_ratios=[0.3 * count, 0.16, 1.3])
+    boxes, colors = [], []
+    for (begin, end), window in zip(spans, windows, strict=True):
+        for row, z in zip(range(count), window.get("z") or [], strict=False):
+            if z is not None:
+                boxes.append([(begin, row), (end, row), (end, row + 1), (begin, row + 1)])
+                colors.append(z)
+    mesh = PolyCollection(boxes, array=colors, cmap="RdBu_r", edgecolors="face", lw=0.3, rasterized=True)
+    mesh.set_clim(-CLIPPED, CLIPPED)
+    heat.add_collection(mesh)
+    labels = [_direction(direction) for direction in directions]
+    heat.set(facecolor="#dfe3e8", ylim=(count, 0))
+    heat.set_yticks([row + 0.5 for row in range(len(labels))], labels, parse_math=False)
+    heat.set_yticks(range(count), minor=True)
+    heat.grid(axis="y", which="minor", color="white", lw=1.5)
+    heat.tick_params(which="both", length=0, labelbottom=False)
+    bar = figure.colorbar(mesh, ax=heat, extend="both", pad=0.01, aspect=12, ticks=[-6, -4, 0, 4, 6])
+    bar.set_label("standard deviations")
+    _modes(mode, spans, windows)
+    _residuals(line, spans, windows)
+    line.set_xlim(spans[0][0], max(end for _, end in spans))
+    return figure
+
+
+def _modes(axes: Axes, spans: list[tuple[float, float]], windows: list[dict[str, Any]]) -> None:
+    """A ribbon in the colour of the string's state."""
+    from matplotlib.patches import Patch
+
+    colors = [MODE_COLORS.get(window.get("mode") or "", "#dfe3e8") for window in windows]
+    axes.broken_barh([(begin, end - begin) for begin, end in spans], (0, 1), facecolors=colors, lw=0)
+    axes.set(yticks=[0.5], yticklabels=["state of the string"], ylim=(0, 1))
+    axes.tick_params(length=0, labelbottom=False)
+    axes.spines[:].set_visible(False)
+    patches = [Patch(color=color, label=words(mode)) for mode, color in MODE_COLORS.items()]
+    legend = {"ncols": 3, "frameon": False, "loc": "outside lower right", "fontsize": 9}
+    axes.figure.legend(handles=patches, **legend)
+
+
+def _residuals(axes: Axes, spans: list[tuple[float, float]], windows: list[dict[str, Any]]) -> None:
+    """What is left in each window, in millimetres, before and after the correction."""
+    for key, color, label in (
+        ("residual_before_m", BEFORE, "base"),
+        ("residual_after_m", AFTER, "corrected"),
+    ):
+        x, y = [], []
+        for (begin, end), window in zip(spans, windows, strict=True):
+            value = math.nan if window.get(key) is None else 1e3 * window[key]
+            x += [begin, end, end]
+            y += [value, value, math.nan]
+        axes.plot(x, y, color=color, lw=1.8, label=label)
+    axes.set(xlabel="time [s]", ylabel="left over [mm]", ylim=(0, None))
+    axes.grid(alpha=0.25)
+    axes.legend(frameon=False, ncols=2, loc="upper right", fontsize=9)
