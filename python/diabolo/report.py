@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import base64
 import io
+import json
 import math
 from collections.abc import Iterable
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from jinja2 import Template
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -23,56 +26,8 @@ CLIPPED = 6.0
 FIRST_RECORDINGS = 4
 """So many are shown at once; the others unfold."""
 
-HEADLINES = {
-    "NOTHING_MISSING": ("Nothing missing", "The base simulator explains these recordings."),
-    "NAMED": ("Physics named", "The base simulator leaves out physics that has a name."),
-    "MEASUREMENT_FAULT": ("Measurement fault", "The recordings are off, not the simulator's physics."),
-    "NUMERICAL": ("Numerical artefact", "The simulator's own solver explains the difference."),
-    "TIE": ("Tie", "Several explanations fit equally well; this data cannot tell them apart."),
-    "UNNAMED_STRUCTURE": ("Unnamed structure", "Something is missing that fits none of the known names."),
-    "INSUFFICIENT_DATA": ("Too little data", "These recordings cannot decide what is missing."),
-}
-WORDS = {
-    "string_elasticity": "Stretching of the string",
-    "string_friction": "Friction between string and axle",
-    "string_wrap": "String wrapped around the axle",
-    "string_mass": "Mass of the string",
-    "stick_flex": "Bending of the sticks",
-    "air_drag_linear": "Air drag, growing with speed",
-    "air_drag_quadratic": "Air drag, growing with speed squared",
-    "wind": "Wind",
-    "magnus_lift": "Sideways lift by the spin (Magnus)",
-    "spin_drag": "Air slows the spin",
-    "axle_drag": "Bearing slows the spin",
-    "gyroscopic_tilt": "Gyroscopic tilt of the axle",
-    "landing_restitution": "Bounce at a catch",
-    "spin_coupling": "How string motion drives the spin",
-    "gravity_magnitude": "Strength of gravity",
-    "gravity_tilt": "Frame tilted against gravity",
-    "length_scale": "Lengths recorded too long or short",
-    "time_offset": "Diabolo ahead of the sticks in time",
-    "marker_offset": "Recorded centre beside the true one",
-    "stick_tip_offset": "Recorded stick tips beside the true ones",
-    "string_length": "True length of the string",
-    "axle_radius": "Radius of the axle",
-    "frame_rate": "Frame rate",
-    "filter_lag": "Lag of the recording's filter",
-    "body_swap": "Bodies swapped in the recording",
-    "robot_servo_lag": "Lag of the robot's servos",
-    "solver_artefact": "Artefact of the simulator's solver",
-    "ON_STRING": "on the string",
-    "LOOSE": "string slack",
-    "FLYING": "in flight",
-    "string_normal": "along the string's pull",
-    "string_tangent": "along the string",
-    "string_binormal": "across the string's plane",
-    "flight_against_v": "against the velocity",
-    "flight_vertical": "up",
-    "flight_axis_x_v": "axle × velocity",
-    "axis_x_v": "axle × velocity",
-    "spin_on_string": "against the spin",
-    "spin_off_string": "against the spin",
-}
+TEMPLATES = Path(__file__).with_name("templates")
+WORDS: dict[str, str] = json.loads((TEMPLATES / "words.json").read_text(encoding="utf-8"))
 MODE_COLORS = {"ON_STRING": "#3b6ea5", "LOOSE": "#d9a441", "FLYING": "#8e6bb0"}
 BEFORE, AFTER = "#6b7280", "#0b5fa5"
 
@@ -93,27 +48,13 @@ def report_html(result: dict[str, Any]) -> str:
     check("report")
     if result.get("schema") != SCHEMA:
         raise ValueError(f"schema: found {result.get('schema')!r}; expected {SCHEMA!r}")
-    import jinja2
     import matplotlib
 
-    folder = Path(__file__).with_name("templates")
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    headline = result.get("headline") or "without headline"
-    badge, meaning = HEADLINES.get(headline, (words(headline), ""))
-    style = {"font.size": 10, "svg.hashsalt": "diabolo", "axes.spines.top": False, "axes.spines.right": False}
-    with matplotlib.rc_context({**matplotlib.rcParamsDefault, **style}):  # the same page on every machine
-        return environment.get_template("diagnosis.html.j2").render(
+    style: Any = dict(matplotlib.rcParamsDefault)  # the same page on every machine
+    style.update({"svg.hashsalt": "diabolo", "axes.spines.top": False, "axes.spines.right": False})
+    with matplotlib.rc_context(style):
+        return _template().render(
             result=result,
-            headline=headline,
-            badge=badge,
-            meaning=meaning,
-            sentence=result.get("sentence") or meaning or badge,
             fit=_fit(result.get("fit") or {}),
             effects=[_effect(effect) for effect in _rows(result, "effects")],
             unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
@@ -151,6 +92,20 @@ def report_html(result: dict[str, Any]) -> str:
         )
 
 
+@cache
+def _template() -> Template:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("diagnosis.html.j2")
+
+
 # ---- words and numbers ----
 
 
@@ -160,7 +115,7 @@ def words(key: Any) -> str:
 
 
 def quantity(value: Any, unit: str | None, interval: Any = None) -> str:
-    """A number with its unit, in one that people read, and its interval with as many digits as it supports."""
+    """A number in a unit that people read, with as many digits as its interval supports."""
     if value is None:
         return "not known"
     ends = [end for end in interval or () if end is not None]
@@ -179,10 +134,12 @@ def quantity(value: Any, unit: str | None, interval: Any = None) -> str:
         if number is None:
             return "open"
         rounded = f"{number * factor:.{decimals}f}"
+        if not interval and "." in rounded:
+            rounded = rounded.rstrip("0").rstrip(".")
         return rounded.replace("-", "\N{MINUS SIGN}") if float(rounded) else rounded.removeprefix("-")
 
     both = text(value) + (f" [{text(interval[0])}, {text(interval[1])}]" if interval else "")
-    return f"{both}{f' × {_power_of_ten(power)}' if power else ''} {shown}"
+    return f"{both}{_power_of_ten(power) if power else ''} {shown}"
 
 
 def _readable(largest: float, unit: str) -> tuple[float, str]:
@@ -198,7 +155,7 @@ def _readable(largest: float, unit: str) -> tuple[float, str]:
 
 
 def _power_of_ten(power: int) -> str:
-    return "10" + str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return " \N{MULTIPLICATION SIGN} 10" + str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def probability(p: float | None) -> str:
@@ -207,7 +164,7 @@ def probability(p: float | None) -> str:
     if p >= 1e-3 or p == 0.0:
         return f"{p:.2g}" if p else "below what can be counted"
     digit, power = f"{p:.0e}".split("e")
-    return f"{digit} × {_power_of_ten(int(power))}"
+    return digit + _power_of_ten(int(power))
 
 
 def percent(share: float | None) -> str:
@@ -259,7 +216,9 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
     else:
         tile += f" → {quantity(augmented, 'm')}"
         share = (
-            f" ({abs(augmented / base - 1.0):.0%} {'less' if augmented <= base else 'more'})" if base else ""
+            f" ({percent(abs(augmented / base - 1.0))} {'less' if augmented <= base else 'more'})"
+            if base
+            else ""
         )
         sentence = f"{where} goes from {quantity(base, 'm')} to {quantity(augmented, 'm')}{share}{windows}. "
         sentence += _improvement(base - augmented, interval)
@@ -280,50 +239,55 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
 def _improvement(gain: float, interval: Any) -> str:
     if not interval or None in interval:
         return "How sure this is, the result does not say."
-    shown = f"The improvement is {quantity(gain, 'm', interval)} with its 95 % interval"
+    shown = f"The improvement is {quantity(gain, 'm', interval)}, with its 95 % interval"
     if interval[0] > 0.0:
         return f"{shown}, which excludes zero."
-    return f"{shown}: {'it got worse' if interval[1] < 0.0 else 'zero is inside, so none is shown'}."
+    verdict = "it predicts worse" if interval[1] < 0.0 else "zero is inside, so no improvement is shown"
+    return f"{shown}: {verdict}."
 
 
 def _effect(effect: dict[str, Any]) -> list[Any]:
-    where, size = effect.get("where") or {}, effect.get("size") or {}
-    sizes = [
-        f"{quantity(size[key], unit)}{after}"
-        for key, unit, after in (
-            ("acceleration_mps2", "m/s^2", ""),
-            ("position_1s_m", "m", " after 1 s"),
-            ("spin_share", "1", " of the spin in 1 s"),
-        )
-        if size.get(key) is not None
-    ]
     parameters = [
         f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
         for row in _rows(effect, "parameters")
     ]
-    notes = [f"a {effect['kind']} effect"] if effect.get("kind") else []
+    notes = [str(effect["kind"])] if effect.get("kind") else []
     notes += ["too small to matter"] if effect.get("material") is False else []
     return [
         {**_named(effect), "notes": notes},
         parameters or ["none"],
-        _where(where),
-        sizes or ["not known"],
+        _where(effect.get("where") or {}),
+        _sizes(effect.get("size") or {}) or ["not known"],
         probability(effect.get("p_value")),
         percent(effect.get("confidence")),
     ]
 
 
+def _sizes(row: dict[str, Any]) -> list[str]:
+    sizes = [
+        f"{quantity(row[key], unit)}{after}"
+        for key, unit, after in (
+            ("acceleration_mps2", "m/s^2", ""),
+            ("size_m", "m", " after 0.5 s"),
+            ("position_1s_m", "m", " after 1 s"),
+        )
+        if row.get(key) is not None
+    ]
+    share = row.get("spin_share")
+    return sizes if share is None else [*sizes, f"{percent(share)} of the spin in 1 s"]
+
+
 def _where(where: dict[str, Any]) -> list[str]:
     lines = [", ".join(words(mode) for mode in where.get("modes") or [])]
     lines += [words(where["direction"])] if where.get("direction") else []
-    intervals = where.get("intervals") or []
+    intervals = [span for span in where.get("intervals") or [] if span and None not in span]
     spans = [f"{begin:.1f} to {end:.1f} s" for begin, end in intervals[:3]]
     lines += [", ".join(spans) + (f" and {len(intervals) - 3} more" if len(intervals) > 3 else "")]
     return [line for line in lines if line] or ["everywhere or not known"]
 
 
 def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
-    curve = [point for point in item.get("curve") or [] if None not in point]
+    curve = [point for point in item.get("curve") or [] if point and None not in point]
     return {
         "law": item.get("law") or "no law found",
         "where": "; ".join(_where(item.get("where") or {})),
@@ -346,11 +310,7 @@ def _ladder(result: dict[str, Any]) -> list[dict[str, Any]]:
             "reason": row.get("reason") or ("no reason given" if not row.get("claimed") else ""),
             "facts": [
                 f"{words(row.get('parameter'))} {quantity(row.get('estimate'), row.get('unit'))}",
-                *(
-                    [f"moves it {quantity(row['size_m'], 'm')} in 0.5 s"]
-                    if row.get("size_m") is not None
-                    else []
-                ),
+                *_sizes(row),
                 f"p {probability(row.get('p_value'))}",
             ],
         }
@@ -361,7 +321,7 @@ def _ladder(result: dict[str, Any]) -> list[dict[str, Any]]:
 def _ties(result: dict[str, Any]) -> list[str]:
     """Every class of explanations that this data cannot tell apart, once, and what would."""
     classes = {
-        frozenset([effect.get("name") or "", *effect["tied_with"]]): None
+        frozenset([effect.get("name") or "", *filter(None, effect["tied_with"])]): None
         for effect in _rows(result, "effects")
         if effect.get("tied_with")
     }
@@ -465,12 +425,12 @@ def _strips(locate: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def _direction(direction: dict[str, Any]) -> str:
-    unit = " (spin)" if str(direction.get("unit", "")).startswith("rad") else ""
-    return f"{words(direction.get('mode'))}: {words(direction.get('name'))}{unit}"
+    return f"{words(direction.get('mode'))}: {words(direction.get('name'))}"
 
 
 def _strip(windows: list[dict[str, Any]], directions: list[dict[str, Any]]) -> Figure:
     from matplotlib.collections import PolyCollection
+    from matplotlib.patches import Patch
 
     spans = [
         (window["begin_s"], min(window["end_s"], following["begin_s"]))
@@ -478,7 +438,7 @@ def _strip(windows: list[dict[str, Any]], directions: list[dict[str, Any]]) -> F
     ]
     count = max(len(directions), 1)
     figure = _figure(9.0, 2.6 + 0.3 * count)
-    heat, mode, line = figure.subplots(3, 1, sharex=True, height_ratios=[0.3 * count, 0.16, 1.3])
+    heat, ribbon, line = figure.subplots(3, 1, sharex=True, height_ratios=[0.3 * count, 0.16, 1.3])
     boxes, colors = [], []
     for (begin, end), window in zip(spans, windows, strict=True):
         for row, z in zip(range(count), window.get("z") or [], strict=False):
@@ -496,38 +456,32 @@ def _strip(windows: list[dict[str, Any]], directions: list[dict[str, Any]]) -> F
     heat.tick_params(which="both", length=0, labelbottom=False)
     bar = figure.colorbar(mesh, ax=heat, extend="both", pad=0.01, aspect=12, ticks=[-6, -4, 0, 4, 6])
     bar.set_label("standard deviations")
-    _modes(mode, spans, windows)
+    _modes(ribbon, spans, windows)
     _residuals(line, spans, windows)
+    keys = [Patch(color=color, label=words(mode)) for mode, color in MODE_COLORS.items()]
+    keys += line.get_legend_handles_labels()[0]
+    figure.legend(handles=keys, loc="outside lower right", ncols=5, frameon=False, fontsize=9)
     line.set_xlim(spans[0][0], max(end for _, end in spans))
     return figure
 
 
 def _modes(axes: Axes, spans: list[tuple[float, float]], windows: list[dict[str, Any]]) -> None:
     """A ribbon in the colour of the string's state."""
-    from matplotlib.patches import Patch
-
     colors = [MODE_COLORS.get(window.get("mode") or "", "#dfe3e8") for window in windows]
     axes.broken_barh([(begin, end - begin) for begin, end in spans], (0, 1), facecolors=colors, lw=0)
     axes.set(yticks=[0.5], yticklabels=["state of the string"], ylim=(0, 1))
     axes.tick_params(length=0, labelbottom=False)
     axes.spines[:].set_visible(False)
-    patches = [Patch(color=color, label=words(mode)) for mode, color in MODE_COLORS.items()]
-    legend = {"ncols": 3, "frameon": False, "loc": "outside lower right", "fontsize": 9}
-    axes.figure.legend(handles=patches, **legend)
 
 
 def _residuals(axes: Axes, spans: list[tuple[float, float]], windows: list[dict[str, Any]]) -> None:
     """What is left in each window, in millimetres, before and after the correction."""
-    for key, color, label in (
-        ("residual_before_m", BEFORE, "base"),
-        ("residual_after_m", AFTER, "corrected"),
-    ):
-        x, y = [], []
-        for (begin, end), window in zip(spans, windows, strict=True):
-            value = math.nan if window.get(key) is None else 1e3 * window[key]
-            x += [begin, end, end]
-            y += [value, value, math.nan]
-        axes.plot(x, y, color=color, lw=1.8, label=label)
+    x = [time for begin, end in spans for time in (begin, end, end)]
+    levels = {}
+    for key in ("residual_before_m", "residual_after_m"):
+        values = [math.nan if window.get(key) is None else 1e3 * window[key] for window in windows]
+        levels[key] = [level for value in values for level in (value, value, math.nan)]
+    axes.fill_between(x, levels["residual_before_m"], color=BEFORE, alpha=0.45, lw=0, label="base")
+    axes.plot(x, levels["residual_after_m"], color=AFTER, lw=2.0, label="corrected")
     axes.set(xlabel="time [s]", ylabel="left over [mm]", ylim=(0, None))
     axes.grid(alpha=0.25)
-    axes.legend(frameon=False, ncols=2, loc="upper right", fontsize=9)

@@ -1,0 +1,429 @@
+# SPDX-License-Identifier: MIT
+# ruff: noqa: RUF001 (signs of mathematics)
+"""The page of a diagnosis. All results here are invented for the tests: no numbers of any real recording."""
+
+from __future__ import annotations
+
+import copy
+import math
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("jinja2")
+pytest.importorskip("matplotlib")
+
+from diabolo import report
+from diabolo.report import quantity, report_html
+
+DIRECTIONS = [
+    ("string_tangent", "ON_STRING", "m/s^2"),
+    ("string_binormal", "ON_STRING", "m/s^2"),
+    ("spin_on_string", "ON_STRING", "rad/s^2"),
+    ("flight_against_v", "FLYING", "m/s^2"),
+    ("flight_vertical", "FLYING", "m/s^2"),
+    ("flight_axis_x_v", "FLYING", "m/s^2"),
+    ("spin_off_string", "FLYING", "rad/s^2"),
+]
+
+
+def invented_windows(recording: str, seconds: float) -> list[dict[str, Any]]:
+    windows = []
+    for index in range(int(seconds / 0.25)):
+        flying = index % 8 in (4, 5, 6)
+        mode = "FLYING" if flying else "LOOSE" if index % 8 == 7 else "ON_STRING"
+        z = [
+            round(1.4 * math.sin(7.1 * index + 3.3 * row) + (5.5 if row == 5 else 0.0), 2)
+            if own == mode
+            else None
+            for row, (_, own, _) in enumerate(DIRECTIONS)
+        ]
+        windows.append(
+            {
+                "recording": recording,
+                "begin_s": 0.25 * index,
+                "end_s": 0.25 * (index + 1),
+                "mode": mode,
+                "residual_before_m": 0.018 + 0.004 * math.sin(index) if flying else 0.002,
+                "residual_after_m": 0.0022 if flying else 0.0018,
+                "z": z,
+            }
+        )
+    return windows
+
+
+def candidate(
+    name: str, z: float, estimate: float, unit: str, parameter: str, reason: str = "", kind: str = "physics"
+) -> dict[str, Any]:
+    return {
+        "name": name,
+        "kind": kind,
+        "estimate": estimate,
+        "unit": unit,
+        "parameter": parameter,
+        "z": z,
+        "p_value": min(1.0, 13.0 * math.erfc(abs(z) / math.sqrt(2.0))),
+        "position_1s_m": None,
+        "size_m": 0.0004 * abs(z),
+        "claimed": not reason,
+        "reason": reason,
+    }
+
+
+INVENTED: dict[str, Any] = {
+    "schema": "diabolo.diagnosis/1",
+    "headline": "NAMED",
+    "sentence": "The simulator leaves out the sideways lift of the spinning diabolo in flight, and the "
+    "recording's frame is tilted by 1.2 deg.",
+    "base": "consistent",
+    "effects": [
+        {
+            "name": "magnus_lift",
+            "kind": "physics",
+            "material": True,
+            "tied_with": [],
+            "p_value": 1.3e-9,
+            "confidence": 0.97,
+            "parameters": [
+                {"name": "coefficient", "value": 0.0031, "unit": "1/rad", "ci90": [0.0027, 0.0035]}
+            ],
+            "where": {
+                "modes": ["FLYING"],
+                "direction": "axis_x_v",
+                "intervals": [[1.2, 1.9], [3.0, 3.7], [5.0, 5.7], [7.0, 7.7]],
+            },
+            "size": {"acceleration_mps2": 0.8, "position_1s_m": 0.031},
+        },
+        {
+            "name": "gravity_tilt",
+            "kind": "measurement",
+            "material": True,
+            "tied_with": [],
+            "p_value": 0.0002,
+            "confidence": 0.93,
+            "parameters": [
+                {"name": "angle_deg", "value": 1.21, "unit": "deg", "ci90": [1.02, 1.40]},
+                {"name": "azimuth_deg", "value": -41.0, "unit": "deg", "ci90": [-52.0, -30.0]},
+            ],
+            "where": {"modes": ["ON_STRING", "FLYING"], "direction": None, "intervals": []},
+            "size": {"acceleration_mps2": 0.21, "position_1s_m": None},
+        },
+    ],
+    "unnamed": [],
+    "upper_limits": [
+        {"name": "air_drag_linear", "parameter": "rate", "limit95": 0.011, "unit": "1/s"},
+        {"name": "air_drag_quadratic", "parameter": "coefficient", "limit95": 0.0062, "unit": "1/m"},
+        {"name": "axle_drag", "parameter": "constant", "limit95": None, "unit": "rad/s^2"},
+    ],
+    "nuisances": [
+        {"name": "time_offset", "value": 0.0007, "unit": "s", "ci90": [-0.0002, 0.0016]},
+        {"name": "string_length", "value": 1.4523, "unit": "m", "ci90": [1.4511, 1.4535]},
+        {"name": "length_scale", "value": 1.0004, "unit": "1", "ci90": [0.9991, 1.0017]},
+        {"name": "axle_radius", "value": 0.0061, "unit": "m", "ci90": [0.0052, 0.0070]},
+    ],
+    "fit": {
+        "heldout": "recordings",
+        "horizons_s": [0.1, 0.25, 0.5, 1.0],
+        "base_error_m": [0.0021, 0.0074, 0.0236, 0.0915],
+        "augmented_error_m": [0.0017, 0.0041, 0.0093, 0.0214],
+        "improvement_ci95_m": [[0.0001, 0.0007], [0.0022, 0.0044], [0.0112, 0.0174], [0.0590, 0.0812]],
+        "windows": 412,
+    },
+    "next_experiment": [
+        {
+            "motion": "high_throw",
+            "parts": ["air_drag_linear", "air_drag_quadratic"],
+            "odds": 20.0,
+            "seconds": 12.0,
+        },
+        {"motion": "two_spin_directions", "parts": ["magnus_lift"], "odds": 6.4, "seconds": 20.0},
+    ],
+    "model": "model.json",
+    "seconds": 12.3,
+    "version": "0.0.0",
+    "inputs": [
+        {"file": "invented_throw.csv", "sha256": "0123456789abcdef" * 4},
+        {"file": "invented_swing.csv", "sha256": "fedcba9876543210" * 4},
+    ],
+    "ladder": [
+        candidate("magnus_lift", 17.2, 0.0031, "1/rad", "coefficient"),
+        candidate("gravity_tilt", 6.3, 0.0211, "rad", "angle", kind="measurement"),
+        candidate("length_scale", 4.6, 0.0011, "1", "factor", "below the floor of 0.3 %", kind="measurement"),
+        candidate("time_offset", 1.3, 0.0007, "s", "seconds", "below the threshold", kind="measurement"),
+        candidate("string_friction", 2.1, 0.012, "1", "coefficient", "below the threshold"),
+        candidate("string_elasticity", 0.4, 2.0e-6, "m/N", "compliance", "below the threshold"),
+        candidate("air_drag_quadratic", -4.9, -0.011, "1/m", "coefficient", "its sign is against physics"),
+        candidate("air_drag_linear", 1.1, 0.008, "1/s", "rate", "below the threshold"),
+    ],
+    "locate": {
+        "directions": [{"name": name, "mode": mode, "unit": unit} for name, mode, unit in DIRECTIONS],
+        "windows": invented_windows("invented_throw", 14.0) + invented_windows("invented_swing", 9.0),
+    },
+    "noise": [
+        {"recording": "invented_throw", "position_m": 0.00041, "spin_rad_s": 0.6},
+        {"recording": "invented_swing", "position_m": 0.00038, "spin_rad_s": 0.5},
+    ],
+}
+
+
+def invented(**changes: Any) -> dict[str, Any]:
+    return {**copy.deepcopy(INVENTED), **changes}
+
+
+class Page(HTMLParser):
+    """The page's tags, and its text but for the style."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.open: list[str] = []
+        self.pieces: list[str] = []
+        self.feed(html)
+        assert not self.open, "every tag is closed"
+        self.text = " ".join(" ".join(self.pieces).split())
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attributes)))
+        if tag not in ("meta", "img", "br"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open and self.open[-1] not in ("style", "title"):
+            self.pieces.append(data)
+
+    def images(self) -> list[dict[str, str | None]]:
+        return [attributes for tag, attributes in self.tags if tag == "img"]
+
+
+def test_the_page_gives_the_answer_first_and_its_parts_in_order() -> None:
+    text = Page(report_html(invented())).text
+    parts = [
+        "Physics named NAMED",
+        INVENTED["sentence"],
+        "error after 1 s, data not fitted",
+        "On whole recordings that the fit did not see",
+        "Sideways lift by the spin (Magnus) magnus_lift",
+        "Strongest: in flight: axle × velocity",
+        "Rejected: its sign is against physics",
+        "no claimed effect is tied",
+        "Radius of the axle",
+        "below 0.011 1/s",
+        "high throw",
+        "invented_throw.csv 0123456789abcdef",
+        "0.41 mm",
+    ]
+    places = [text.find(part) for part in parts]
+    assert -1 not in places, parts[places.index(-1)]
+    assert places == sorted(places)
+
+
+def test_held_out_errors_are_in_the_units_of_people() -> None:
+    text = Page(report_html(invented())).text
+    assert "goes from 91.5 mm to 21.4 mm (77 % less) (412 windows)" in text
+    assert "70 [59, 81] mm, with its 95 % interval, which excludes zero" in text
+
+
+@pytest.mark.parametrize(
+    ("interval", "said"),
+    [
+        ([-0.01, 0.02], "zero is inside, so no improvement is shown"),
+        ([-0.02, -0.01], "it predicts worse"),
+        (None, "How sure this is, the result does not say"),
+        ([None, 0.02], "How sure this is, the result does not say"),
+    ],
+)
+def test_an_improvement_that_is_not_sure_is_not_called_one(interval: Any, said: str) -> None:
+    fit = {
+        "horizons_s": [1.0],
+        "base_error_m": [0.09],
+        "augmented_error_m": [0.08],
+        "improvement_ci95_m": [interval],
+    }
+    assert said in Page(report_html(invented(fit=fit))).text
+
+
+def test_the_page_stands_alone_and_every_picture_has_words() -> None:
+    html = report_html(invented())
+    page = Page(html)
+    assert not {tag for tag, _ in page.tags} & {"script", "link", "iframe", "object"}
+    assert not re.search(r"(?:src|href)=\"(?!data:)|url\(|@import", html)
+    assert len(page.images()) == 3
+    for image in page.images():
+        assert (image["src"] or "").startswith("data:image/svg+xml;base64,")
+        assert len(image["alt"] or "") > 40
+    assert 'name="viewport"' in html and '<html lang="en">' in html
+
+
+def test_the_same_result_makes_the_same_page() -> None:
+    assert report_html(invented()) == report_html(invented())
+
+
+HOSTILE = "<script>alert('$x_1$ & \"y\"')</script>"
+
+
+def hostile(value: Any) -> Any:
+    """The same with every text but the fixed names replaced."""
+    if isinstance(value, dict):
+        return {key: item if key in ("schema",) else hostile(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [hostile(item) for item in value]
+    return HOSTILE if isinstance(value, str) else value
+
+
+def test_all_text_is_escaped() -> None:
+    item = {
+        "law": "x",
+        "where": {"modes": ["y"], "direction": "z"},
+        "curve": [[0, 1], [1, 2]],
+        "explained": 0.8,
+    }
+    html = report_html(hostile(invented(unnamed=[item])))
+    assert "<script" not in html and "&lt;script&gt;" in html
+    Page(html)
+
+
+NOTHING_SAID = [
+    "There is no held-out error",
+    "No effect is claimed.",
+    "Nothing was located",
+    "No candidate could be tested.",
+    "None: no claimed effect is tied with another.",
+    "No properties of the measurement were fitted.",
+    "There are no upper limits.",
+    "No further experiment is proposed.",
+    "There is no model file",
+    "The recordings are not given.",
+    "The noise is not known.",
+]
+
+
+@pytest.mark.parametrize("emptiness", ["missing", "null", "empty"])
+def test_what_a_result_lacks_is_said_in_words(emptiness: str) -> None:
+    empty: dict[str, Any] = {"schema": "diabolo.diagnosis/1"}
+    if emptiness == "null":
+        empty |= dict.fromkeys(INVENTED.keys() - empty.keys())
+    if emptiness == "empty":
+        empty |= {key: type(value)() for key, value in INVENTED.items() if key != "schema"}
+        empty["fit"] = {key: [] for key in INVENTED["fit"]} | {"heldout": None, "windows": None}
+        empty["locate"] = {"directions": [], "windows": []}
+    page = Page(report_html(empty))
+    assert not page.images()
+    for said in NOTHING_SAID:
+        assert said in page.text
+    assert "None " not in page.text.replace("None: no", "") and "nan" not in page.text
+
+
+def places_of(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """Where anything stands within a result."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    return [place for key, item in items for place in [(*path, key), *places_of(item, (*path, key))]]
+
+
+def short() -> dict[str, Any]:
+    """One of each, since many pages are made of it."""
+    result = invented(unnamed=[{"law": "x", "where": {}, "curve": [[0, 1], [1, 2]], "explained": 0.8}])
+    result["locate"]["windows"] = result["locate"]["windows"][:1]
+    result["ladder"] = result["ladder"][:1]
+    result["effects"] = result["effects"][:1]
+    result["effects"][0]["tied_with"] = ["wind"]
+    return result
+
+
+def test_any_single_field_may_be_null(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(report, "_picture", lambda figure: "data:")  # which takes most of the time
+    for section, whole in short().items():
+        for place in places_of(whole):
+            result = {"schema": "diabolo.diagnosis/1", section: copy.deepcopy(whole)}
+            parent = result[section]
+            for key in place[:-1]:
+                parent = parent[key]
+            parent[place[-1]] = None
+            try:
+                Page(report_html(result))
+            except Exception as error:
+                pytest.fail(f"null at {section}, {place}: {error!r}")
+
+
+@pytest.mark.parametrize(
+    ("headline", "badge"),
+    [
+        ("NOTHING_MISSING", "Nothing missing"),
+        ("NAMED", "Physics named"),
+        ("MEASUREMENT_FAULT", "Measurement fault"),
+        ("NUMERICAL", "Numerical artefact"),
+        ("TIE", "Tie"),
+        ("UNNAMED_STRUCTURE", "Unnamed structure"),
+        ("INSUFFICIENT_DATA", "Too little data"),
+        ("LATER_HEADLINE", "LATER_HEADLINE"),
+    ],
+)
+def test_every_headline_has_a_badge_and_a_sentence(headline: str, badge: str) -> None:
+    page = Page(report_html({"schema": "diabolo.diagnosis/1", "headline": headline}))
+    assert page.text.startswith(f"{badge} {headline} ")
+    said = re.search(r"<h1>(.*)</h1>", report_html({"schema": "diabolo.diagnosis/1", "headline": headline}))
+    assert said and len(said[1]) > 20
+
+
+def test_a_tie_is_told_once_with_what_would_part_it() -> None:
+    effects = copy.deepcopy(INVENTED["effects"])
+    effects[0] |= {"name": "air_drag_linear", "tied_with": ["air_drag_quadratic"]}
+    effects[1] |= {"name": "air_drag_quadratic", "tied_with": ["air_drag_linear"]}
+    text = Page(report_html(invented(headline="TIE", effects=effects))).text
+    assert text.count("this data cannot tell them apart. What would: high throw.") == 1
+
+
+def test_an_unnamed_law_is_shown_with_its_curve() -> None:
+    law = "along -v, in flight, |v|^1.4"
+    item = {"where": {"modes": ["FLYING"]}, "law": law, "curve": [[0, 0], [2, 0.11]], "explained": 0.8}
+    page = Page(report_html(invented(headline="UNNAMED_STRUCTURE", unnamed=[item])))
+    assert f"{law} in flight ; explains 80 %" in page.text.replace("in flight;", "in flight ;")
+    assert f"Curve of the unnamed law: {law}" in [image["alt"] for image in page.images()]
+
+
+def test_many_recordings_unfold() -> None:
+    windows = [window for index in range(7) for window in invented_windows(f"take {index}", 1.0)]
+    locate = {"directions": INVENTED["locate"]["directions"], "windows": windows}
+    page = Page(report_html(invented(locate=locate)))
+    assert "3 more recordings" in page.text and len(page.images()) == 1 + 7
+
+
+def test_another_schema_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"schema: found 'other/1'; expected 'diabolo.diagnosis/1'"):
+        report_html({"schema": "other/1"})
+
+
+@pytest.mark.parametrize("library", ["jinja2", "matplotlib"])
+def test_without_its_libraries_a_sentence_says_so(monkeypatch: pytest.MonkeyPatch, library: str) -> None:
+    def absent(name: str) -> None:
+        if name == library:
+            raise ModuleNotFoundError(name=name)
+
+    monkeypatch.setattr(report, "import_module", absent)
+    with pytest.raises(
+        ValueError, match=rf"out.html: .* install {library} \(pip install 'diabolo\[plot\]'\)"
+    ):
+        report.check(Path("out.html"))
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "interval", "text"),
+    [
+        (0.0007, "s", [-0.0002, 0.0016], "0.70 [−0.20, 1.60] ms"),
+        (0.01, "rad", None, "0.573 deg"),
+        (1.4523, "m", [1.4511, 1.4535], "1.4523 [1.4511, 1.4535] m"),
+        (0.00041, "m", None, "0.41 mm"),
+        (3.1e-5, "1/rad", [2.7e-5, 3.5e-5], "3.10 [2.70, 3.50] × 10⁻⁵ 1/rad"),
+        (1.0, "1/m", [None, 2.0], "1.00 [open, 2.00] 1/m"),
+        (-1e-9, "m/s^2", [-1.0, 1.0], "0.0 [−1.0, 1.0] m/s²"),
+        (0.0, "1", None, "0 (no unit)"),
+        (None, "m", None, "not known"),
+    ],
+)
+def test_numbers_are_in_readable_units(value: Any, unit: str, interval: Any, text: str) -> None:
+    assert quantity(value, unit, interval) == text
