@@ -273,7 +273,7 @@ def _sizes(row: dict[str, Any]) -> list[str]:
         )
         if row.get(key) is not None
     ]
-    share = row.get("spin_share")
+    share = row.get("spin_share_1s")
     return sizes if share is None else [*sizes, f"{percent(share)} of the spin in 1 s"]
 
 
@@ -288,10 +288,16 @@ def _where(where: dict[str, Any]) -> list[str]:
 
 def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
     curve = [point for point in item.get("curve") or [] if point and None not in point]
+    value, deviation, explained = item.get("value"), item.get("deviation"), item.get("explained")
+    facts = ["; ".join(_where(item.get("where") or {}))]
+    if value is not None:
+        around = None if deviation is None else [value - 1.645 * deviation, value + 1.645 * deviation]
+        facts.append(quantity(value, item.get("unit"), around) + (" (90 % interval)" if around else ""))
+    facts += _sizes(item)
+    facts += [] if explained is None else [f"explains {percent(explained)} of what is left over"]
     return {
         "law": item.get("law") or "no law found",
-        "where": "; ".join(_where(item.get("where") or {})),
-        "explained": percent(item.get("explained")),
+        "facts": "; ".join(facts),
         "picture": _picture(_curve_figure(curve)) if curve else None,
     }
 

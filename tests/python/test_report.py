@@ -382,8 +382,21 @@ def test_an_unnamed_law_is_shown_with_its_curve() -> None:
     law = "along -v, in flight, |v|^1.4"
     item = {"where": {"modes": ["FLYING"]}, "law": law, "curve": [[0, 0], [2, 0.11]], "explained": 0.8}
     page = Page(report_html(invented(headline="UNNAMED_STRUCTURE", unnamed=[item])))
-    assert f"{law} in flight ; explains 80 %" in page.text.replace("in flight;", "in flight ;")
+    assert f"{law} in flight; explains 80 % of what is left over." in page.text
     assert f"Curve of the unnamed law: {law}" in [image["alt"] for image in page.images()]
+
+
+def test_an_unnamed_force_is_shown_with_its_size() -> None:
+    where = {"direction": "flight_against_v"}
+    item = {"where": where, "value": 0.11, "deviation": 0.01, "unit": "m/s^2", "size_m": 0.004}
+    text = Page(report_html(invented(unnamed=[item]))).text
+    assert "against the velocity; 0.110 [0.094, 0.126] m/s² (90 % interval); 4 mm after 0.5 s." in text
+
+
+def test_the_size_of_a_spin_effect_is_a_share() -> None:
+    size = {"acceleration_mps2": None, "position_1s_m": None, "spin_share_1s": 0.12}
+    text = Page(report_html(invented(effects=[{"name": "axle_drag", "size": size}]))).text
+    assert "Bearing slows the spin axle_drag" in text and "12 % of the spin in 1 s" in text
 
 
 def test_many_recordings_unfold() -> None:
