@@ -18,4 +18,5 @@ PYBIND11_MODULE(_core, module) {
   bind_rollout(module);
   bind_gradient(module);
   bind_evaluation(module);
+  bind_diagnosis(module);
 }

@@ -99,19 +99,18 @@ py::tuple to_tuple(const Recording& r) {
   return py::make_tuple(numbers(r.time), numbers(r.left.position), numbers(r.right.position),
                         numbers(r.diabolo.position), r.rate, known(r.diabolo_orientation),
                         known(r.left_orientation), known(r.right_orientation), r.name, r.properties.mass,
-                        r.properties.diameter, r.properties.length, r.properties.axle_radius,
-                        r.string_length, r.frame);
+                        r.properties.diameter, r.properties.length, r.properties.axle_radius, r.string_length,
+                        r.frame);
 }
 
 Recording from_tuple(const py::tuple& t) {
   const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
   const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
-  Recording recording = make(time, t[1].cast<Array>(), t[2].cast<Array>(), t[3].cast<Array>(),
-                             t[4].cast<double>(), orientation(5), orientation(6), orientation(7),
-                             t[8].cast<std::string>(),
-                             {t[9].cast<double>(), t[10].cast<double>(), t[11].cast<double>(),
-                              t[12].cast<double>()},
-                             t[13].cast<double>());
+  Recording recording =
+      make(time, t[1].cast<Array>(), t[2].cast<Array>(), t[3].cast<Array>(), t[4].cast<double>(),
+           orientation(5), orientation(6), orientation(7), t[8].cast<std::string>(),
+           {t[9].cast<double>(), t[10].cast<double>(), t[11].cast<double>(), t[12].cast<double>()},
+           t[13].cast<double>());
   recording.frame = t[14].cast<std::vector<long>>();
   return recording;
 }

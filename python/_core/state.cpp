@@ -110,8 +110,8 @@ is the axle's direction, which no step changes and only MagnusLift looks at.)")
                                   from_vector3(s.string_acceleration));
           },
           [](const py::tuple& t) {
-            S state = make(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<double>(), t[3],
-                           t[4].cast<Array>());
+            S state =
+                make(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<double>(), t[3], t[4].cast<Array>());
             state.string_acceleration = to_vector3(t[5].cast<Array>(), "string_acceleration");
             return state;
           }))

@@ -29,6 +29,7 @@ from ._core import (
     load_recording,
     start_state,
 )
+from .diagnosis import Diagnosis, diagnose
 from .enums import (
     FlightRule,
     Integrator,
@@ -46,6 +47,7 @@ from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
 __all__ = [
     "Air",
     "Calibration",
+    "Diagnosis",
     "DiaboloProperties",
     "ErrorSummary",
     "Evaluation",
@@ -83,6 +85,7 @@ __all__ = [
     "TipMotion",
     "__version__",
     "baseline",
+    "diagnose",
     "evaluate",
     "load_recording",
     "position_errors",

@@ -91,7 +91,9 @@ def rollout(
     if record_every < 1:
         raise ValueError(f"record_every: {record_every}; must be at least 1")
 
-    batched = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or _is_sequence(model) or _is_sequence(tips)
+    batched = (
+        states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or _is_sequence(model) or _is_sequence(tips)
+    )
     sizes = {
         "initial": len(states) if states.ndim == 2 else 1,
         "string_state": codes.size,

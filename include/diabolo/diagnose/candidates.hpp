@@ -16,7 +16,7 @@ enum class CandidateKind { kPhysics, kMeasurement };
 /// Something that may be missing, under the name that a result gives it, with the unknowns that it is made
 /// of.
 struct Candidate {
-  std::string_view name;
+  std::string_view name, plain;
   CandidateKind kind;
   std::vector<Unknown> unknowns;
   double floor;   ///< claimed only beyond, in any of its unknowns; of physics see kSmallestReach
@@ -31,19 +31,29 @@ inline const std::vector<Candidate>& candidates() {
   using enum Unknown;
   using enum CandidateKind;
   static const std::vector<Candidate> all{
-      {"string_elasticity", kPhysics, {kCompliance}, 0.0, true},
-      {"string_friction", kPhysics, {kFriction}, 0.0, true},
-      {"air_drag_linear", kPhysics, {kLinearDrag}, 0.0, true},
-      {"air_drag_quadratic", kPhysics, {kQuadraticDrag}, 0.0, true},
-      {"magnus_lift", kPhysics, {kLift}, 0.0, false},
-      {"spin_drag", kPhysics, {kSpinAir}, 0.0, true},
-      {"axle_drag", kPhysics, {kSpinAxle}, 0.0, true},
-      {"gravity_tilt", kMeasurement, {kTiltX, kTiltY}, 0.3 * kDegree, false},
-      {"length_scale", kMeasurement, {kLengthScale}, 0.003, false},
-      {"time_offset", kMeasurement, {kTimeOffset}, 0.002, false},
-      {"marker_offset", kMeasurement, {kMarkerX, kMarkerY, kMarkerZ}, 0.0005, false},
-      {"stick_tip_offset", kMeasurement, {kLeftX, kLeftY, kLeftZ, kRightX, kRightY, kRightZ}, 0.002, false},
-      {"string_length", kMeasurement, {kStringLength}, 0.004, false},
+      {"string_elasticity", "the string's stretch", kPhysics, {kCompliance}, 0.0, true},
+      {"string_friction", "friction of the string on the axle", kPhysics, {kFriction}, 0.0, true},
+      {"air_drag_linear", "a drag that grows with speed", kPhysics, {kLinearDrag}, 0.0, true},
+      {"air_drag_quadratic", "the drag of the air", kPhysics, {kQuadraticDrag}, 0.0, true},
+      {"magnus_lift", "the lift of the spinning diabolo (Magnus)", kPhysics, {kLift}, 0.0, false},
+      {"spin_drag", "the air that slows the spin", kPhysics, {kSpinAir}, 0.0, true},
+      {"axle_drag", "a bearing that slows the spin", kPhysics, {kSpinAxle}, 0.0, true},
+      {"gravity_tilt", "a tilted frame", kMeasurement, {kTiltX, kTiltY}, 0.3 * kDegree, false},
+      {"length_scale", "the scale of lengths", kMeasurement, {kLengthScale}, 0.003, false},
+      {"time_offset", "a delay between diabolo and sticks", kMeasurement, {kTimeOffset}, 0.002, false},
+      {"marker_offset",
+       "the diabolo's recorded centre",
+       kMeasurement,
+       {kMarkerX, kMarkerY, kMarkerZ},
+       0.0005,
+       false},
+      {"stick_tip_offset",
+       "the places of the stick tips",
+       kMeasurement,
+       {kLeftX, kLeftY, kLeftZ, kRightX, kRightY, kRightZ},
+       0.002,
+       false},
+      {"string_length", "the string's length", kMeasurement, {kStringLength}, 0.004, false},
   };
   return all;
 }

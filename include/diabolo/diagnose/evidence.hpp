@@ -49,28 +49,18 @@ class Evidence {
     return -slope_.dot(x);
   }
 
-  /// Covariance of the free unknowns, the larger of what the noise and what the windows' spread say.
-  UnknownMatrix covariance(const ActiveSet& free) const {
+  /// Two covariances of the scaled free unknowns: what the noise makes of them, and what the windows' own
+  /// disagreement does (White's sandwich), which also knows of what no unknown explains.
+  struct Covariances {
+    UnknownMatrix noise, spread;
+  };
+  Covariances covariances(const ActiveSet& free) const {
     const std::vector<int> f = indices(free);
     const Eigen::MatrixXd inverse = precision(f, information_).inverse();
-    const Eigen::MatrixXd spread = inverse * scatter(f, solve(free)) * inverse;
-    UnknownMatrix result = UnknownMatrix::Zero(kUnknowns, kUnknowns);
-    for (std::size_t i = 0; i < f.size(); ++i)
-      for (std::size_t j = 0; j < f.size(); ++j)
-        result(f[i], f[j]) = spread(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    for (std::size_t i = 0; i < f.size(); ++i)
-      result(f[i], f[i]) = std::max(result(f[i], f[i]), dispersion_ * inverse(static_cast<Eigen::Index>(i),
-                                                                              static_cast<Eigen::Index>(i)));
+    Covariances result{UnknownMatrix::Zero(kUnknowns, kUnknowns), UnknownMatrix::Zero(kUnknowns, kUnknowns)};
+    result.noise(f, f) = dispersion_ * inverse;
+    result.spread(f, f) = inverse * scatter(f, solve(free)) * inverse;
     return result;
-  }
-
-  /// Of one free unknown that would be zero: its estimate over its standard deviation, the latter the larger
-  /// of the two of covariance().
-  double z(int u, const ActiveSet& free) const {
-    ActiveSet with = free;
-    with[u] = true;
-    const double variance = covariance(with)(u, u);
-    return variance > 0.0 ? solve(with)[u] / std::sqrt(variance) : 0.0;
   }
 
   /// Best scaled unknowns as the windows see them that are not marked `left_out`.

@@ -30,7 +30,8 @@ struct Finding {
   bool material = false;
   double confidence = 0.0;
   std::vector<std::string> tied_with;
-  std::string reason;  ///< why it is claimed, or not
+  std::vector<std::size_t> windows;  ///< in which it matters
+  std::string reason;                ///< why it is claimed, or not
 };
 
 /// A force that is left over, without a name.
@@ -121,23 +122,26 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
   }
   const Standing final_standing = standing(evidence, set);
   for (int u = 0; u < kUnknowns; ++u)
-    if (set[u]) result.deviation[u] = std::sqrt(std::max(0.0, final_standing.covariance(u, u)));
+    if (set[u]) result.deviation[u] = final_standing.deviation(u);
   for (const Candidate& candidate : candidates()) {
     Finding f;
     f.candidate = &candidate;
     const Standing own = is_in(set, candidate) ? final_standing : standing(evidence, with(set, candidate));
     f.estimate = own.estimate;
-    for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = std::sqrt(std::max(0.0, own.covariance(u, u)));
+    for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = own.deviation(u);
     f.z = significance(candidate, own);
     f.p_value = family_wise(f.z);
     f.size = size_of(candidate, f.estimate, fit.systems);
+    const double smallest = is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach;
+    for (std::size_t w = 0; w < fit.systems.size(); ++w)
+      if (size_of(candidate, f.estimate, {fit.systems[w]}) > smallest) f.windows.push_back(w);
     const bool sure = speaks_for(candidate, f.z);
     if (candidate.kind == CandidateKind::kPhysics) {
       f.material = f.size > (is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach);
     } else {
       for (const Unknown u : candidate.unknowns) {
         const double value = std::abs(f.estimate[index_of(u)]);
-        f.material = f.material || (value > candidate.floor && value > 3.0 * f.deviation[index_of(u)]);
+        f.material = f.material || value - 2.0 * f.deviation[index_of(u)] > candidate.floor;
       }
     }
     f.claimed = sure && f.material && is_in(set, candidate);
@@ -170,9 +174,9 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     with_latent[kLatentFirst + k] = true;
     const Standing own = standing(evidence, with_latent);
     const int u = kLatentFirst + k;
-    const double deviation = std::sqrt(std::max(0.0, own.covariance(u, u)));
+    const double deviation = own.deviation(u);
     if (!(deviation > 0.0)) continue;
-    const Candidate latent{"", CandidateKind::kPhysics, {static_cast<Unknown>(u)}, 0.0, false};
+    const Candidate latent{"", "", CandidateKind::kPhysics, {static_cast<Unknown>(u)}, 0.0, false};
     const double z = own.estimate[u] / deviation, size = size_of(latent, own.estimate, fit.systems);
     const bool of_spin = k >= 5;
     if (std::abs(z) > 5.0 && !of_spin && size > 2.0 * kSmallestReach)
@@ -202,6 +206,29 @@ inline double compare_rules(Fit fit, const Model& base, const Model& physics, in
   return 1.0 - consistent / std::max(own, 1e-9);
 }
 
+/// No claim stands whose model predicts worse than the base what it was not fitted to.
+inline void withdraw_what_does_not_help(Diagnosis& d) {
+  bool better = false, worse = false;
+  for (const std::optional<Interval>& interval : d.heldout.improvement_ci95) {
+    better = better || (interval && interval->low > 0.0);
+    worse = worse || (interval && interval->high < 0.0);
+  }
+  if (better || !worse) return;
+  for (Finding& f : d.findings) {
+    if (!f.claimed) continue;
+    f.claimed = false;
+    f.reason = "does not help on data that were left out";
+  }
+}
+
+/// The first of what a finding is tied with, in plain words.
+inline std::string tied_plainly(const Finding& finding) {
+  for (const Candidate& candidate : candidates())
+    if (!finding.tied_with.empty() && candidate.name == finding.tied_with.front())
+      return std::string(candidate.plain);
+  return "another effect";
+}
+
 /// Headline and sentence.
 inline void conclude(Diagnosis& d) {
   std::vector<const Finding*> physics, faults;
@@ -214,7 +241,7 @@ inline void conclude(Diagnosis& d) {
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)
-      text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + std::string(list[i]->candidate->name);
+      text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + std::string(list[i]->candidate->plain);
     return text;
   };
   if (!d.reason.empty()) {
@@ -222,8 +249,10 @@ inline void conclude(Diagnosis& d) {
     d.sentence = "Nothing can be concluded: " + d.reason + ".";
   } else if (tied) {
     d.headline = Headline::kTie;
-    d.sentence = "Something is missing, and " + names(physics) + " explains it; so would " +
-                 physics.front()->tied_with.front() + ": this recording cannot tell.";
+    const auto first = std::ranges::find_if(physics, [](const Finding* f) { return !f->tied_with.empty(); });
+    d.sentence = "Something is missing: " + names(physics) + " would explain it, and so would " +
+                 tied_plainly(**first) + " in place of " + std::string((*first)->candidate->plain) +
+                 "; these recordings cannot tell.";
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
     d.sentence = "The simulator leaves out " + names(physics) +
@@ -237,7 +266,7 @@ inline void conclude(Diagnosis& d) {
   } else if (!d.leftovers.empty()) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence =
-        "A force without a name is left: " + std::string(info_of(d.leftovers.front().unknown).name) + ".";
+        "A force that has no name is left: " + std::string(info_of(d.leftovers.front().unknown).name) + ".";
   } else {
     d.headline = Headline::kNothingMissing;
     d.sentence = "Nothing is missing that this recording could show.";

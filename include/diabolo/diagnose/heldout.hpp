@@ -41,19 +41,17 @@ inline std::vector<Fold> folds_of(const std::vector<Stage>& stages) {
   return folds;
 }
 
-/// Predicts each fold from fair starts, by the base and by the model that the other folds' evidence for the
-/// free unknowns makes of it. No row within a window of the fold takes part in that evidence.
-inline HeldOut held_out(const Fit& fit, const Evidence& evidence, const Model& base,
-                        const Model& base_physics, const ActiveSet& free, std::uint64_t seed, int threads,
-                        const Watch& watch = {}) {
-  HeldOut result;
-  result.whole_recordings = fit.stages.size() > 1;
-  HorizonOptions options;
-  options.starts_every = 0.2;
-  options.horizons = result.horizons;
-  options.threads = threads;
-  const std::size_t horizons = options.horizons.size();
-  std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons);
+/// A recording and the unknowns that others say it has.
+struct HeldOutRecording {
+  Recording recording;
+  UnknownVector at;
+};
+
+/// Unknowns for each fold by the other folds' evidence for the free ones. No window that touches a fold takes
+/// part.
+inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& evidence,
+                                               const ActiveSet& free) {
+  std::vector<HeldOutRecording> result;
   for (const Fold& fold : folds_of(fit.stages)) {
     std::vector<bool> left_out;
     for (std::size_t s = 0; s < fit.stages.size(); ++s)
@@ -65,10 +63,26 @@ inline HeldOut held_out(const Fit& fit, const Evidence& evidence, const Model& b
       const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
       at[u] = std::clamp(at[u], info.minimum, info.maximum);
     }
-    const Recording rows = cut(fit.stages[fold.stage].recording, fold.first, fold.last);
-    const HorizonTask plain(rows, base, options);
-    const Recording right = corrected(rows, at);
-    const HorizonTask better(right, augmented_model(base_physics, at, "augmented"), options);
+    result.push_back({cut(fit.stages[fold.stage].recording, fold.first, fold.last), at});
+  }
+  return result;
+}
+
+/// Predicts each recording from fair starts, by the base and by `physics` with its unknowns.
+inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings, const Model& base,
+                                const Model& physics, std::uint64_t seed, int threads,
+                                const Watch& watch = {}) {
+  HeldOut result;
+  HorizonOptions options;
+  options.starts_every = 0.2;
+  options.horizons = result.horizons;
+  options.threads = threads;
+  const std::size_t horizons = options.horizons.size();
+  std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons);
+  for (const HeldOutRecording& held : recordings) {
+    const HorizonTask plain(held.recording, base, options);
+    const HorizonTask better(corrected(held.recording, held.at),
+                             augmented_model(physics, held.at, "augmented"), options);
     const std::size_t count = std::min(plain.size(), better.size());
     std::vector<std::vector<WindowError>> without(count), with(count);
     for_each_index(count, threads, watch, [&](std::size_t i) {

@@ -17,34 +17,40 @@ inline constexpr double kSignificance = 4.0;
 
 /// Estimates and their standing once a set of unknowns is free.
 struct Standing {
-  UnknownVector estimate;  ///< SI units
-  Eigen::MatrixXd covariance;
+  UnknownVector estimate;         ///< SI units
+  Eigen::MatrixXd noise, spread;  ///< its covariances; see Evidence::Covariances
+
+  /// The larger of the two standard deviations.
+  double deviation(int u) const { return std::sqrt(std::max({0.0, noise(u, u), spread(u, u)})); }
 };
 
 inline Standing standing(const Evidence& evidence, const ActiveSet& free) {
   const UnknownVector scale = scales();
-  Standing result{evidence.solve(free).cwiseProduct(scale), evidence.covariance(free)};
-  result.covariance = scale.asDiagonal() * result.covariance * scale.asDiagonal();
-  return result;
+  const Evidence::Covariances scaled = evidence.covariances(free);
+  return {evidence.solve(free).cwiseProduct(scale), scale.asDiagonal() * scaled.noise * scale.asDiagonal(),
+          scale.asDiagonal() * scaled.spread * scale.asDiagonal()};
 }
 
-/// Significance of a candidate in a set that holds it, as standard deviations of one normal variable: of one
-/// unknown signed, of several the size that a normal variable would need to be as unlikely (Wilson and
-/// Hilferty's approximation of chi squared).
-inline double significance(const Candidate& candidate, const Standing& standing) {
-  const Eigen::Index n = static_cast<Eigen::Index>(candidate.unknowns.size());
-  Eigen::VectorXd x(n);
-  Eigen::MatrixXd covariance(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const int u = index_of(candidate.unknowns[static_cast<std::size_t>(i)]);
-    x[i] = standing.estimate[u];
-    for (Eigen::Index j = 0; j < n; ++j)
-      covariance(i, j) = standing.covariance(u, index_of(candidate.unknowns[static_cast<std::size_t>(j)]));
-  }
+/// x^T covariance^-1 x of some unknowns as standard deviations of one normal variable: the size that it would
+/// need to be as unlikely (Wilson and Hilferty's approximation of chi squared).
+inline double normal_equivalent(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance) {
   if (!(covariance.diagonal().minCoeff() > 0.0)) return 0.0;
-  if (n == 1) return x[0] / std::sqrt(covariance(0, 0));
-  const double square = std::max(0.0, x.dot(covariance.ldlt().solve(x))), k = static_cast<double>(n);
+  const double square = std::max(0.0, x.dot(covariance.ldlt().solve(x))), k = static_cast<double>(x.size());
   return (std::cbrt(square / k) - (1.0 - 2.0 / (9.0 * k))) / std::sqrt(2.0 / (9.0 * k));
+}
+
+/// Significance of a candidate in a set that holds it, in standard deviations, by the covariance that makes
+/// less of it; signed where it is one number.
+inline double significance(const Candidate& candidate, const Standing& standing) {
+  std::vector<int> own;
+  for (const Unknown u : candidate.unknowns) own.push_back(index_of(u));
+  if (own.size() == 1) {
+    const double deviation = standing.deviation(own.front());
+    return deviation > 0.0 ? standing.estimate[own.front()] / deviation : 0.0;
+  }
+  const Eigen::VectorXd x = standing.estimate(own);
+  return std::min(normal_equivalent(x, standing.noise(own, own)),
+                  normal_equivalent(x, standing.spread(own, own)));
 }
 
 /// Whether a standing speaks for a candidate.

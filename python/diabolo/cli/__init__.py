@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from .. import __version__
-from . import convert, demo, evaluate, info, simulate
+from . import convert, demo, diagnose, evaluate, info, simulate
 
 DESCRIPTION = """\
 Simulate diabolo play, and find out how far a simulation is off.
@@ -24,6 +24,7 @@ begin here:
   diabolo demo --out demo              evaluate on the recordings that come with the package; draw pictures
   diabolo info TAKE.csv                what is in a recording
   diabolo evaluate TAKE.csv            how far the models are off on it
+  diabolo diagnose TAKE.csv --out out  what they leave out, and how much better they get with it
 """
 
 
@@ -44,7 +45,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"diabolo {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
-    for command in (demo, evaluate, simulate, info, convert):
+    for command in (demo, evaluate, diagnose, simulate, info, convert):
         command.add_parser(commands)
     return parser
 

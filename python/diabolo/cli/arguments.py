@@ -78,6 +78,21 @@ def read_model(text: str) -> Model:
 
 
 @contextmanager
+def progress_steps() -> Iterator[Callable[[str, float], None]]:
+    """A function to call with the name of the step and the fraction done of it all."""
+    from tqdm import tqdm
+
+    layout = "{percentage:3.0f} %|{bar}| {elapsed} {desc}"
+    with tqdm(total=1.0, bar_format=layout, leave=False, disable=None, file=sys.stderr) as bar:
+
+        def report(step: str, fraction: float) -> None:
+            bar.set_description_str(step, refresh=False)
+            bar.update(fraction - bar.n)
+
+        yield report
+
+
+@contextmanager
 def progress_bar(description: str) -> Iterator[Callable[[float], None]]:
     """A function to call with the fraction done; it draws a bar where there is a terminal."""
     from tqdm import tqdm  # type: ignore[import-untyped]

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/diagnosis.hpp"
+#include "diabolo/interop/json/fields.hpp"
+#include "diabolo/interop/json/finding.hpp"
+#include "diabolo/version.hpp"
+
+namespace diabolo {
+
+inline constexpr const char* kDiagnosisSchema = "diabolo.diagnosis/1";
+
+namespace detail {
+
+inline const char* text_of(Headline headline) {
+  switch (headline) {
+    case Headline::kInsufficientData:
+      return "INSUFFICIENT_DATA";
+    case Headline::kTie:
+      return "TIE";
+    case Headline::kNamed:
+      return "NAMED";
+    case Headline::kMeasurementFault:
+      return "MEASUREMENT_FAULT";
+    case Headline::kNumerical:
+      return "NUMERICAL";
+    case Headline::kUnnamedStructure:
+      return "UNNAMED_STRUCTURE";
+    default:
+      return "NOTHING_MISSING";
+  }
+}
+
+inline const char* text_of(StringState state) {
+  return state == StringState::kOnString ? "ON_STRING" : state == StringState::kLoose ? "LOOSE" : "FLYING";
+}
+
+/// In which direction a candidate acts.
+inline const char* direction_of(const Candidate& candidate) {
+  switch (candidate.unknowns.front()) {
+    case Unknown::kCompliance:
+      return "string_normal";
+    case Unknown::kFriction:
+      return "string_tangent";
+    case Unknown::kLinearDrag:
+    case Unknown::kQuadraticDrag:
+      return "against_v";
+    case Unknown::kLift:
+      return "axis_x_v";
+    case Unknown::kSpinAir:
+    case Unknown::kSpinAxle:
+      return "spin";
+    default:
+      return "measurement";
+  }
+}
+
+/// Where a finding matters: modes, direction, and joined intervals of time.
+inline Json where_of(const Finding& f, const std::vector<WindowFinding>& windows) {
+  Json modes = Json::array(), intervals = Json::array();
+  std::size_t recording = 0;
+  for (const std::size_t w : f.windows) {
+    const WindowFinding& window = windows[w];
+    const Json mode = text_of(window.mode);
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+    if (!intervals.empty() && recording == window.recording &&
+        window.begin - intervals.back()[1].get<double>() < 0.2)
+      intervals.back()[1] = window.end;
+    else
+      intervals.push_back({window.begin, window.end});
+    recording = window.recording;
+  }
+  return {{"modes", modes}, {"direction", direction_of(*f.candidate)}, {"intervals", intervals}};
+}
+
+inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length) {
+  const bool physics = f.candidate->kind == CandidateKind::kPhysics, of_spin = is_of_spin(*f.candidate);
+  return {{"name", f.candidate->name},
+          {"kind", physics ? "physics" : "measurement"},
+          {"material", f.material},
+          {"tied_with", f.tied_with},
+          {"p_value", f.p_value},
+          {"confidence", f.confidence},
+          {"parameters", parameters_of(f, given_length)},
+          {"where", where_of(f, d.windows)},
+          // As a constant acceleration would: x = a t^2 / 2 at half a second, four times that at one.
+          {"size",
+           {{"acceleration_mps2", of_spin ? Json(nullptr) : Json(8.0 * f.size)},
+            {"position_1s_m", of_spin ? Json(nullptr) : Json(4.0 * f.size)},
+            {"position_05s_m", of_spin ? Json(nullptr) : Json(f.size)},
+            {"spin_share_1s", of_spin ? Json(f.size) : Json(nullptr)}}}};
+}
+
+inline Json ladder_of(const Finding& f) {
+  // The unknown that stands out most stands for a candidate of several.
+  Unknown shown_unknown = f.candidate->unknowns.front();
+  double most = -1.0;
+  for (const Unknown u : f.candidate->unknowns) {
+    const double deviation = f.deviation[index_of(u)];
+    const double out = deviation > 0.0 ? std::abs(f.estimate[index_of(u)]) / deviation : 0.0;
+    if (out > most) most = out, shown_unknown = u;
+  }
+  return {{"name", f.candidate->name},
+          {"kind", f.candidate->kind == CandidateKind::kPhysics ? "physics" : "measurement"},
+          {"parameter", info_of(shown_unknown).name},
+          {"estimate", f.estimate[index_of(shown_unknown)]},
+          {"unit", info_of(shown_unknown).unit},
+          {"z", f.z},
+          {"p_value", f.p_value},
+          {"size_m", is_of_spin(*f.candidate) ? Json(nullptr) : Json(f.size)},
+          {"claimed", f.claimed},
+          {"reason", f.reason}};
+}
+
+inline Json heldout_of(const HeldOut& h) {
+  Json base = Json::array(), augmented = base, improvement = base;
+  for (std::size_t i = 0; i < h.base_error.size(); ++i) {
+    base.push_back(number_or_null(h.base_error[i]));
+    augmented.push_back(number_or_null(h.augmented_error[i]));
+    improvement.push_back(h.improvement_ci95[i]
+                              ? Json({h.improvement_ci95[i]->low, h.improvement_ci95[i]->high})
+                              : Json(nullptr));
+  }
+  return {{"heldout", h.whole_recordings ? "recordings" : "blocks"},
+          {"horizons_s", h.horizons},
+          {"base_error_m", base},
+          {"augmented_error_m", augmented},
+          {"improvement_ci95_m", improvement},
+          {"windows", h.windows}};
+}
+
+}  // namespace detail
+
+/// A diagnosis as JSON of the schema diabolo.diagnosis/1 (docs/diagnosis.md), less what only its caller
+/// knows: files and time. `recordings` are those that were diagnosed.
+inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
+                                                const std::vector<Recording>& recordings) {
+  using detail::Json;
+  const double length = recordings.front().string_length;
+  Json effects = Json::array(), ladder = effects, limits = effects, nuisances = effects, unnamed = effects,
+       windows = effects, directions = effects, noise = effects;
+  if (d.numerical && *d.numerical > 0.1)
+    effects.push_back(
+        {{"name", "solver_artefact"},
+         {"kind", "numerical"},
+         {"material", true},
+         {"tied_with", Json::array()},
+         {"p_value", nullptr},
+         {"confidence", nullptr},
+         {"parameters",
+          Json::array({{{"name", "share"}, {"value", *d.numerical}, {"unit", "1"}, {"ci90", nullptr}}})},
+         {"where", {{"modes", {"ON_STRING"}}, {"direction", "string_normal"}, {"intervals", Json::array()}}},
+         {"size", Json::object()}});
+  for (const Finding& f : d.findings) {
+    ladder.push_back(detail::ladder_of(f));
+    if (f.claimed) {
+      effects.push_back(detail::effect_of(f, d, length));
+      continue;
+    }
+    if (f.candidate->kind != CandidateKind::kPhysics) continue;
+    const int u = index_of(f.candidate->unknowns.front());
+    if (!(f.deviation[u] > 0.0)) continue;
+    const double limit = std::max(0.0, std::abs(f.estimate[u]) + detail::kNormal95 * f.deviation[u]);
+    limits.push_back({{"name", f.candidate->name},
+                      {"parameter", info_of(f.candidate->unknowns.front()).name},
+                      {"limit95", limit},
+                      {"unit", info_of(f.candidate->unknowns.front()).unit}});
+  }
+  for (int u = 0; u <= index_of(Unknown::kAxleRadius) && d.reason.empty(); ++u) {
+    const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+    nuisances.push_back(
+        detail::with_deviation(std::string(info.name), d.at[u], d.deviation[u], std::string(info.unit)));
+  }
+  for (const Leftover& l : d.leftovers)
+    unnamed.push_back({{"where", {{"direction", info_of(l.unknown).name}}},
+                       {"law", "a constant acceleration"},
+                       {"value", l.value},
+                       {"deviation", l.deviation},
+                       {"unit", info_of(l.unknown).unit},
+                       {"z", l.z},
+                       {"size_m", l.size}});
+  for (int k = 0; k < kLatents; ++k) {
+    const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(kLatentFirst + k)];
+    const bool on_string = k < 2 || k == 5;
+    directions.push_back(
+        {{"name", info.name}, {"mode", on_string ? "ON_STRING" : "FLYING"}, {"unit", info.unit}});
+  }
+  for (const WindowFinding& w : d.windows) {
+    Json z = Json::array();
+    for (const double value : w.z) z.push_back(detail::number_or_null(value));
+    windows.push_back({{"recording", recordings[w.recording].name},
+                       {"begin_s", w.begin},
+                       {"end_s", w.end},
+                       {"mode", detail::text_of(w.mode)},
+                       {"residual_before_m", w.residual_before},
+                       {"residual_after_m", w.residual_after},
+                       {"z", z}});
+  }
+  for (const auto& [name, n] : d.noise)
+    noise.push_back({{"recording", name}, {"position_m", n.position}, {"spin_rad_s", n.spin}});
+  return {{"schema", kDiagnosisSchema},
+          {"headline", detail::text_of(d.headline)},
+          {"sentence", d.sentence},
+          {"base", d.base},
+          {"effects", effects},
+          {"unnamed", unnamed},
+          {"upper_limits", limits},
+          {"nuisances", nuisances},
+          {"fit", detail::heldout_of(d.heldout)},
+          {"next_experiment", Json::array()},
+          {"ladder", ladder},
+          {"locate", {{"directions", directions}, {"windows", windows}}},
+          {"noise", noise},
+          {"model", nullptr},
+          {"version", kVersion}};
+}
+
+}  // namespace diabolo

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "diabolo/diagnose/findings.hpp"
+
+namespace diabolo {
+
+namespace detail {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr double kNormal95 = 1.6448536269514722;  ///< beyond it lie 5 % of a normal variable
+
+inline Json number_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+inline Json parameter(const std::string& name, double value, const std::string& unit, double low,
+                      double high) {
+  return {{"name", name}, {"value", value}, {"unit", unit}, {"ci90", {low, high}}};
+}
+
+inline Json with_deviation(const std::string& name, double value, double deviation, const std::string& unit) {
+  return parameter(name, value, unit, value - kNormal95 * deviation, value + kNormal95 * deviation);
+}
+
+/// Length of two numbers, with the deviation that theirs give it.
+inline std::pair<double, double> length_of(double a, double b, double da, double db) {
+  const double length = std::hypot(a, b);
+  return {length, length > 0.0 ? std::hypot(a * da, b * db) / length : std::hypot(da, db)};
+}
+
+/// The parameters of a finding by their fixed names.
+inline Json parameters_of(const Finding& f, double given_length) {
+  const auto value = [&](Unknown u) { return f.estimate[index_of(u)]; };
+  const auto deviation = [&](Unknown u) { return f.deviation[index_of(u)]; };
+  const auto plain = [&](const char* name, Unknown u, const char* unit, double offset = 0.0) {
+    return with_deviation(name, offset + value(u), deviation(u), unit);
+  };
+  using enum Unknown;
+  switch (f.candidate->unknowns.front()) {
+    case kCompliance: {
+      const double c = value(kCompliance), spread = kNormal95 * deviation(kCompliance);
+      const auto stiffness = [](double compliance) { return 1.0 / std::max(compliance, 1e-6); };
+      return Json::array(
+          {parameter("stiffness", stiffness(c), "N/m", stiffness(c + spread), stiffness(c - spread)),
+           plain("damping", kDamping, "N s/m")});
+    }
+    case kFriction:
+      return Json::array({plain("coefficient", kFriction, "1")});
+    case kLinearDrag:
+      return Json::array({plain("rate", kLinearDrag, "1/s")});
+    case kQuadraticDrag:
+      return Json::array({plain("coefficient", kQuadraticDrag, "1/m")});
+    case kLift:
+      return Json::array({plain("coefficient", kLift, "1/rad")});
+    case kSpinAir:
+      return Json::array({plain("coefficient", kSpinAir, "1/rad")});
+    case kSpinAxle:
+      return Json::array({plain("rate", kSpinAxle, "rad/s^2")});
+    case kTiltX: {
+      const auto [angle, spread] =
+          length_of(value(kTiltX), value(kTiltY), deviation(kTiltX), deviation(kTiltY));
+      const double direction = std::atan2(value(kTiltY), value(kTiltX));
+      const double turn = spread / std::max(angle, 1e-9);
+      return Json::array(
+          {with_deviation("angle_deg", std::asin(std::min(1.0, angle)) / kDegree, spread / kDegree, "deg"),
+           with_deviation("azimuth_deg", direction / kDegree, std::min(180.0, turn / kDegree), "deg")});
+    }
+    case kLengthScale:
+      return Json::array({plain("factor", kLengthScale, "1", 1.0)});
+    case kTimeOffset:
+      return Json::array({plain("seconds", kTimeOffset, "s")});
+    case kMarkerX: {
+      const auto [radius, spread] =
+          length_of(value(kMarkerY), value(kMarkerZ), deviation(kMarkerY), deviation(kMarkerZ));
+      return Json::array({with_deviation("radius", radius, spread, "m"), plain("axial", kMarkerX, "m")});
+    }
+    case kLeftX: {
+      Json list = Json::array();
+      const std::array<const char*, 6> names{"left_x", "left_y", "left_z", "right_x", "right_y", "right_z"};
+      for (int i = 0; i < 6; ++i)
+        list.push_back(
+            plain(names[static_cast<std::size_t>(i)], static_cast<Unknown>(index_of(kLeftX) + i), "m"));
+      return list;
+    }
+    default:
+      return Json::array({plain("length", kStringLength, "m", given_length)});
+  }
+}
+
+}  // namespace detail
+
+}  // namespace diabolo

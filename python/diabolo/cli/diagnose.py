@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo diagnose`: what does the simulator leave out?"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import time
+from pathlib import Path
+from typing import Any
+
+from .._core import Model, load_recording
+from ..diagnosis import Diagnosis
+from ..diagnosis import diagnose as run_diagnosis
+from ..report import check as check_report
+from ..report import report_html
+from . import files
+from .arguments import (
+    add_calibration,
+    add_command,
+    progress_steps,
+    read_calibration,
+    read_excerpt,
+    read_model,
+    split_excerpt,
+)
+
+MODEL_FILE, REPORT_FILE, RESULT_FILE = "model.json", "report.html", "diagnosis.json"
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(
+        commands,
+        "diagnose",
+        run=run,
+        summary="find what the simulator leaves out, or what the measurement got wrong",
+        text="Compare a simulator with recordings, find where they part, name what is missing (friction,\n"
+        "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets), add it,\n"
+        "and show on data left out that the prediction improves. Several recordings go together.",
+        example="  diabolo diagnose swing.csv throw.csv --out diagnosis",
+    )
+    parser.add_argument(
+        "recordings",
+        nargs="+",
+        metavar="RECORDING",
+        help="Motive exports or tidy recordings of one set-up; NAME.csv:0-180 takes the rows 0 to 180 only",
+    )
+    parser.add_argument(
+        "--base",
+        metavar="MODEL",
+        default="consistent",
+        help="the simulator: consistent (default), paper, published, or a model file",
+    )
+    add_calibration(parser)
+    parser.add_argument(
+        "--holdout",
+        nargs="+",
+        default=[],
+        metavar="RECORDING",
+        help="recordings that nothing is fitted to, to compare on",
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the result as JSON; - is standard output")
+    parser.add_argument(
+        "--out", metavar="DIR", help=f"folder for {REPORT_FILE}, {RESULT_FILE} and {MODEL_FILE}"
+    )
+    parser.add_argument(
+        "--budget", metavar="SECONDS", type=float, default=1e9, help="begin no new refit after so long"
+    )
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the intervals; default: 1")
+    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all that help")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    if not 0 <= arguments.seed < 2**63:
+        raise ValueError(f"--seed: {arguments.seed}; must be at least 0 and less than 2^63")
+    folder = None if arguments.out is None else Path(arguments.out)
+    if folder is not None and folder.exists() and not folder.is_dir():
+        raise ValueError(f"{folder}: a file; expected a folder")
+    outputs: list[Path | str | None] = [arguments.json]
+    if folder is not None:
+        outputs += [folder / name for name in (MODEL_FILE, REPORT_FILE, RESULT_FILE)]
+        check_report(folder / REPORT_FILE)
+        folder.mkdir(parents=True, exist_ok=True)
+    inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
+    files.check_outputs(outputs, inputs)
+    calibration = read_calibration(arguments.calibration)
+    excerpts = [read_excerpt(text, calibration) for text in arguments.recordings]
+    takes = [excerpt.recording.cut(excerpt.first, excerpt.last) for excerpt in excerpts]
+    held = [load_recording(path, calibration) for path in arguments.holdout]
+    begin = time.monotonic()
+    with progress_steps() as report:
+        diagnosis = run_diagnosis(
+            takes,
+            read_model(arguments.base),
+            holdout=held,
+            budget=arguments.budget,
+            seed=arguments.seed,
+            threads=arguments.threads,
+            progress=report,
+        )
+    result = diagnosis.result
+    result["seconds"] = time.monotonic() - begin
+    result["inputs"] = [_input(path) for path in inputs]
+    if folder is not None:
+        result["model"] = MODEL_FILE
+        _write(folder, diagnosis.model, result)
+    files.write_json(arguments.json, result)
+    if arguments.json != files.STDOUT:
+        print(text_of(diagnosis))
+        if folder is not None:
+            print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
+
+
+def text_of(diagnosis: Diagnosis) -> str:
+    """The answer in a few lines."""
+    lines = [f"{diagnosis.headline}: {diagnosis.sentence}"]
+    for effect in diagnosis.effects:
+        values = ", ".join(_value(parameter) for parameter in effect["parameters"])
+        p_value = effect["p_value"]
+        lines.append(f"  {effect['name']}: {values}" + ("" if p_value is None else f"; p = {p_value:.1g}"))
+    fit = diagnosis.result["fit"]
+    compared = zip(fit["horizons_s"], fit["base_error_m"], fit["augmented_error_m"], strict=False)
+    shown = [
+        f"{horizon:g} s: {1e3 * before:.1f} -> {1e3 * after:.1f} mm"
+        for horizon, before, after in compared
+        if before is not None and after is not None
+    ]
+    if shown:
+        lines.append(f"  mean error on {fit['heldout']} left out, after " + "; ".join(shown))
+    return "\n".join(lines)
+
+
+def _value(parameter: dict[str, Any]) -> str:
+    text = f"{parameter['name']} {parameter['value']:.4g}"
+    if parameter["ci90"] is not None:
+        text += f" [{parameter['ci90'][0]:.4g}, {parameter['ci90'][1]:.4g}]"
+    return text if parameter["unit"] == "1" else f"{text} {parameter['unit']}"
+
+
+def _input(path: str) -> dict[str, str]:
+    return {"file": Path(path).name, "sha256": hashlib.sha256(Path(path).read_bytes()).hexdigest()}
+
+
+def _write(folder: Path, model: Model, result: dict[str, Any]) -> None:
+    model.save(folder / MODEL_FILE)
+    files.write_text(folder / REPORT_FILE, report_html(result))
+    files.write_json(str(folder / RESULT_FILE), result)

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/diagnosis.hpp"
+
+#include <Eigen/Geometry>
+#include <random>
+#include <string_view>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace diabolo;
+using Vector = Vector3<double>;
+
+namespace {
+
+constexpr double kRate = 120.0, kNoise = 4e-4;
+
+/// A player who swings, beats and moves fore and aft, one after the other, each for a while.
+Tips<double> hands(double t) {
+  const double swing = 0.09 * std::sin(4.5 * t), beat = 0.05 * (1.0 - std::cos(8.0 * t)),
+               fore = 0.06 * std::sin(3.1 * t);
+  const double a = 0.5 - 0.5 * std::cos(0.9 * t);
+  Tips<double> tips;
+  tips.left = Vector(fore, 0.28 + swing * a, 1.25 + beat * (1.0 - a));
+  tips.right = Vector(-fore, -0.28 + swing * a, 1.25 - beat * (1.0 - a));
+  return tips;
+}
+
+/// What a camera sees of play that the full model with these effects predicts; not on the diagnosis' grid.
+Recording played(const AllEffects<double>& effects, double seconds, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> noise(0.0, kNoise);
+  const Eigen::Index rows = static_cast<Eigen::Index>(seconds * kRate);
+  Recording r;
+  r.name = "played";
+  r.rate = kRate;
+  r.string_length = 1.45;
+  r.time.resize(rows);
+  r.left = r.right = r.diabolo = Track::missing(rows);
+  r.diabolo_orientation = OrientationTrack::missing(rows);
+  for (Track* track : {&r.left, &r.right, &r.diabolo}) track->valid.setConstant(true);
+  r.diabolo_orientation.valid.setConstant(true);
+  AllEffects<double> all = effects;
+  all.get<FiniteAxle>().radius = r.properties.axle_radius + 7e-4;
+  Parameters<double> parameters;
+  parameters.mass = r.properties.mass;
+  const FullPredictor<double> predictor(parameters, all);
+  State<double> state;
+  state.position = Vector(0.0, 0.0, 0.58);
+  state.spin = 180.0;
+  constexpr int kSteps = 10;  // per row
+  const double dt = 1.0 / kRate / kSteps;
+  const auto tips_at = [](double t) {
+    Tips<double> tips = hands(t);
+    const double h = 1e-5;
+    tips.left_velocity = (hands(t + h).left - hands(t - h).left) / (2.0 * h);
+    tips.right_velocity = (hands(t + h).right - hands(t - h).right) / (2.0 * h);
+    return tips;
+  };
+  double turned = 0.0;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    r.frame.push_back(i);
+    r.time[i] = static_cast<double>(i) / kRate;
+    const Tips<double> tips = tips_at(r.time[i]);
+    const auto seen = [&](Vector v) {
+      for (double& x : v) x += noise(generator);
+      return v;
+    };
+    r.left.position.col(i) = seen(tips.left);
+    r.right.position.col(i) = seen(tips.right);
+    r.diabolo.position.col(i) = seen(state.position);
+    r.diabolo_orientation.quaternion.col(i) =
+        Eigen::Quaterniond(Eigen::AngleAxisd(-turned, Vector::UnitX())).coeffs();
+    for (int s = 0; s < kSteps; ++s) {
+      const double t = r.time[i] + s * dt;
+      turned += state.spin * dt;
+      predictor.step(state, tips_at(t), tips_at(t + dt), dt);
+    }
+  }
+  return r;
+}
+
+const Finding* claimed(const Diagnosis& diagnosis, std::string_view name) {
+  for (const Finding& f : diagnosis.findings)
+    if (f.claimed && f.candidate->name == name) return &f;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("nothing is found where nothing is missing") {
+  const Diagnosis d = diagnose({played({}, 14.0, 1)});
+  CAPTURE(d.sentence);
+  CHECK(d.headline == Headline::kNothingMissing);
+  CHECK(d.noise.front().second.position == Approx(kNoise).epsilon(0.1));
+  for (const Finding& f : d.findings) {
+    CAPTURE(f.candidate->name, f.z);
+    CHECK_FALSE(f.claimed);
+  }
+}
+
+TEST_CASE("friction is named, sized and placed, and predicts what was left out") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.2;
+  const Diagnosis d = diagnose({played(effects, 14.0, 2)});
+  CAPTURE(d.sentence);
+  CHECK(d.headline == Headline::kNamed);
+  const Finding* const friction = claimed(d, "string_friction");
+  REQUIRE(friction != nullptr);
+  const int u = index_of(Unknown::kFriction);
+  CHECK(std::abs(friction->estimate[u] - 0.2) < 4.0 * friction->deviation[u]);
+  CHECK(friction->deviation[u] < 0.02);
+  CHECK(friction->windows.size() > d.windows.size() / 2);
+  CHECK(friction->p_value < 1e-3);
+  REQUIRE(d.heldout.base_error[2].has_value());
+  CHECK(*d.heldout.augmented_error[2] < 0.5 * *d.heldout.base_error[2]);
+  CHECK(d.model.effects.get<StringFriction>().coefficient == Approx(friction->estimate[u]).margin(0.01));
+}
+
+TEST_CASE("a tilted frame is a fault of the measurement, not physics") {
+  AllEffects<double> effects;
+  effects.get<GravityTilt>().x = 0.02;
+  effects.get<GravityTilt>().y = -0.015;
+  const Diagnosis d = diagnose({played(effects, 14.0, 3)});
+  CAPTURE(d.sentence);
+  CHECK(d.headline == Headline::kMeasurementFault);
+  const Finding* const tilt = claimed(d, "gravity_tilt");
+  REQUIRE(tilt != nullptr);
+  for (const Unknown u : {Unknown::kTiltX, Unknown::kTiltY}) {
+    const double truth = u == Unknown::kTiltX ? 0.02 : -0.015;
+    CHECK(std::abs(tilt->estimate[index_of(u)] - truth) < 4.0 * tilt->deviation[index_of(u)]);
+  }
+}
+
+TEST_CASE("one thread and two come to the same, bit for bit") {
+  const std::vector<Recording> takes{played({}, 6.0, 4)};
+  DiagnosisOptions one, two;
+  one.threads = 1;
+  const Diagnosis a = diagnose(takes, one), b = diagnose(takes, two);
+  CHECK(a.at == b.at);
+  CHECK(a.sentence == b.sentence);
+}
+
+TEST_CASE("what can decide nothing gives no name") {
+  CHECK(diagnose({played({}, 2.0, 5)}).headline == Headline::kInsufficientData);
+  Recording unseen = played({}, 8.0, 6);
+  unseen.diabolo = Track::missing(unseen.size());
+  CHECK(diagnose({unseen}).headline == Headline::kInsufficientData);
+  Recording feet = played({}, 8.0, 7);
+  for (Track* track : {&feet.left, &feet.right, &feet.diabolo}) track->position *= 3.28084;
+  const Diagnosis d = diagnose({feet});
+  CHECK(d.headline == Headline::kInsufficientData);
+  CHECK(d.reason.find("wrong units") != std::string::npos);
+  CHECK_THROWS_AS(diagnose({}), std::invalid_argument);
+}
