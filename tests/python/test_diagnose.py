@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import diabolo
+import pytest
+from diabolo import Diagnosis, Model, Recording, diagnose, load_recording
+from diabolo.cli import main
+from diabolo.cli.demo import packaged_recordings
+
+
+@pytest.fixture(scope="module")
+def plant() -> list[Recording]:
+    """Recordings of the plant, whose string rubs, stretches and whose sticks bend."""
+    return [load_recording(path) for path in packaged_recordings()]
+
+
+@pytest.fixture(scope="module")
+def found(plant: list[Recording]) -> Diagnosis:
+    return diagnose(plant)
+
+
+def test_the_friction_of_the_plant_is_named_and_helps(found: Diagnosis) -> None:
+    assert found.headline in ("NAMED", "TIE")
+    friction = next(effect for effect in found.effects if effect["name"] == "string_friction")
+    assert friction["kind"] == "physics"
+    assert friction["parameters"][0]["value"] == pytest.approx(0.3, abs=0.03)
+    fit = found.result["fit"]
+    assert fit["heldout"] == "recordings"
+    at = fit["horizons_s"].index(0.5)
+    assert fit["augmented_error_m"][at] < 0.25 * fit["base_error_m"][at]
+    assert fit["improvement_ci95_m"][0][0] > 0.0
+
+
+def test_the_result_is_of_its_schema(found: Diagnosis) -> None:
+    result = found.to_dict()
+    assert result["schema"] == "diabolo.diagnosis/1"
+    assert json.loads(json.dumps(result, allow_nan=False)) == result
+    names = {rung["name"] for rung in result["ladder"]}
+    assert {"string_elasticity", "air_drag_quadratic", "gravity_tilt", "marker_offset"} <= names
+    directions = len(result["locate"]["directions"])
+    assert all(len(window["z"]) == directions for window in result["locate"]["windows"])
+    for effect in result["effects"]:
+        for parameter in effect["parameters"]:
+            assert parameter["ci90"][0] <= parameter["value"] <= parameter["ci90"][1]
+
+
+def test_the_model_predicts_and_is_a_file(found: Diagnosis, tmp_path: Path) -> None:
+    found.model.save(tmp_path / "model.json")
+    model = Model.load(tmp_path / "model.json")
+    assert model == found.model
+    assert model.string_friction.coefficient > 0.1
+
+
+def test_threads_and_seed_do_not_change_the_answer(plant: list[Recording], found: Diagnosis) -> None:
+    alone = diagnose(plant, threads=1)
+    assert alone.result == found.result
+
+
+def test_progress_names_the_steps(played: Recording) -> None:
+    steps: list[str] = []
+    diagnose(played, progress=lambda step, fraction: steps.append(step))
+    assert steps
+
+
+def test_too_little_is_an_answer(played: Recording) -> None:
+    short = played.cut(0, 60)
+    answer = diagnose(short)
+    assert answer.headline == "INSUFFICIENT_DATA"
+    assert "windows" in answer.sentence
+    assert answer.effects == []
+
+
+def test_bad_input_is_named(played: Recording) -> None:
+    with pytest.raises(ValueError, match="recordings: none"):
+        diagnose([])
+    with pytest.raises(ValueError, match="expected published, paper or consistent"):
+        diagnose(played, "ours")
+    with pytest.raises(ValueError, match="threads: -1"):
+        diagnose(played, threads=-1)
+    with pytest.raises(ValueError, match="budget: 0"):
+        diagnose(played, budget=0.0)
+
+
+def test_the_command_writes_report_result_and_model(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    takes = [str(path) for path in packaged_recordings() if path.stem in ("swing", "hop")]
+    out = tmp_path / "out"
+    assert main(["diagnose", *takes, "--out", str(out), "--json", str(tmp_path / "r.json")]) == 0
+    text = capsys.readouterr().out
+    assert "string_friction" in text
+    assert {path.name for path in out.iterdir()} == {"report.html", "diagnosis.json", "model.json"}
+    result: dict[str, Any] = json.loads((tmp_path / "r.json").read_text())
+    assert result == json.loads((out / "diagnosis.json").read_text())
+    assert [entry["file"] for entry in result["inputs"]] == [Path(take).name for take in takes]
+    assert result["sentence"].split(",")[0] in (out / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["nothing.csv"], "nothing.csv: there is no such file"),
+        (["TAKE", "--base", "ours"], "model ours: no such file"),
+        (["TAKE", "--seed", "-1"], "--seed: -1"),
+        (["TAKE", "--out", "TAKE"], "a file; expected a folder"),
+    ],
+)
+def test_the_command_complains_in_one_sentence(
+    arguments: list[str], complaint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    take = str(next(path for path in packaged_recordings() if path.stem == "hop"))
+    assert main(["diagnose", *[take if word == "TAKE" else word for word in arguments]]) == 2
+    error = capsys.readouterr().err
+    assert complaint in error
+    assert error.count("\n") == 1
+
+
+def test_friction_is_left_out_of_the_real_recordings(real_recordings: Path) -> None:
+    takes = [
+        diabolo.load_recording(path)
+        for path in sorted((real_recordings / "2020-07-11_basic_physics").glob("*.csv"))
+    ]
+    answer = diagnose(takes)
+    assert answer.headline in ("NAMED", "TIE")
+    assert "string_friction" in {effect["name"] for effect in answer.effects}
+    fit = answer.result["fit"]
+    at = fit["horizons_s"].index(0.5)
+    assert fit["augmented_error_m"][at] < 0.5 * fit["base_error_m"][at]
