@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StringElasticity', 'StringFriction', 'TipMotion', 'baseline', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StringElasticity', 'StringFriction', 'TipMotion', 'baseline', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1353,6 +1353,10 @@ class HorizonScore:
 def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """
     The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
+    """
+def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
+    """
+    See diabolo.diagnose.
     """
 def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
     """

@@ -80,7 +80,7 @@ def read_model(text: str) -> Model:
 @contextmanager
 def progress_steps() -> Iterator[Callable[[str, float], None]]:
     """A function to call with the name of the step and the fraction done of it all."""
-    from tqdm import tqdm
+    from tqdm import tqdm  # type: ignore[import-untyped]
 
     layout = "{percentage:3.0f} %|{bar}| {elapsed} {desc}"
     with tqdm(total=1.0, bar_format=layout, leave=False, disable=None, file=sys.stderr) as bar:
@@ -95,7 +95,7 @@ def progress_steps() -> Iterator[Callable[[str, float], None]]:
 @contextmanager
 def progress_bar(description: str) -> Iterator[Callable[[float], None]]:
     """A function to call with the fraction done; it draws a bar where there is a terminal."""
-    from tqdm import tqdm  # type: ignore[import-untyped]
+    from tqdm import tqdm
 
     layout = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}"
     with tqdm(
