@@ -92,8 +92,9 @@ inline Fit prepared(const std::vector<Recording>& recordings) {
 
 /// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
 /// std::invalid_argument about options, and Cancelled.
-inline Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOptions& options = {},
-                          const DiagnosisWatch& watch = {}) {
+template <class D = detail::FitDual>
+Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOptions& options = {},
+                   const DiagnosisWatch& watch = {}) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
   if (options.threads < 1 || options.threads > 2)
     throw std::invalid_argument("threads: " + std::to_string(options.threads) + "; must be 1 or 2");
@@ -121,24 +122,24 @@ inline Diagnosis diagnose(const std::vector<Recording>& recordings, const Diagno
     physics = consistent_model();
     physics.effects = options.base.effects;
   }
-  refine(fit, physics, ActiveSet::Constant(false), 2, options.threads, step("fitting starts", 0.05));
+  refine<D>(fit, physics, ActiveSet::Constant(false), 2, options.threads, step("fitting starts", 0.05));
   remember_before(result, fit);
   ActiveSet set = nuisances();
   for (const Candidate& candidate : candidates()) set = with(set, candidate);
   const Fit start = fit;
-  refine(fit, physics, set, 8, options.threads, step("fitting everything", 0.15));
+  refine<D>(fit, physics, set, 8, options.threads, step("fitting everything", 0.15));
   // A soft string rings: from a stiff one the way there is long, so that it is tried from the other end, too.
   if (std::abs(significance(candidates().front(), standing(Evidence(fit), set))) > 2.0) {
     Fit soft = start;
     soft.at[index_of(Unknown::kCompliance)] = 1e-3;
-    refine(soft, physics, set, 8, options.threads, step("fitting everything, on a soft string", 0.35));
+    refine<D>(soft, physics, set, 8, options.threads, step("fitting everything, on a soft string", 0.35));
     if (detail::left_over(soft) < 0.97 * detail::left_over(fit)) fit = std::move(soft);
   }
   set = eliminate(Evidence(fit), set);
   for (int round = 0; round < 3 && (round == 0 || elapsed() < options.budget); ++round) {
     for (int u = 0; u < kUnknowns; ++u)
       if (!set[u]) fit.at[u] = fit.centre[u] * (u == index_of(Unknown::kDamping) ? 1.0 : 0.0);
-    refine(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
+    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
     const Evidence evidence(fit);
     ActiveSet next = eliminate(evidence, set);
     if (const Candidate* candidate = strongest_left_out(evidence, next)) next = with(next, *candidate);
@@ -158,7 +159,7 @@ inline Diagnosis diagnose(const std::vector<Recording>& recordings, const Diagno
                                     step("comparing on data left out", 0.85));
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
   withdraw_what_does_not_help(result);
-  if (numerical) result.numerical = compare_rules(fit, options.base, physics, options.threads);
+  if (numerical) result.numerical = compare_rules<D>(fit, options.base, physics, options.threads);
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
   conclude(result);

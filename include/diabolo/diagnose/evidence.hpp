@@ -56,7 +56,11 @@ class Evidence {
   };
   Covariances covariances(const ActiveSet& free) const {
     const std::vector<int> f = indices(free);
-    const Eigen::MatrixXd inverse = precision(f, information_).inverse();
+    const Eigen::MatrixXd inverse =
+        precision(f, information_)
+            .ldlt()
+            .solve(Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(f.size()),
+                                             static_cast<Eigen::Index>(f.size())));
     Covariances result{UnknownMatrix::Zero(kUnknowns, kUnknowns), UnknownMatrix::Zero(kUnknowns, kUnknowns)};
     result.noise(f, f) = dispersion_ * inverse;
     result.spread(f, f) = inverse * scatter(f, solve(free)) * inverse;

@@ -190,11 +190,12 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
 
 /// Which share of the base's error its numerical rules make: one less the ratio of the windows' root mean
 /// squares, by the consistent rules over by the base's, both with starts fitted. Not above one.
-inline double compare_rules(Fit fit, const Model& base, const Model& physics, int threads) {
+template <class D = detail::FitDual>
+double compare_rules(Fit fit, const Model& base, const Model& physics, int threads) {
   const auto middle = [&](const Model& model) {
     for (std::size_t s = 0; s < fit.stages.size(); ++s)
       for (FitWindow& window : fit.stages[s].windows) window.start.string_acceleration.setZero();
-    refine(fit, model, ActiveSet::Constant(false), 3, threads);
+    refine<D>(fit, model, ActiveSet::Constant(false), 3, threads);
     std::vector<double> sizes;
     for (const WindowSystem& system : fit.systems)
       sizes.push_back(std::sqrt(system.position_square / std::max(1, system.position_numbers)));

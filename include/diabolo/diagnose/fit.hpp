@@ -81,7 +81,8 @@ inline UnknownVector scales() {
 }
 
 /// Predicts all windows at `fit.at`: systems and scores.
-inline void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
+template <class D = detail::FitDual>
+void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
   std::vector<std::pair<std::size_t, std::size_t>> jobs;
   std::vector<std::vector<StageTips>> grids;
   std::vector<detail::FitModel> models;
@@ -95,7 +96,7 @@ inline void look(Fit& fit, const Model& base, int threads, const Watch& watch = 
   for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
     const auto [s, w] = jobs[i];
     const Stage& stage = fit.stages[s];
-    fit.systems[i] = window_system(stage, grids[s], stage.windows[w], models[s], fit.at, fit.noise[s]);
+    fit.systems[i] = window_system<D>(stage, grids[s], stage.windows[w], models[s], fit.at, fit.noise[s]);
     fit.scores[i] = without_start(fit.systems[i]);
   });
   std::vector<double> sizes;
@@ -165,10 +166,11 @@ inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
 }
 
 /// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is.
-inline void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
-                   const Watch& watch = {}) {
+template <class D = detail::FitDual>
+void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
+            const Watch& watch = {}) {
   fit.active = active;
-  look(fit, base, threads, watch);
+  look<D>(fit, base, threads, watch);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     ++fit.iterations;
     const Normal normal = normal_equations(fit, active);
@@ -203,7 +205,7 @@ inline void refine(Fit& fit, const Model& base, const ActiveSet& active, int mos
           start.spin += kStartScales[6] * move[6];
           fit.stages[s].windows[w].start = start;
         }
-      look(fit, base, threads, watch);
+      look<D>(fit, base, threads, watch);
       if (fit.cost <= best.cost * (1.0 + 1e-9)) break;
       if (attempt == 3) {
         fit = best;
@@ -213,7 +215,7 @@ inline void refine(Fit& fit, const Model& base, const ActiveSet& active, int mos
     const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
     if (iteration < 3) {
       update_noise(fit);
-      look(fit, base, threads, watch);
+      look<D>(fit, base, threads, watch);
     } else if (settled) {
       return;
     }

@@ -175,9 +175,9 @@ void place_on_string(State<D>& state, Tips<D> tips, D length, const FitPredictor
   state.velocity = state.velocity - gradient * D(rate / (squared_norm(gradient) + D(1e-6)));
 }
 
-inline State<FitDual> fit_start(const FitWindow& window, const FitPredictor& predictor,
-                                const Tips<FitDual>& tips, const Tips<FitDual>& next, const FitDual& dt) {
-  using D = FitDual;
+template <class D = FitDual>
+State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const Tips<FitDual>& tips,
+                   const Tips<FitDual>& next, const FitDual& dt) {
   State<D> state;
   for (int k = 0; k < 3; ++k) {
     state.position[k] = D(window.start.position[k]);

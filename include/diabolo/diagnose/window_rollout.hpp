@@ -39,11 +39,12 @@ struct WindowSystem {
   bool taut = false, free = false;                   ///< the string was taut, or not, in some rows
 };
 
-/// Predicts a window and compares it with the recording, with derivatives by its start and all unknowns.
-inline WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid,
-                                  const FitWindow& window, const detail::FitModel& model,
-                                  const UnknownVector& at, const CameraNoise& noise) {
-  using D = detail::FitDual;
+/// Predicts a window and compares it with the recording, with derivatives by its start and all unknowns. (A
+/// template, as is all that calls it, lest every program that includes it compile the simulation on long
+/// duals.)
+template <class D = detail::FitDual>
+WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid, const FitWindow& window,
+                           const detail::FitModel& model, const UnknownVector& at, const CameraNoise& noise) {
   constexpr int n = kStartUnknowns + kUnknowns;
   const Recording& r = stage.recording;
   WindowSystem system;
@@ -62,7 +63,7 @@ inline WindowSystem window_system(const Stage& stage, const std::vector<StageTip
   const auto step_of = [&](Eigen::Index row) {
     return D((stage.times[row + 1] - stage.times[row]) / stage.substeps);
   };
-  State<D> state = detail::fit_start(begun, predictor, now, next, step_of(window.first));
+  State<D> state = detail::fit_start<D>(begun, predictor, now, next, step_of(window.first));
   const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
   const double half = stage.times[window.first] + 0.5;
   bool measured_reach = false;
