@@ -27,7 +27,7 @@ void for_each_field(AllEffects<Scalar>& effects, Visitor&& visit) {
       [&](auto&... effect) {
         const auto one = [&]<class Effect>(Effect& e) {
           Effect::for_each(e, [&](const ParameterInfo& info, Scalar& field) {
-            visit(std::string(Effect::kName) + "." + std::string(info.name), field);
+            visit(std::string(Effect::kName).append(".").append(info.name), field);
           });
         };
         (one(effect), ...);

@@ -94,9 +94,10 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = r.diabolo.position(c, row) - centre[c].value - shift[c];
         line.head(n) = centre[c].gradient.matrix();
-        for (int j = 0; j < 3; ++j)
-          line[kStartUnknowns + index_of(Unknown::kMarkerX) + j] +=
-              frame(c, j) * kUnknownInfos[static_cast<std::size_t>(index_of(Unknown::kMarkerX) + j)].scale;
+        for (int j = 0; j < 3; ++j) {
+          const int unknown = index_of(Unknown::kMarkerX) + j;
+          line[kStartUnknowns + unknown] += frame(c, j) * info_of(static_cast<Unknown>(unknown)).scale;
+        }
         line[n] = residual;
         system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line,
                                                                  1.0 / (noise.position * noise.position));

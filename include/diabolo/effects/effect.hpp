@@ -148,7 +148,7 @@ struct EffectSet {
  private:
   template <class Effect>
   static void validate_one(const Effect& effect) {
-    validate_fields<Scalar>(effect, std::string(Effect::kName) + " ");
+    validate_fields<Scalar>(effect, std::string(Effect::kName).append(" "));
   }
   template <class Function>
   void each(Function&& function) const {

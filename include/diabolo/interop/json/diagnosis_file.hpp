@@ -188,7 +188,7 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
                        {"z", l.z},
                        {"size_m", l.size}});
   for (int k = 0; k < kLatents; ++k) {
-    const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(kLatentFirst + k)];
+    const UnknownInfo& info = info_of(static_cast<Unknown>(kLatentFirst + k));
     const bool on_string = k < 2 || k == 5;
     directions.push_back(
         {{"name", info.name}, {"mode", on_string ? "ON_STRING" : "FLYING"}, {"unit", info.unit}});
