@@ -35,6 +35,7 @@ template <class Scalar>
 struct TipOffset : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "tip_offset";
   Scalar height{0};  ///< of both real tips above the given ones [m]
+  bool neutral() const { return is_constant_zero(height); }
   TipShift<Scalar> tip_shift(const State<Scalar>&, const Tips<Scalar>&) const {
     TipShift<Scalar> shift;
     shift.left[2] = shift.right[2] = height;

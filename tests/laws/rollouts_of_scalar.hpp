@@ -41,7 +41,7 @@ void check_rollouts_of_scalar() {
   const TipMotion<Scalar> motion_of_scalar(times, left_of_scalar, right_of_scalar, Interpolation::kSpline);
   const auto check = [&](const Parameters<double>& p, Parameters<Scalar> q,
                          [[maybe_unused]] Parameters<Dual<double, 1>> r) {
-    if constexpr (kInputsOf<Scalar> > 0) q.string_length.gradient[0] = 1;
+    if constexpr (kInputsOf < Scalar >> 0) q.string_length.gradient[0] = 1;
     const State<double> expected = rollout(Predictor<double>(p), start, motion, {0.0, 1e-3, 500});
     const State<Scalar> state =
         rollout(Predictor<Scalar>(q), start_of_scalar, motion_of_scalar, {0.0, 1e-3, 500});
@@ -54,7 +54,7 @@ void check_rollouts_of_scalar() {
     }
     CHECK(all(absolute<Scalar>(state.spin - Scalar(expected.spin)) < Scalar(20.0 * margin)));
     CHECK(all(is(state.string_state, expected.string_state)));
-    if constexpr (kInputsOf<Scalar> > 0) {
+    if constexpr (kInputsOf < Scalar >> 0) {
       using D = Dual<double, 1>;
       using Base = std::remove_cvref_t<decltype(Scalar().value)>;
       std::vector<Vector3<D>> left_of_dual, right_of_dual;
@@ -65,9 +65,9 @@ void check_rollouts_of_scalar() {
       r.string_length.gradient[0] = 1;
       State<D> start_of_dual;
       for (int k = 0; k < 3; ++k) start_of_dual.position[k] = D(start.position[k]);
-      const State<D> slope = rollout(Predictor<D>(r), start_of_dual,
-                                     TipMotion<D>(times, left_of_dual, right_of_dual, Interpolation::kSpline),
-                                     {0.0, 1e-3, 500});
+      const State<D> slope =
+          rollout(Predictor<D>(r), start_of_dual,
+                  TipMotion<D>(times, left_of_dual, right_of_dual, Interpolation::kSpline), {0.0, 1e-3, 500});
       for (int k = 0; k < 3; ++k) {
         const double wanted = slope.position[k].gradient[0];
         const Base given = state.position[k].gradient[0];
@@ -75,7 +75,9 @@ void check_rollouts_of_scalar() {
       }
     }
   };
-  check(Parameters<double>::consistent(), Parameters<Scalar>::consistent(), Parameters<Dual<double, 1>>::consistent());
+  check(Parameters<double>::consistent(), Parameters<Scalar>::consistent(),
+        Parameters<Dual<double, 1>>::consistent());
   check(Parameters<double>::paper(), Parameters<Scalar>::paper(), Parameters<Dual<double, 1>>::paper());
-  check(Parameters<double>::published(), Parameters<Scalar>::published(), Parameters<Dual<double, 1>>::published());
+  check(Parameters<double>::published(), Parameters<Scalar>::published(),
+        Parameters<Dual<double, 1>>::published());
 }

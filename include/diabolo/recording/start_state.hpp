@@ -109,8 +109,8 @@ class StartStates {
   }
 
   /// The start at a row where it is known. Fair: the diabolo where it is, its velocity by
-  /// start_velocity_filter(), the last spin and axle known by then, the string's state as guessed. Published: velocity
-  /// and spin from this row and the next, the string loose.
+  /// start_velocity_filter(), the last spin and axle known by then, the string's state as guessed. Published:
+  /// velocity and spin from this row and the next, the string loose.
   State<double> at(Start kind, Eigen::Index row) const {
     const bool fair = kind == Start::kFair;
     State<double> state;
