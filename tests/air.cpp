@@ -19,12 +19,6 @@ Full in_air(double linear, double quadratic, double wind_x = 0.0, double wind_y 
       parameters);
 }
 
-Numbers weightless() {
-  Numbers parameters;
-  parameters.gravity = 0.0;
-  return parameters;
-}
-
 }  // namespace
 
 TEST_CASE("air without drag changes no bit, however strong the wind") {

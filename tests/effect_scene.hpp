@@ -25,6 +25,12 @@ Full full(Change&& change, const Numbers& parameters = {}) {
   return Full(parameters, set);
 }
 
+inline Numbers weightless() {
+  Numbers parameters;
+  parameters.gravity = 0.0;
+  return parameters;
+}
+
 struct Scene {
   SmoothTips tips;
   State<double> start;

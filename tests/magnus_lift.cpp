@@ -11,12 +11,6 @@ Full lifting(double coefficient, const Numbers& parameters = {}) {
   return full<MagnusLift>([&](auto& lift) { lift.coefficient = coefficient; }, parameters);
 }
 
-Numbers weightless() {
-  Numbers parameters;
-  parameters.gravity = 0.0;
-  return parameters;
-}
-
 }  // namespace
 
 TEST_CASE("lift of coefficient zero changes no bit") {

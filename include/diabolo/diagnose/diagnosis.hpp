@@ -66,15 +66,6 @@ inline std::string insufficient(const std::vector<Stage>& stages) {
   return {};
 }
 
-/// What is left of the positions in the middle window [m].
-inline double left_over(const Fit& fit) {
-  std::vector<double> sizes;
-  for (const WindowSystem& system : fit.systems)
-    sizes.push_back(std::sqrt(system.position_square / std::max(1, system.position_numbers)));
-  std::ranges::sort(sizes);
-  return quantile(sizes, 0.5);
-}
-
 inline Fit prepared(const std::vector<Recording>& recordings) {
   Fit fit;
   for (const Recording& recording : recordings) {
@@ -133,17 +124,17 @@ Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOpti
     Fit soft = start;
     soft.at[index_of(Unknown::kCompliance)] = 1e-3;
     refine<D>(soft, physics, set, 8, options.threads, step("fitting everything, on a soft string", 0.35));
-    if (detail::left_over(soft) < 0.97 * detail::left_over(fit)) fit = std::move(soft);
+    if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   set = eliminate(Evidence(fit), set);
-  for (int round = 0; round < 3 && (round == 0 || elapsed() < options.budget); ++round) {
+  for (int round = 0;; ++round) {
     for (int u = 0; u < kUnknowns; ++u)
-      if (!set[u]) fit.at[u] = fit.centre[u] * (u == index_of(Unknown::kDamping) ? 1.0 : 0.0);
+      if (!set[u]) fit.at[u] = fit.centre[u];
     refine<D>(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
     const Evidence evidence(fit);
     ActiveSet next = eliminate(evidence, set);
     if (const Candidate* candidate = strongest_left_out(evidence, next)) next = with(next, *candidate);
-    if ((next == set).all()) break;
+    if ((next == set).all() || round == 2 || elapsed() > options.budget) break;  // judged at its own fit
     set = next;
   }
   const Evidence evidence(fit);
@@ -158,8 +149,10 @@ Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOpti
   result.heldout = compare_held_out(held, options.base, physics, options.seed, options.threads,
                                     step("comparing on data left out", 0.85));
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
-  withdraw_what_does_not_help(result);
-  if (numerical) result.numerical = compare_rules<D>(fit, options.base, physics, options.threads);
+  if (withdraw_what_does_not_help(result)) result.model = options.base;
+  if (numerical)
+    result.numerical =
+        compare_rules<D>(fit, options.base, physics, options.threads, step("comparing rules", 0.95));
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
   conclude(result);

@@ -13,7 +13,7 @@
 namespace diabolo {
 
 /// What all windows say of the unknowns, as a quadratic in them about a fit: chi^2 of window w at the scaled
-/// unknowns x is constant_w - 2 slope_w x + x information_w x. Which explanation is best, how sure it is and
+/// unknowns x is a constant - 2 slope_w x + x information_w x. Which explanation is best, how sure it is and
 /// what it would predict where it was not fitted are then algebra, without another simulation.
 class Evidence {
  public:
@@ -24,8 +24,6 @@ class Evidence {
       Part part;
       part.information = score.weight * score.information;
       part.slope = part.information * at + score.weight * score.score;
-      part.constant =
-          score.weight * (score.chi_square + 2.0 * score.score.dot(at)) + at.dot(part.information * at);
       information_ += part.information;
       slope_ += part.slope;
       chi_square += score.weight * score.chi_square;
@@ -34,8 +32,6 @@ class Evidence {
     }
     dispersion_ = std::max(1.0, chi_square / std::max(1.0, numbers));
   }
-
-  std::size_t windows() const { return parts_.size(); }
 
   /// How much wider the residuals are than the noise says.
   double dispersion() const { return dispersion_; }
@@ -79,16 +75,10 @@ class Evidence {
     return solve(free, information, slope);
   }
 
-  /// chi^2 of a window at scaled unknowns.
-  double chi_square(std::size_t i, const UnknownVector& x) const {
-    return parts_[i].constant - 2.0 * parts_[i].slope.dot(x) + x.dot(parts_[i].information * x);
-  }
-
  private:
   struct Part {
     UnknownMatrix information;
     UnknownVector slope;
-    double constant;
   };
 
   static std::vector<int> indices(const ActiveSet& free) {

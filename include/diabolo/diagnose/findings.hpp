@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -88,7 +87,7 @@ inline void remember_before(Diagnosis& result, const Fit& fit) {
       found.begin = fit.stages[s].times[window.first];
       found.end = fit.stages[s].times[window.last];
       found.mode = window.start.string_state;
-      found.residual_before = std::sqrt(system.position_square / std::max(1, system.position_numbers));
+      found.residual_before = system.position_residual();
       for (int k = 0; k < kLatents; ++k) {
         const double information = score.information(kLatentFirst + k, kLatentFirst + k);
         found.z[static_cast<std::size_t>(k)] =
@@ -116,10 +115,7 @@ inline bool is_tied(const Evidence& evidence, const ActiveSet& set, const Candid
 /// Judges every candidate at the final fit.
 inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const ActiveSet& set) {
   std::size_t i = 0;
-  for (WindowFinding& window : result.windows) {
-    const WindowSystem& system = fit.systems[i++];
-    window.residual_after = std::sqrt(system.position_square / std::max(1, system.position_numbers));
-  }
+  for (WindowFinding& window : result.windows) window.residual_after = fit.systems[i++].position_residual();
   const Standing final_standing = standing(evidence, set);
   for (int u = 0; u < kUnknowns; ++u)
     if (set[u]) result.deviation[u] = final_standing.deviation(u);
@@ -137,7 +133,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
       if (size_of(candidate, f.estimate, {fit.systems[w]}) > smallest) f.windows.push_back(w);
     const bool sure = speaks_for(candidate, f.z);
     if (candidate.kind == CandidateKind::kPhysics) {
-      f.material = f.size > (is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach);
+      f.material = f.size > smallest;
     } else {
       for (const Unknown u : candidate.unknowns) {
         const double value = std::abs(f.estimate[index_of(u)]);
@@ -188,38 +184,42 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
   });
 }
 
-/// Which share of the base's error its numerical rules make: one less the ratio of the windows' root mean
-/// squares, by the consistent rules over by the base's, both with starts fitted. Not above one.
+/// Residual of the positions in the middle window [m].
+inline double left_over(const Fit& fit) {
+  std::vector<double> sizes;
+  for (const WindowSystem& system : fit.systems) sizes.push_back(system.position_residual());
+  std::ranges::sort(sizes);
+  return quantile(sizes, 0.5);
+}
+
+/// Which share of the base's error its numerical rules make: one less the ratio of what the consistent rules
+/// leave over to what the base's do, both with starts fitted. Not above one.
 template <class D = detail::FitDual>
-double compare_rules(Fit fit, const Model& base, const Model& physics, int threads) {
-  const auto middle = [&](const Model& model) {
-    for (std::size_t s = 0; s < fit.stages.size(); ++s)
-      for (FitWindow& window : fit.stages[s].windows) window.start.string_acceleration.setZero();
-    refine<D>(fit, model, ActiveSet::Constant(false), 3, threads);
-    std::vector<double> sizes;
-    for (const WindowSystem& system : fit.systems)
-      sizes.push_back(std::sqrt(system.position_square / std::max(1, system.position_numbers)));
-    std::ranges::sort(sizes);
-    return quantile(sizes, 0.5);
-  };
+double compare_rules(Fit fit, const Model& base, const Model& physics, int threads, const Watch& watch = {}) {
   fit.at = fit.centre;
-  const double consistent = middle(physics), own = middle(base);
+  const auto rest = [&](const Model& model) {
+    refine<D>(fit, model, ActiveSet::Constant(false), 3, threads, watch);
+    return left_over(fit);
+  };
+  const double consistent = rest(physics), own = rest(base);
   return 1.0 - consistent / std::max(own, 1e-9);
 }
 
-/// No claim stands whose model predicts worse than the base what it was not fitted to.
-inline void withdraw_what_does_not_help(Diagnosis& d) {
+/// No claim stands whose model predicts worse than the base what it was not fitted to. Returns whether that
+/// was so.
+inline bool withdraw_what_does_not_help(Diagnosis& d) {
   bool better = false, worse = false;
   for (const std::optional<Interval>& interval : d.heldout.improvement_ci95) {
     better = better || (interval && interval->low > 0.0);
     worse = worse || (interval && interval->high < 0.0);
   }
-  if (better || !worse) return;
+  if (better || !worse) return false;
   for (Finding& f : d.findings) {
     if (!f.claimed) continue;
     f.claimed = false;
     f.reason = "does not help on data that were left out";
   }
+  return true;
 }
 
 /// The first of what a finding is tied with, in plain words.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -83,7 +84,8 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     const HorizonTask plain(held.recording, base, options);
     const HorizonTask better(corrected(held.recording, held.at),
                              augmented_model(physics, held.at, "augmented"), options);
-    const std::size_t count = std::min(plain.size(), better.size());
+    const std::size_t count = plain.size();
+    assert(better.size() == count);  // windows depend on times and dropouts, which corrected() leaves
     std::vector<std::vector<WindowError>> without(count), with(count);
     for_each_index(count, threads, watch, [&](std::size_t i) {
       without[i] = plain.errors(i);

@@ -36,7 +36,9 @@ struct WindowSystem {
   UnknownVector spin_reach = UnknownVector::Zero();  ///< the same of the spin [rad/s]
   double spin = 0.0;                                 ///< size of the spin [rad/s]
   bool failed = false;                               ///< the prediction left the world
-  bool taut = false, free = false;                   ///< the string was taut, or not, in some rows
+
+  /// Root mean square of the position's residuals, one coordinate [m].
+  double position_residual() const { return std::sqrt(position_square / std::max(1, position_numbers)); }
 };
 
 /// Predicts a window and compares it with the recording, with derivatives by its start and all unknowns. (A
@@ -134,7 +136,6 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       predictor.step(state, now, next, step_of(row));
       now = next;
     }
-    (state.string_state == StringState::kOnString ? system.taut : system.free) = true;
     state.axis = stage.axis.col(row + 1).cast<D>();
   }
   system.numbers = system.position_numbers + system.spin_numbers;

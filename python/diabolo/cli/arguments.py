@@ -79,7 +79,7 @@ def read_model(text: str) -> Model:
 
 @contextmanager
 def progress_steps() -> Iterator[Callable[[str, float], None]]:
-    """A function to call with the name of the step and the fraction done of it all."""
+    """A function to call with a step's name and the fraction done; draws a bar where there is a terminal."""
     from tqdm import tqdm  # type: ignore[import-untyped]
 
     layout = "{percentage:3.0f} %|{bar}| {elapsed} {desc}"
@@ -94,15 +94,6 @@ def progress_steps() -> Iterator[Callable[[str, float], None]]:
 
 @contextmanager
 def progress_bar(description: str) -> Iterator[Callable[[float], None]]:
-    """A function to call with the fraction done; it draws a bar where there is a terminal."""
-    from tqdm import tqdm
-
-    layout = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}"
-    with tqdm(
-        total=1.0, desc=description, bar_format=layout, leave=False, disable=None, file=sys.stderr
-    ) as bar:
-
-        def report(fraction: float) -> None:
-            bar.update(fraction - bar.n)
-
-        yield report
+    """The same for work of a single step: a function to call with the fraction done."""
+    with progress_steps() as report:
+        yield lambda fraction: report(description, fraction)
