@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Draws cases: an arm, what is at work in it, and a scenario for the plant. The same seed draws the same."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import arms, base, sizes
+
+KEY_SCHEMA = "diabolo.concealed_key/1"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Which arm and which plant a case has; the rest follows from the seed and its number."""
+
+    seed: int
+    number: int
+    arm: str
+    structure: str
+
+    @property
+    def name(self) -> str:
+        return f"case_{self.number:04d}"
+
+    def generator(self, *streams: int) -> np.random.Generator:
+        return np.random.default_rng([self.seed, self.number, *streams])
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A case as the plant is asked for it."""
+
+    plan: Plan
+    content: arms.Content
+    scenario: dict[str, Any]
+
+    def key(self, parameters: dict[str, Any]) -> dict[str, Any]:
+        """The truth; `parameters` by the plant's own account."""
+        return {
+            "schema": KEY_SCHEMA,
+            "case": self.plan.name,
+            "arm": self.plan.arm,
+            "structure": self.plan.structure,
+            "names": self.content.names,
+            "tie": self.content.tie,
+            "outside": self.content.outside,
+            "bad": self.content.bad,
+            "parameters": {name: parameters[name] for name in self.content.names if name in parameters},
+            "scenario": self.scenario,
+            "steps": self.content.steps,
+        }
+
+
+def plans(seed: int, cases: int, with_chain: bool = True) -> list[Plan]:
+    """Arms and plants in a drawn order: neither number nor name of a case says what it holds."""
+    generator = np.random.default_rng([seed])
+    order = [arm for arm, count in arms.allot(cases).items() for _ in range(count)]
+    drawn = [order[i] for i in generator.permutation(cases)]
+    chains = np.zeros(cases, dtype=bool)
+    chains[generator.permutation(cases)[: int(np.ceil(arms.CHAIN_SHARE * cases))]] = with_chain
+    return [
+        Plan(seed, number + 1, arm, "chain" if chain else "springs")
+        for number, (arm, chain) in enumerate(zip(drawn, chains, strict=True))
+    ]
+
+
+def draw(plan: Plan, attempt: int = 0) -> Drawn:
+    """A case. Another attempt has another motion, since a diabolo may be missed, and all else the same."""
+    content = arms.content_of(plan.arm, plan.generator(0))
+    scenario = base.body_and_camera(plan.generator(1), plan.structure)
+    scenario = sizes.merged(scenario, base.play(plan.generator(2, attempt), content.motion))
+    scenario = sizes.merged(scenario, content.departure)
+    for step in content.steps:
+        if step["step"] == "frame_rate":  # filmed at another rate than the file will say
+            scenario["camera"]["rate"] *= step["factor"]
+    return Drawn(plan, content, scenario)
