@@ -44,7 +44,7 @@ def kept(result: Answer) -> Answer:
 
 def failed(error: Exception) -> Answer:
     """The answer of a tool that gave up: it counts as one that claims nothing."""
-    empty = {name: None for name in _KEPT_OF_FIT}
+    empty = dict.fromkeys(_KEPT_OF_FIT)
     message = " ".join(str(error).split())
     return {"headline": "ERROR", "error": message, "effects": [], "unnamed": [], "ladder": [], "fit": empty}
 

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: MIT
+"""One answer beside its key."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from . import answer as answers
+from .answer import Answer
+from .names import PHYSICS, faults_among, physics_among
+
+HORIZON = 1.0  # after which the gap is compared [s]
+SURE = 10.0  # standard deviations from which an effect has to be found
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A claimed parameter with its truth."""
+
+    name: str
+    parameter: str
+    value: float
+    low: float
+    high: float
+    truth: float
+    width_ratio: float | None
+    """To the width of the interval of who knows what is at work."""
+
+    @property
+    def covers(self) -> bool:
+        return self.low <= self.truth <= self.high
+
+
+@dataclass
+class Verdict:
+    """All that the scores need to know of a case."""
+
+    case: str
+    arm: str
+    structure: str
+    headline: str
+    physics: list[str]
+    """Truly at work, the leading one first."""
+    faults: list[str]
+    tie: list[str]
+    outside: str | None
+    bad: str | None
+    claimed: list[str]
+    """Physics, the surest first."""
+    claimed_faults: list[str]
+    tied: dict[str, list[str]]
+    confidence: dict[str, float]
+    modes: dict[str, list[str]]
+    snr: dict[str, float]
+    """By name; without those that the tool does not know."""
+    fault_z: dict[str, float]
+    intervals: list[Interval] = field(default_factory=list)
+    closure: float | None = None
+    """Share of the gap between base and oracle that the answer closes."""
+
+    @property
+    def strongest(self) -> str | None:
+        """The physics that stands out most, as far as that is known."""
+        return max(self.snr, key=lambda name: self.snr[name]) if self.snr else None
+
+    @property
+    def false_physics(self) -> list[str]:
+        """Claims of what is not at work, nor what the data cannot tell from what is."""
+        return [name for name in self.claimed if name not in self.physics and name not in self.tie]
+
+    @property
+    def false_faults(self) -> list[str]:
+        return [name for name in self.claimed_faults if name not in self.faults]
+
+    def is_in_answer(self, name: str) -> bool:
+        """Whether a name is claimed, or tied with what is."""
+        return name in self.claimed or any(name in self.tied[claim] for claim in self.claimed)
+
+    @property
+    def top_is_right(self) -> bool:
+        return bool(self.claimed) and self.claimed[0] in self.physics
+
+    @property
+    def declares_tie(self) -> bool:
+        """Whether the names that cannot be told apart stand in one class."""
+        classes = [{claim, *self.tied[claim]} for claim in self.claimed]
+        return any(set(self.tie) <= names for names in classes)
+
+    def mode_is_right(self, name: str) -> bool:
+        modes = self.modes[name]
+        return bool(modes) and set(modes) <= set(PHYSICS[name])
+
+
+def _turned(value: float, towards: float) -> float:
+    """The same angle [deg], within half a turn of another."""
+    return towards + (value - towards + 180.0) % 360.0 - 180.0
+
+
+def _parameters(effect: dict[str, Any]) -> dict[str, Any]:
+    return {parameter["name"]: parameter for parameter in effect["parameters"]}
+
+
+def _intervals(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> list[Interval]:
+    found: list[Interval] = []
+    best = {} if oracle is None else {effect["name"]: _parameters(effect) for effect in oracle["effects"]}
+    for effect in answer["effects"]:
+        truths = key["parameters"].get(effect["name"], {}) if effect["name"] in key["names"] else {}
+        for name, parameter in _parameters(effect).items():
+            truth = truths.get(name)
+            if parameter["ci90"] is None or not isinstance(truth, float | int):
+                continue
+            if name.endswith("azimuth_deg"):
+                truth = _turned(truth, parameter["value"])
+            low, high = parameter["ci90"]
+            known = best.get(effect["name"], {}).get(name)
+            known_width = known["ci90"][1] - known["ci90"][0] if known and known["ci90"] else 0.0
+            ratio = (high - low) / known_width if known_width > 0.0 else None
+            found.append(Interval(effect["name"], name, parameter["value"], low, high, float(truth), ratio))
+    return found
+
+
+def _closure(answer: Answer, oracle: Answer | None) -> float | None:
+    """Counts where the base's error is at least half again the oracle's."""
+    if oracle is None:
+        return None
+    base = answers.error_after(answer, "base", HORIZON)
+    augmented = answers.error_after(answer, "augmented", HORIZON)
+    best = answers.error_after(oracle, "augmented", HORIZON)
+    if base is None or augmented is None or best is None or base < 1.5 * best or base <= best:
+        return None
+    return (base - augmented) / (base - best)
+
+
+def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> Verdict:
+    """Compares an answer with the truth; `oracle` is the answer of who was told the physics at work."""
+    physics = physics_among(key["names"])
+    claimed = answers.claims(answer, "physics")
+    faults = answers.claims(answer, "measurement")
+    snr = {name: answers.significance(oracle, name) for name in physics} if oracle else {}
+    z = {name: answers.significance(answer, name) for name in faults_among(key["names"])}
+    return Verdict(
+        case=key["case"],
+        arm=key["arm"],
+        structure=key["structure"],
+        headline=answer["headline"],
+        physics=physics,
+        faults=faults_among(key["names"]),
+        tie=key["tie"],
+        outside=key["outside"],
+        bad=key["bad"],
+        claimed=[effect["name"] for effect in claimed],
+        claimed_faults=[effect["name"] for effect in faults],
+        tied={effect["name"]: effect["tied_with"] for effect in answer["effects"]},
+        confidence={e["name"]: e["confidence"] for e in claimed if e["confidence"] is not None},
+        modes={effect["name"]: effect["modes"] for effect in answer["effects"]},
+        snr={name: value for name, value in snr.items() if value is not None},
+        fault_z={name: value for name, value in z.items() if value is not None},
+        intervals=_intervals(key, answer, oracle),
+        closure=_closure(answer, oracle),
+    )
