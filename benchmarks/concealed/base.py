@@ -73,7 +73,7 @@ def body_and_camera(generator: np.random.Generator, structure: str) -> dict[str,
     return result
 
 
-def play(generator: np.random.Generator, kind: str) -> dict[str, Any]:
+def play(generator: np.random.Generator, kind: str, throws: bool) -> dict[str, Any]:
     """Hands, start and length of one attempt at a motion."""
     half, lean = generator.uniform(0.24, 0.27), generator.uniform(-0.02, 0.02)
     turning = 0.0 if kind == "one_direction" else generator.uniform(1.0, 3.0)
@@ -81,7 +81,7 @@ def play(generator: np.random.Generator, kind: str) -> dict[str, Any]:
         side: {"yaw_deg": sign * generator.uniform(3.0, 14.0), "pitch_deg": generator.uniform(8.0, 22.0)}
         for side, sign in (("left_stick", -1.0), ("right_stick", 1.0))
     }
-    elements = getattr(motions, kind)(generator)
+    elements = motions.KINDS[kind](generator, throws)
     return {
         "seed": int(generator.integers(2**40)),
         "duration": generator.uniform(motions.SHORTEST, motions.LONGEST),

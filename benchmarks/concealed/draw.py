@@ -10,6 +10,7 @@ import numpy as np
 
 from . import arms, base, sizes
 
+CALM = 12  # the attempt from which nothing is thrown any more
 KEY_SCHEMA = "diabolo.concealed_key/1"
 
 
@@ -72,7 +73,7 @@ def draw(plan: Plan, attempt: int = 0) -> Drawn:
     """A case. Another attempt has another motion, since a diabolo may be missed, and all else the same."""
     content = arms.content_of(plan.arm, plan.generator(0))
     scenario = base.body_and_camera(plan.generator(1), plan.structure)
-    scenario = sizes.merged(scenario, base.play(plan.generator(2, attempt), content.motion))
+    scenario = sizes.merged(scenario, base.play(plan.generator(2, attempt), content.motion, attempt < CALM))
     scenario = sizes.merged(scenario, content.departure)
     for step in content.steps:
         if step["step"] == "frame_rate":  # filmed at another rate than the file will say

@@ -14,6 +14,10 @@ def digest_of(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
+def digest_of_text(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def text_of(value: Any) -> str:
     """JSON that is the same for the same value."""
     return json.dumps(value, sort_keys=True, allow_nan=False, separators=(",", ":"))

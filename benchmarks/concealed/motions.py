@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -42,8 +43,8 @@ def stick_sweep(generator: np.random.Generator) -> Element:
     }
 
 
-def lively(generator: np.random.Generator) -> list[Element]:
-    """Some of everything in an order of its own, two throws and a hop for certain."""
+def lively(generator: np.random.Generator, throws: bool = True) -> list[Element]:
+    """Some of everything in an order of its own, with two throws and a hop."""
     calm = [
         oscillation(generator, "swing", (0.06, 0.13), (0.6, 0.9)),
         oscillation(generator, "beat", (0.04, 0.09), (1.2, 1.7)),
@@ -58,6 +59,8 @@ def lively(generator: np.random.Generator) -> list[Element]:
         {"type": "hop", "count": int(generator.integers(2, 4))},
         {"type": "throw", "size": generator.uniform(0.9, 1.1)},
     ]
+    if not throws:
+        air = [air[1], oscillation(generator, "bounce", (0.05, 0.09), (1.0, 1.4)), air[1]]
     parts: list[Element] = [hold(generator)]
     for place, element in enumerate(chosen):
         parts += [element, hold(generator, 0.4, 0.8)]
@@ -85,3 +88,10 @@ def one_direction(generator: np.random.Generator) -> list[Element]:
         bounce,
         hold(generator, 3.0, 4.0),
     ]
+
+
+KINDS: dict[str, Callable[[np.random.Generator, bool], list[Element]]] = {
+    "lively": lively,
+    "slow": lambda generator, throws: slow(generator),
+    "one_direction": lambda generator, throws: one_direction(generator),
+}

@@ -75,12 +75,19 @@ def _wrap(generator: np.random.Generator) -> Departure:
     return {"string": {"wraps": 1, "friction": log_uniform(generator, 0.03, 0.12)}}
 
 
+def _mass(generator: np.random.Generator) -> Departure:
+    """The ideal string's damping would let a heavy string bounce on the axle without end."""
+    return {
+        "string": {"linear_density": log_uniform(generator, 0.0015, 0.01), "stiffness": 4e4, "damping": 5.0}
+    }
+
+
 _PHYSICS: dict[str, Callable[[np.random.Generator], Departure]] = {
     "string_friction": lambda g: {"string": {"friction": log_uniform(g, 0.008, 0.38)}},
     "string_elasticity": elasticity,
     "stick_flex": stick_flex,
     "string_wrap": _wrap,
-    "string_mass": lambda g: {"string": {"linear_density": log_uniform(g, 0.0015, 0.03)}},
+    "string_mass": _mass,
     "air_drag_linear": lambda g: {"air": {"linear_drag": log_uniform(g, 0.008, 0.4)}},
     "air_drag_quadratic": lambda g: {"air": {"drag": log_uniform(g, 0.008, 0.15)}},
     "wind": _wind,

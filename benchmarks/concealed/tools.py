@@ -3,17 +3,26 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import diabolo
 from diabolo import diagnose, load_recording
 
-from . import sindy
+from . import files, sindy
 from .names import PHYSICS
 
 Tool = Callable[[Path], dict[str, Any]]
+
+
+def digest() -> str:
+    """Of the installed package, so that a batch that was sealed with one tool is not run with another."""
+    folder = Path(diabolo.__file__).parent
+    parts = sorted([*folder.glob("*.py"), *folder.glob("_core*.so")])
+    return files.digest_of_text("".join(f"{part.name} {files.digest_of(part)}\n" for part in parts))
 
 
 def can_restrict() -> bool:
@@ -21,9 +30,10 @@ def can_restrict() -> bool:
     return "bank" in inspect.signature(diagnose).parameters
 
 
-def _restricted(path: Path, **options: Any) -> dict[str, Any]:
+def _restricted(path: Path, names: Iterable[str], **options: Any) -> dict[str, Any]:
     if not can_restrict():
         raise ValueError("this version of diabolo.diagnose has no keyword bank; a newer one is needed")
+    options["bank"] = list(names)
     return diagnose(load_recording(path), **options).to_dict()
 
 
@@ -34,15 +44,21 @@ def full(path: Path) -> dict[str, Any]:
 
 def oracle(path: Path, names: list[str]) -> dict[str, Any]:
     """The diagnosis that is told which physics is at work; measurement stays free."""
-    return _restricted(path, bank=names)
+    return _restricted(path, names)
+
+
+@functools.cache
+def _known_physics(path: Path) -> tuple[str, ...]:
+    """Names of physics that the diagnosis knows, by an answer of its own."""
+    return tuple(rung["name"] for rung in full(path)["ladder"] if rung["name"] in PHYSICS)
 
 
 def no_faults(path: Path) -> dict[str, Any]:
     """The diagnosis without faults of measurement: what naming them is worth."""
-    options: dict[str, Any] = {"bank": list(PHYSICS)}
+    options: dict[str, Any] = {}
     if "measurement" in inspect.signature(diagnose).parameters:
         options["measurement"] = False
-    return _restricted(path, **options)
+    return _restricted(path, _known_physics(path), **options)
 
 
 TOOLS: dict[str, Tool] = {"diagnose": full, "no_faults": no_faults, "sindy": sindy.diagnose}

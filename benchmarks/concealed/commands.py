@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: MIT
+"""What the subcommands of `diabolo prove` do."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import answer, batch, files, page, plant, run, score, seal, tables, tools
+from .names import physics_among
+
+ARMS_WITH_ORACLE = ("single", "several", "with_fault", "tie", "outside")
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where things are."""
+
+    sources: Path
+    """benchmarks/concealed, with the sealed batches and their results."""
+    build: Path
+    """For recordings and keys."""
+    program: Path
+    """The plant's."""
+    report: run.Report
+
+    def published(self, name: str) -> Path:
+        return self.sources / "batches" / f"{name}.json"
+
+    def results(self, name: str, what: str) -> Path:
+        return self.sources / "results" / f"{name}{what}"
+
+    def store(self, name: str) -> batch.Store:
+        return batch.Store(self.build / name)
+
+
+def check_name(name: str) -> None:
+    """Names become those of files."""
+    if not name.replace("_", "").replace("-", "").isalnum():
+        raise ValueError(f"batch {name!r}: expected a name of letters, digits, - and _")
+
+
+def tool_named(name: str) -> tools.Tool:
+    if name not in tools.TOOLS:
+        raise ValueError(f"--tool {name}: expected one of {', '.join(tools.TOOLS)}")
+    return tools.TOOLS[name]
+
+
+def answers_path(places: Places, name: str, tool: str) -> Path:
+    return places.results(name, ".jsonl" if tool == "diagnose" else f".{tool}.jsonl")
+
+
+def seal_batch(places: Places, name: str, cases: int, jobs: int) -> int:
+    check_name(name)
+    result = seal.seal(
+        name, places.published(name), places.store(name), places.program, cases, jobs, places.report
+    )
+    print(
+        f"{places.published(name)}: {cases} cases sealed at commit {result['commit'][:12]}; "
+        f"commit this file, then diabolo prove run {name}"
+    )
+    return 0
+
+
+def _is_committed(path: Path) -> bool:
+    known = subprocess.run(["git", "ls-files", "--error-unmatch", str(path)], capture_output=True)
+    same = subprocess.run(["git", "diff", "--quiet", "HEAD", "--", str(path)], capture_output=True)
+    return known.returncode == 0 and same.returncode == 0
+
+
+def run_batch(places: Places, name: str, tool: str, minutes: float) -> int:
+    check_name(name)
+    chosen = tool_named(tool)
+    sealed = seal.read(places.published(name))
+    if not _is_committed(places.published(name)):
+        raise ValueError(f"{places.published(name)}: not committed as it is; the seal comes before the run")
+    if sealed["tool"] != tools.digest():
+        raise ValueError(f"batch {name} was sealed with another build of diabolo; seal a fresh one")
+    store = places.store(name)
+    seal.check_recordings(sealed, store)
+    cases = [entry["case"] for entry in sealed["sealed"]]
+    results = answers_path(places, name, tool)
+    left = run.resume(cases, results, lambda case: chosen(store.recording(case)), places.report, minutes)
+    ending = f"{left} cases are left; run again" if left else f"all done; diabolo prove score {name}"
+    print(f"{results}: {len(cases) - left} of {len(cases)} cases; {ending}")
+    return 0
+
+
+def oracles(
+    places: Places,
+    keys: list[dict[str, Any]],
+    answers: dict[str, answer.Answer],
+    store: batch.Store,
+    path: Path,
+) -> dict[str, answer.Answer]:
+    """Answers of who is told the physics at work, for as much of it as the tool knows a name for."""
+    if not tools.can_restrict():
+        return {}
+    told: dict[str, list[str]] = {}
+    for key in keys:
+        known = {rung["name"] for rung in answers.get(key["case"], {}).get("ladder", [])}
+        names = [name for name in physics_among(key["names"]) if name in known]
+        if names and key["arm"] in ARMS_WITH_ORACLE:
+            told[key["case"]] = names
+    run.resume(list(told), path, lambda case: tools.oracle(store.recording(case), told[case]), places.report)
+    return {case: found for case, found in run.answers(path).items() if case in told}
+
+
+def score_batch(places: Places, name: str, tool: str, json_file: Path | None) -> int:
+    """Opens the keys; writes NAME.score.json, or NAME.TOOL.score.json."""
+    check_name(name)
+    tool_named(tool)
+    sealed = seal.read(places.published(name))
+    store = places.store(name)
+    found = run.answers(answers_path(places, name, tool))
+    missing = [entry["case"] for entry in sealed["sealed"] if entry["case"] not in found]
+    if missing:
+        raise ValueError(f"batch {name}: {len(missing)} cases have no answer; diabolo prove run {name} first")
+    keys = seal.open_keys(sealed, store)
+    own = run.answers(answers_path(places, name, "diagnose"))
+    best = oracles(places, keys, own, store, places.results(name, ".oracle.jsonl"))
+    verdicts = score.judged(keys, found, best)
+    result = {"batch": name, "tool": tool, "commit": sealed["commit"], **score.summary(verdicts)}
+    suffix = ".score.json" if tool == "diagnose" else f".{tool}.score.json"
+    files.write_json(places.results(name, suffix), result)
+    files.write_text(places.results(name, ".keys.jsonl"), "".join(files.text_of(key) + "\n" for key in keys))
+    return _finish(result, json_file)
+
+
+def write_page(places: Places, name: str, out: Path) -> int:
+    check_name(name)
+    path = places.results(name, ".score.json")
+    result = files.read_json(path, f"the scores (diabolo prove score {name})")
+    others = {
+        tool: files.read_json(other, "scores")
+        for tool in tools.TOOLS
+        if (other := places.results(name, f".{tool}.score.json")).exists()
+    }
+    sealed = seal.read(places.published(name))
+    written = page.write(out, name, sealed, result, others)
+    print("; ".join(str(path) for path in written))
+    return 0
+
+
+def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file: Path | None) -> int:
+    """Cases that are not sealed: made, diagnosed and scored at once."""
+    chosen = tool_named(tool)
+    plant.check_program(places.program)
+    store = places.store(f"quick_{seed}_{cases}")
+    planned = batch.make(
+        store, places.program, seed, cases, plant.knows_chain(places.program), jobs, places.report
+    )
+    stamp = tools.digest()[:12]
+    names = [plan.name for plan in planned]
+    results = store.folder / f"{tool}_{stamp}.jsonl"
+    _drop_if_older(results, store.folder / "stamp.json")
+    run.resume(names, results, lambda case: chosen(store.recording(case)), places.report)
+    found = run.answers(results)
+    keys = [store.key(case) for case in names]
+    own = found
+    if tool != "diagnose":
+        own = run.answers(store.folder / f"diagnose_{stamp}.jsonl")
+    told = store.folder / f"oracle_{stamp}.jsonl"
+    _drop_if_older(told, store.folder / "stamp.json")
+    best = oracles(places, keys, own, store, told)
+    result = {"batch": None, "tool": tool, "seed": seed, **score.summary(score.judged(keys, found, best))}
+    return _finish(result, json_file)
+
+
+def _drop_if_older(path: Path, than: Path) -> None:
+    """Answers to cases that were made anew since do not count."""
+    if path.exists() and path.stat().st_mtime < than.stat().st_mtime:
+        path.unlink()
+
+
+def _finish(result: dict[str, Any], json_file: Path | None) -> int:
+    """Prints; returns the exit status."""
+    if json_file is not None:
+        files.write_json(json_file, result)
+    print(tables.text_of(result))
+    return 1 if any(entry["fails"] for entry in result["scores"]) else 0
