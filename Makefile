@@ -29,7 +29,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-plant test-python test-all mujoco sanitize fuzz stress bench \
+.PHONY: help demo test test-core test-cpp test-plant test-python test-all prove mujoco sanitize fuzz stress bench \
   build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
@@ -85,6 +85,12 @@ test-plant: # The simulator behind the demonstration recordings is a CMake proje
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS)
 	@$(ctest) --test-dir $(BUILD)/plant
+
+prove: $(VENV)/.package ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
+	@$(packages) build test plant
+	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
+	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
+	@$(VENV)/bin/python -m diabolo prove quick --cases 24 --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest

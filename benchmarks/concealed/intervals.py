@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Sequence
 
@@ -35,6 +36,7 @@ def _crossing(falls: Callable[[float], float], level: float) -> float:
     return 0.5 * (low + high)
 
 
+@functools.cache
 def clopper_pearson(hits: int, total: int, level: float = 0.95) -> tuple[float, float]:
     """Interval of a rate that covers it with at least the level's probability."""
     if total == 0:

@@ -25,7 +25,7 @@ def _git(*arguments: str) -> str:
         raise ValueError("git is not installed; sealing needs the commit of the tool") from None
     if done.returncode != 0:
         raise ValueError(f"git {arguments[0]} failed: {done.stderr.strip() or 'no reason given'}")
-    return done.stdout.strip()
+    return done.stdout.rstrip()
 
 
 def commit_of_clean_tree() -> str:

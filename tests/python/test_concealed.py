@@ -1,0 +1,327 @@
+# SPDX-License-Identifier: MIT
+"""The proof itself is put to the proof: its scorer has to fail tools that know nothing, and broken seals."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from diabolo.cli import main
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "benchmarks"))
+
+from concealed import arms, batch, breakdown, camera_steps, draw, files, intervals, run, score, seal  # noqa: E402
+from concealed.names import MEASUREMENT, PHYSICS, faults_among, physics_among  # noqa: E402
+
+SIZES = {"string_friction": {"coefficient": 0.2}, "air_drag_quadratic": {"coefficient": 0.05}}
+
+
+def effect(
+    name: str, *, tied_with: list[str] | None = None, truth: dict[str, float] | None = None
+) -> dict[str, Any]:
+    """A claim, with intervals about the truth."""
+    return {
+        "name": name,
+        "kind": "physics" if name in PHYSICS else "measurement",
+        "material": True,
+        "tied_with": tied_with or [],
+        "p_value": 1e-9,
+        "confidence": 0.99,
+        "parameters": [
+            {"name": parameter, "value": value, "unit": "1", "ci90": [0.9 * value, 1.1 * value]}
+            for parameter, value in (truth or {}).items()
+        ],
+        "where": {"modes": list(PHYSICS.get(name, ["ON_STRING"]))},
+    }
+
+
+def result(effects: list[dict[str, Any]], headline: str = "NAMED", z: float = 30.0) -> dict[str, Any]:
+    """An answer that knows of all names."""
+    names = [*PHYSICS, *MEASUREMENT]
+    return {
+        "headline": headline if effects else "NOTHING_MISSING",
+        "effects": effects,
+        "ladder": [
+            {"name": name, "estimate": 0.0, "z": z, "size_m": 0.0, "claimed": False} for name in names
+        ],
+        "fit": {"horizons_s": [1.0], "base_error_m": [0.1], "augmented_error_m": [0.01 if effects else 0.1]},
+    }
+
+
+def key_of(plan: draw.Plan) -> dict[str, Any]:
+    drawn = draw.draw(plan)
+    return drawn.key({name: SIZES.get(name, {"rate": 0.5}) for name in drawn.content.names})
+
+
+@pytest.fixture(scope="module")
+def keys() -> list[dict[str, Any]]:
+    return [key_of(plan) for plan in draw.plans(5, 600)]
+
+
+def right(key: dict[str, Any]) -> dict[str, Any]:
+    """The answer of who has the key."""
+    if key["bad"]:
+        return result([]) | {"headline": "INSUFFICIENT_DATA"}
+    effects = [effect(name, truth=key["parameters"].get(name)) for name in key["names"]]
+    if key["tie"]:
+        effects = [effect(key["names"][0], tied_with=[n for n in key["tie"] if n != key["names"][0]])]
+    return result(effects)
+
+
+def scored(keys: list[dict[str, Any]], answer: Any) -> dict[str, score.Score]:
+    """Scores by name; the oracle has the key."""
+    from concealed.answer import kept
+
+    answers = {key["case"]: kept(answer(key)) for key in keys}
+    oracles = {key["case"]: kept(right(key)) for key in keys if physics_among(key["names"])}
+    return {found.name: found for found in score.scores(score.judged(keys, answers, oracles))}
+
+
+def failing(scores: dict[str, score.Score]) -> set[str]:
+    return {name for name, found in scores.items() if found.fails}
+
+
+def test_who_has_the_keys_passes(keys: list[dict[str, Any]]) -> None:
+    scores = scored(keys, right)
+    assert failing(scores) <= {"90 % intervals that cover, physics"}  # they cover always, which is too often
+    assert scores["detected, SNR >= 10"].value == 1.0
+    assert scores["gap closed after 1 s"].value == pytest.approx(1.0)
+
+
+def test_always_drag_fails(keys: list[dict[str, Any]]) -> None:
+    found = failing(scored(keys, lambda key: result([effect("air_drag_quadratic")])))
+    assert {"false physics on nulls", "false physics on faults only", "top name right, SNR >= 10"} <= found
+    assert {"truth in the answer or its tie, SNR >= 10", "laws outside the bank misnamed"} <= found
+
+
+def test_always_abstaining_fails(keys: list[dict[str, Any]]) -> None:
+    found = failing(scored(keys, lambda key: result([])))
+    assert {
+        "detected, SNR >= 10",
+        "truth in the answer or its tie, SNR >= 10",
+        "gap closed after 1 s",
+    } <= found
+    assert {"ties declared, SNR >= 10", "two effects both named, SNR >= 10"} <= found
+
+
+def test_a_class_of_everything_fails(keys: list[dict[str, Any]]) -> None:
+    found = failing(
+        scored(keys, lambda key: result([effect("wind", tied_with=[n for n in PHYSICS if n != "wind"])]))
+    )
+    assert {"mean size of a class", "classes of more than three", "false physics on nulls"} <= found
+
+
+def test_swapped_keys_fail(keys: list[dict[str, Any]]) -> None:
+    others = {key["case"]: keys[(place + 1) % len(keys)] for place, key in enumerate(keys)}
+    found = failing(scored(keys, lambda key: right(others[key["case"]])))
+    assert {"false physics on nulls", "false physics on faults only", "detected, SNR >= 10"} <= found
+
+
+def test_without_an_oracle_nothing_is_said_of_power(keys: list[dict[str, Any]]) -> None:
+    from concealed.answer import kept
+
+    verdicts = score.judged(keys, {key["case"]: kept(right(key)) for key in keys}, {})
+    scores = {found.name: found for found in score.scores(verdicts)}
+    assert scores["detected, SNR >= 10"].value is None
+    assert not scores["detected, SNR >= 10"].fails
+    assert breakdown.failures(verdicts) == []
+
+
+@pytest.fixture
+def sealed(tmp_path: Path) -> tuple[dict[str, Any], batch.Store]:
+    """A batch of made-up recordings."""
+    store = batch.Store(tmp_path / "made")
+    plans = draw.plans(3, 12)
+    for plan in plans:
+        files.write_json(store.key_path(plan.name), key_of(plan))
+        files.write_text(store.recording(plan.name), f"time\n{plan.number}\n")
+        files.write_text(store.recording(plan.name).with_suffix(".json"), "{}")
+    return seal.describe(store, [plan.name for plan in plans], "0" * 40, 3, "plant"), store
+
+
+def test_a_sound_seal_opens(sealed: tuple[dict[str, Any], batch.Store]) -> None:
+    description, store = sealed
+    seal.check_recordings(description, store)
+    assert [key["case"] for key in seal.open_keys(description, store)] == [
+        entry["case"] for entry in description["sealed"]
+    ]
+
+
+def test_a_changed_key_breaks_the_seal(sealed: tuple[dict[str, Any], batch.Store]) -> None:
+    description, store = sealed
+    key = store.key("case_0004")
+    files.write_json(store.key_path("case_0004"), {**key, "names": ["wind"]})
+    with pytest.raises(ValueError, match=r"case_0004\.json: not the key that was sealed"):
+        seal.open_keys(description, store)
+
+
+def test_swapped_key_files_break_the_seal(sealed: tuple[dict[str, Any], batch.Store]) -> None:
+    description, store = sealed
+    one, other = store.key_path("case_0002"), store.key_path("case_0003")
+    texts = one.read_text(), other.read_text()
+    one.write_text(texts[1])
+    other.write_text(texts[0])
+    with pytest.raises(ValueError, match="not the key that was sealed"):
+        seal.open_keys(description, store)
+
+
+def test_a_changed_recording_breaks_the_seal(sealed: tuple[dict[str, Any], batch.Store]) -> None:
+    description, store = sealed
+    store.recording("case_0007").write_text("time\n0\n")
+    with pytest.raises(ValueError, match="not the recording that was sealed"):
+        seal.check_recordings(description, store)
+
+
+def test_a_resumed_run_equals_an_unbroken_one(tmp_path: Path) -> None:
+    cases = [f"case_{number:04d}" for number in range(1, 9)]
+
+    def ask(case: str) -> dict[str, Any]:
+        if case == "case_0006":
+            raise ValueError("a recording that cannot\nbe used")
+        return result([effect("wind")], z=float(case[-1]) / 3.0)
+
+    unbroken, broken = tmp_path / "a.jsonl", tmp_path / "b.jsonl"
+    assert run.resume(cases, unbroken, ask) == 0
+    assert run.resume(cases, broken, ask, minutes=0.0) == len(cases)
+
+    def interrupted(case: str) -> dict[str, Any]:
+        if case == "case_0004":
+            raise KeyboardInterrupt
+        return ask(case)
+
+    with pytest.raises(KeyboardInterrupt):
+        run.resume(cases, broken, interrupted)
+    with broken.open("a") as file:
+        file.write('{"case":"case_0004","ans')  # as the power failed
+    assert run.resume(cases, broken, ask) == 0
+    assert broken.read_bytes() == unbroken.read_bytes()
+    assert run.answers(broken)["case_0006"]["error"] == "a recording that cannot be used"
+
+
+def test_drawing_is_deterministic() -> None:
+    first = [files.text_of(key_of(plan)) for plan in draw.plans(11, 40)]
+    assert first == [files.text_of(key_of(plan)) for plan in draw.plans(11, 40)]
+    assert first != [files.text_of(key_of(plan)) for plan in draw.plans(12, 40)]
+
+
+def test_arms_have_their_shares(keys: list[dict[str, Any]]) -> None:
+    assert arms.allot(600) == arms.SHARES
+    for cases in (1, 7, 8, 24, 100):
+        assert sum(arms.allot(cases).values()) == cases
+    assert min(arms.allot(8).values()) == 1
+    assert sum(key["structure"] == "chain" for key in keys) >= 150
+    assert {name for key in keys for name in key["names"]} == {*PHYSICS, *MEASUREMENT}
+
+
+def test_arms_leak_into_neither_names_nor_lengths_nor_noise(keys: list[dict[str, Any]]) -> None:
+    assert [key["case"] for key in keys] == [f"case_{number:04d}" for number in range(1, 601)]
+    places = {arm: [i for i, key in enumerate(keys) if key["arm"] == arm] for arm in arms.SHARES}
+    quantities = {
+        "place": [float(i) for i in range(len(keys))],
+        "length": [key["scenario"]["duration"] for key in keys],
+        "noise": [key["scenario"]["camera"]["white_noise"] for key in keys],
+        "dropouts": [key["scenario"]["camera"]["dropout_share"] for key in keys],
+        "string": [key["scenario"]["string"]["length"] for key in keys],
+        "mass": [key["scenario"]["diabolo"]["mass"] for key in keys],
+        "spin": [abs(key["scenario"]["start"]["spin"]) for key in keys],
+        "chain": [float(key["structure"] == "chain") for key in keys],
+    }
+    for values in map(np.array, quantities.values()):
+        for chosen in places.values():
+            error = values.std() / np.sqrt(len(chosen))
+            assert abs(values[chosen].mean() - values.mean()) < 4.0 * error
+    assert len({key["scenario"]["seed"] for key in keys}) == len(keys)
+
+
+def test_only_what_is_at_work_is_in_the_key(keys: list[dict[str, Any]]) -> None:
+    for key in keys:
+        physics, faults = physics_among(key["names"]), faults_among(key["names"])
+        assert len(physics) + len(faults) == len(key["names"])
+        assert bool(physics) == (key["arm"] in ("single", "several", "with_fault", "tie")) or key["outside"]
+        assert bool(faults) == (key["arm"] in ("faults", "with_fault"))
+
+
+def recording(rows: int = 400, rate: float = 100.0) -> camera_steps.Tidy:
+    time = np.arange(rows) / rate
+    columns = {"time": time}
+    for place, body in enumerate(camera_steps.BODIES):
+        for axis, phase in zip("xyz", (0.0, 1.0, 2.0), strict=True):
+            columns[f"{body}_{axis}"] = place + np.sin(2.0 * np.pi * 0.7 * time + phase)
+    columns["diabolo_x"][50:60] = np.nan
+    return camera_steps.Tidy(columns, {"rate": rate})
+
+
+def test_commands_and_what_follows_them_with_a_lag_are_inverse() -> None:
+    tidy, tau = recording(), 0.05
+    before = tidy.columns["left_x"].copy()
+    camera_steps.apply([{"step": "robot_servo_lag", "seconds": tau}], tidy)
+    again = camera_steps.low_passed(tidy.columns["left_x"], 0.01, tau)
+    assert np.abs(tidy.columns["left_x"] - before).max() > 0.1
+    assert np.abs(again - before)[40:-10].max() < 0.005  # the parabolas flatten the sine by so much
+
+
+def test_a_filter_lags_and_keeps_gaps() -> None:
+    tidy = recording()
+    before = tidy.columns["diabolo_y"].copy()
+    camera_steps.apply([{"step": "filter_lag", "seconds": 0.03}], tidy)
+    assert np.isnan(tidy.columns["diabolo_x"]).sum() == 10
+    assert np.abs(tidy.columns["diabolo_y"][103:] - before[100:-3]).max() < 0.02  # 30 ms later
+
+
+def test_swaps_and_rates() -> None:
+    tidy = recording()
+    left, right_one = tidy.columns["left_y"].copy(), tidy.columns["right_y"].copy()
+    swap = {"step": "body_swap", "bodies": ["left", "right"], "bursts": [[0.0, 1.0]]}
+    camera_steps.apply([swap, {"step": "frame_rate", "factor": 1.02}], tidy)
+    assert np.array_equal(tidy.columns["left_y"], right_one)
+    assert np.array_equal(tidy.columns["right_y"], left)
+    assert tidy.description["rate"] * tidy.columns["time"][-1] == pytest.approx(399.0)
+
+
+def test_a_tidy_file_comes_back(tmp_path: Path) -> None:
+    tidy = recording(20)
+    tidy.write(tmp_path / "take.csv")
+    again = camera_steps.Tidy.read(tmp_path / "take.csv")
+    for name, values in tidy.columns.items():
+        assert np.allclose(again.columns[name], values, atol=5.1e-7, equal_nan=True)
+    assert again.description == tidy.description
+
+
+def test_intervals_of_rates() -> None:
+    # Clopper and Pearson, Biometrika 26 (1934); the ends without hits and without misses have closed forms.
+    assert intervals.clopper_pearson(0, 20) == pytest.approx((0.0, 1.0 - 0.025**0.05), abs=1e-9)
+    assert intervals.clopper_pearson(20, 20) == pytest.approx((0.025**0.05, 1.0), abs=1e-9)
+    low, high = intervals.clopper_pearson(7, 20)
+    assert 1.0 - intervals.at_most(6, 20, low) == pytest.approx(0.025, abs=1e-9)
+    assert intervals.at_most(7, 20, high) == pytest.approx(0.025, abs=1e-9)
+    assert intervals.median_interval([1.0, 2.0, 3.0]) is None
+    assert intervals.median_interval(list(range(100))) == (39, 60)  # the 40th and the 61st
+
+
+def test_the_command_says_what_is_missing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["prove"]) == 2
+    assert "benchmarks/concealed: the sources of the proof are not there" in capsys.readouterr().err
+    sources = ["--sources", str(ROOT / "benchmarks/concealed")]
+    assert main(["prove", "quick", *sources, "--plant", "nothing"]) == 2
+    assert "nothing: the plant's program is not there" in capsys.readouterr().err
+    assert main(["prove", "run", "never-sealed", *sources]) == 2
+    assert "expected a sealed batch" in capsys.readouterr().err
+    assert main(["prove", "seal", "../elsewhere", *sources]) == 2
+    assert "expected a name of letters" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_score_is_json(keys: list[dict[str, Any]]) -> None:
+    from concealed.answer import kept
+
+    verdicts = score.judged(keys, {key["case"]: kept(right(key)) for key in keys}, {})
+    text = json.dumps(score.summary(verdicts), allow_nan=False)
+    assert json.loads(text)["schema"] == "diabolo.proof/1"
