@@ -14,7 +14,7 @@ from . import camera_steps, draw
 
 ATTEMPTS = 25
 SHORTEST_SHARE = 0.95  # of the length that was drawn
-LONGEST_RUN = 240.0  # of the plant's program [s]
+LONGEST_RUN = 120.0  # of the plant's program [s]
 
 
 class RefusedError(ValueError):

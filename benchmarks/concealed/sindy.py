@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 GRAVITY = 9.80665
 REACH = 5  # frames on both sides of a parabola
 SMALLEST = 0.05  # of a term's acceleration, root mean square [m/s^2]
-SLACK = 0.01  # path shorter than the string by so much: nothing pulls [m]
+TAUT, SLACK = 0.005, 0.015  # path shorter than usual by less, or by more: it pulls, or it does not [m]
 
 # Term, name of what it would be, parameter, unit, factor from coefficient to parameter.
 TERMS: list[tuple[str, str, str, str, float]] = [
@@ -53,13 +53,23 @@ def _axis(quaternions: Array) -> Array:
     return np.stack([1.0 - 2.0 * (y**2 + z**2), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)], axis=1)
 
 
+def _lasting(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where a state lasts for all the frames of a parabola."""
+    windows = np.lib.stride_tricks.sliding_window_view(flags, 2 * REACH + 1)
+    result = np.zeros(len(flags), dtype=bool)
+    result[REACH : len(flags) - REACH] = windows.all(axis=1)
+    return result
+
+
 def library(recording: Recording) -> tuple[Array, Array]:
     """Left-over acceleration (rows x 3) and the terms (rows x 3 x terms), both free of the string's pull."""
     seen = recording.left_valid & recording.right_valid & recording.diabolo_valid
     track = np.where(seen[:, np.newaxis], recording.diabolo, np.nan)
     velocity, acceleration = derivatives(track, recording.rate)
     left, right = recording.left - track, recording.right - track
-    taut = np.linalg.norm(left, axis=1) + np.linalg.norm(right, axis=1) > recording.string_length - SLACK
+    path = np.linalg.norm(left, axis=1) + np.linalg.norm(right, axis=1)
+    missing = (np.nanmedian(path) if seen.any() else np.nan) - path
+    taut, loose = missing < TAUT, missing > SLACK
     normal = _unit(_unit(left) + _unit(right))
     along = _unit(left - right)
     tangent = along - np.sum(along * normal, axis=1, keepdims=True) * normal
@@ -85,8 +95,8 @@ def library(recording: Recording) -> tuple[Array, Array]:
     left_over = left_over - np.sum(left_over * shadow, axis=1, keepdims=True) * shadow
     terms = terms - np.einsum("td,tdk->tk", shadow, terms)[:, np.newaxis] * shadow[:, :, np.newaxis]
     known = np.isfinite(left_over).all(axis=1) & np.isfinite(terms).all(axis=(1, 2))
-    calm = np.linalg.norm(left_over, axis=1) < 5.0  # catches are no law
-    return left_over[known & calm], terms[known & calm]
+    known &= _lasting(taut) | _lasting(loose)  # catches are no law
+    return left_over[known], terms[known]
 
 
 def thresholded(target: Array, terms: Array) -> Array:
