@@ -94,7 +94,8 @@ def by_name(verdicts: list[Verdict]) -> list[dict[str, Any]]:
 def faults_of(verdict: Verdict) -> list[str]:
     """What is wrong with an answer, in words; empty where nothing is."""
     said = [f"false physics {name}" for name in verdict.false_physics]
-    said += [f"false fault {name}" for name in verdict.false_faults if verdict.arm in ("null", "faults")]
+    if verdict.bad is None and verdict.outside is None:
+        said += [f"false fault {name}" for name in verdict.false_faults]
     known = bool(verdict.snr)
     for name in verdict.physics:
         snr = verdict.snr.get(name)
@@ -108,7 +109,10 @@ def faults_of(verdict: Verdict) -> list[str]:
         ]
     if verdict.tie and not verdict.declares_tie:
         said.append("no tie of " + " and ".join(verdict.tie))
-    said += [f"missed fault {name}" for name in verdict.faults if name not in verdict.claimed_faults]
+    for name in verdict.faults:
+        z = verdict.fault_z.get(name)
+        if name not in verdict.claimed_faults and (z is None or z >= SURE):
+            said.append(f"missed fault {name} ({'z not known' if z is None else f'z {z:.0f}'})")
     if verdict.bad and verdict.headline != "INSUFFICIENT_DATA":
         said.append(f"bad data not refused ({verdict.bad})")
     if verdict.headline == "ERROR":

@@ -15,7 +15,20 @@ from diabolo.cli import main
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
-from concealed import arms, batch, breakdown, camera_steps, draw, files, intervals, run, score, seal  # noqa: E402
+from concealed import (  # noqa: E402  # noqa: E402
+    arms,
+    batch,
+    breakdown,
+    camera_steps,
+    draw,
+    files,
+    intervals,
+    page,
+    run,
+    score,
+    seal,
+    tables,
+)
 from concealed.names import MEASUREMENT, PHYSICS, faults_among, physics_among  # noqa: E402
 
 SIZES = {"string_friction": {"coefficient": 0.2}, "air_drag_quadratic": {"coefficient": 0.05}}
@@ -325,3 +338,23 @@ def test_a_score_is_json(keys: list[dict[str, Any]]) -> None:
     verdicts = score.judged(keys, {key["case"]: kept(right(key)) for key in keys}, {})
     text = json.dumps(score.summary(verdicts), allow_nan=False)
     assert json.loads(text)["schema"] == "diabolo.proof/1"
+
+
+def test_page_and_table_hold_scores_and_failures(keys: list[dict[str, Any]], tmp_path: Path) -> None:
+    from concealed.answer import kept
+
+    drag = {key["case"]: kept(result([effect("air_drag_quadratic")])) for key in keys}
+    summary = score.summary(score.judged(keys, drag, {}))
+    sealed = {"commit": "0" * 40, "arms": arms.allot(len(keys))}
+    written = page.write(
+        tmp_path / "proof.md", "one", sealed, {**summary, "commit": "0" * 40}, {"sindy": summary}
+    )
+    text = (tmp_path / "proof.md").read_text()
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(path.name for path in written)
+    assert text.splitlines()[0] == "`diabolo prove page one` made this page."
+    assert "| false physics on nulls | 100.0 % |" in text
+    assert (
+        text.count("false physics air_drag_quadratic")
+        == tables.text_of(summary).count("false physics air")
+        > 400
+    )
