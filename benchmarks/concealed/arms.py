@@ -108,7 +108,7 @@ def _tie(content: Content, generator: np.random.Generator) -> None:
     else:
         content.tie, content.motion = ["air_drag_linear", "air_drag_quadratic"], "slow"
         linear = generator.uniform() < 0.5
-        size = sizes.log_uniform(generator, *((0.04, 0.12) if linear else (0.12, 0.35)))
+        size = sizes.log_uniform(generator, *((0.02, 0.04) if linear else (0.1, 0.2)))
         content.add([content.tie[0 if linear else 1]], {"air": {"linear_drag" if linear else "drag": size}})
 
 

@@ -34,8 +34,13 @@ def confusion(verdicts: list[Verdict]) -> dict[str, dict[str, int]]:
 
 
 def power(verdicts: list[Verdict]) -> list[dict[str, Any]]:
-    """How often an effect is in the answer, by how much it stands out."""
-    pairs = [(snr, v.is_in_answer(name)) for v in verdicts for name, snr in v.snr.items() if not v.outside]
+    """How often an effect beyond its floor is in the answer, by how much it stands out."""
+    pairs = [
+        (snr, v.is_in_answer(name))
+        for v in verdicts
+        for name, snr in v.snr.items()
+        if not v.outside and v.material.get(name)
+    ]
     rows = []
     for low, high in itertools.pairwise(SNR_EDGES):
         inside = [hit for snr, hit in pairs if low <= snr < high]
@@ -69,7 +74,7 @@ def by_name(verdicts: list[Verdict]) -> list[dict[str, Any]]:
         is_physics = name in PHYSICS
         there = [v for v in verdicts if name in (v.physics if is_physics else v.faults) and not v.outside]
         sizes = [(v, (v.snr if is_physics else v.fault_z).get(name)) for v in there]
-        clear = [v for v, size in sizes if size is not None and size >= SURE]
+        clear = [v for v, z in sizes if (name in v.owed if is_physics else z is not None and z >= SURE)]
 
         def found(verdict: Verdict, name: str = name, is_physics: bool = is_physics) -> bool:
             return verdict.is_in_answer(name) if is_physics else name in verdict.claimed_faults
@@ -96,18 +101,19 @@ def faults_of(verdict: Verdict) -> list[str]:
     said = [f"false physics {name}" for name in verdict.false_physics]
     if verdict.bad is None and verdict.outside is None:
         said += [f"false fault {name}" for name in verdict.false_faults]
-    known = bool(verdict.snr)
     for name in verdict.physics:
         snr = verdict.snr.get(name)
-        if not verdict.is_in_answer(name) and (snr is None or snr >= SURE):
+        if verdict.is_in_answer(name) or verdict.material.get(name) is False or verdict.outside:
+            continue
+        if snr is None or snr >= SURE:
             said.append(f"missed {name} ({f'SNR {snr:.0f}' if snr is not None else 'SNR not known'})")
-    if known and verdict.claimed and verdict.claimed[0] in verdict.physics:
+    if verdict.claimed and verdict.claimed[0] in verdict.physics:
         said += [
             f"wrong mode of {n}"
             for n in verdict.claimed
             if n in verdict.physics and not verdict.mode_is_right(n)
         ]
-    if verdict.tie and not verdict.declares_tie:
+    if verdict.tie_is_real and verdict.owed and not verdict.declares_tie:
         said.append("no tie of " + " and ".join(verdict.tie))
     for name in verdict.faults:
         z = verdict.fault_z.get(name)

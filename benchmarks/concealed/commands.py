@@ -88,22 +88,33 @@ def run_batch(places: Places, name: str, tool: str, minutes: float) -> int:
     return 0
 
 
+def at_work(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
+    """The physics of each case that has some."""
+    return {key["case"]: physics_among(key["names"]) for key in keys if key["arm"] in ARMS_WITH_ORACLE}
+
+
+def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
+    """The other name of each tie."""
+    return {
+        key["case"]: [name for name in key["tie"] if name not in key["names"]] for key in keys if key["tie"]
+    }
+
+
 def oracles(
     places: Places,
-    keys: list[dict[str, Any]],
+    wanted: dict[str, list[str]],
     answers: dict[str, answer.Answer],
     store: batch.Store,
     path: Path,
 ) -> dict[str, answer.Answer]:
-    """Answers of who is told the physics at work, for as much of it as the tool knows a name for."""
+    """Answers of who is told the names, for as much of them as the tool knows."""
     if not tools.can_restrict():
         return {}
     told: dict[str, list[str]] = {}
-    for key in keys:
-        known = {rung["name"] for rung in answers.get(key["case"], {}).get("ladder", [])}
-        names = [name for name in physics_among(key["names"]) if name in known]
-        if names and key["arm"] in ARMS_WITH_ORACLE:
-            told[key["case"]] = names
+    for case, names in wanted.items():
+        ladder = {rung["name"] for rung in answers.get(case, {}).get("ladder", [])}
+        if known := [name for name in names if name in ladder]:
+            told[case] = known
     run.resume(list(told), path, lambda case: tools.oracle(store.recording(case), told[case]), places.report)
     return {case: found for case, found in run.answers(path).items() if case in told}
 
@@ -120,8 +131,9 @@ def score_batch(places: Places, name: str, tool: str, json_file: Path | None) ->
         raise ValueError(f"batch {name}: {len(missing)} cases have no answer; diabolo prove run {name} first")
     keys = seal.open_keys(sealed, store)
     own = run.answers(answers_path(places, name, "diagnose"))
-    best = oracles(places, keys, own, store, places.results(name, ".oracle.jsonl"))
-    verdicts = score.judged(keys, found, best)
+    best = oracles(places, at_work(keys), own, store, places.results(name, ".oracle.jsonl"))
+    others = oracles(places, exchanged(keys), own, store, places.results(name, ".exchanged.jsonl"))
+    verdicts = score.judged(keys, found, best, others)
     result = {"batch": name, "tool": tool, "commit": sealed["commit"], **score.summary(verdicts)}
     suffix = ".score.json" if tool == "diagnose" else f".{tool}.score.json"
     files.write_json(places.results(name, suffix), result)
@@ -162,10 +174,13 @@ def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file
     own = found
     if tool != "diagnose":
         own = run.answers(store.folder / f"diagnose_{stamp}.jsonl")
-    told = store.folder / f"oracle_{stamp}.jsonl"
-    _drop_if_older(told, store.folder / "stamp.json")
-    best = oracles(places, keys, own, store, told)
-    result = {"batch": None, "tool": tool, "seed": seed, **score.summary(score.judged(keys, found, best))}
+    told, other = (store.folder / f"{what}_{stamp}.jsonl" for what in ("oracle", "exchanged"))
+    for path in (told, other):
+        _drop_if_older(path, store.folder / "stamp.json")
+    best = oracles(places, at_work(keys), own, store, told)
+    others = oracles(places, exchanged(keys), own, store, other)
+    verdicts = score.judged(keys, found, best, others)
+    result = {"batch": None, "tool": tool, "seed": seed, **score.summary(verdicts)}
     return _finish(result, json_file)
 
 

@@ -8,7 +8,8 @@ from typing import Any
 
 from . import answer as answers
 from .answer import Answer
-from .names import PHYSICS, faults_among, physics_among
+from .material import is_material
+from .names import ANY_MODE, LOOSE, ON_STRING, PHYSICS, faults_among, physics_among
 
 HORIZON = 1.0  # after which the gap is compared [s]
 SURE = 10.0  # standard deviations from which an effect has to be found
@@ -54,15 +55,20 @@ class Verdict:
     modes: dict[str, list[str]]
     snr: dict[str, float]
     """By name; without those that the tool does not know."""
+    material: dict[str, bool]
+    """Whether the physics at work is beyond its floor, where that is known."""
     fault_z: dict[str, float]
     intervals: list[Interval] = field(default_factory=list)
+    tie_is_real: bool = False
+    """Whether the other name of a tie explains the data as well."""
     closure: float | None = None
     """Share of the gap between base and oracle that the answer closes."""
 
     @property
-    def strongest(self) -> str | None:
-        """The physics that stands out most, as far as that is known."""
-        return max(self.snr, key=lambda name: self.snr[name]) if self.snr else None
+    def owed(self) -> list[str]:
+        """Physics that has to be found, what stands out most first."""
+        clear = [name for name, snr in self.snr.items() if snr >= SURE and self.material.get(name)]
+        return sorted(clear, key=lambda name: -self.snr[name])
 
     @property
     def false_physics(self) -> list[str]:
@@ -88,8 +94,11 @@ class Verdict:
         return any(set(self.tie) <= names for names in classes)
 
     def mode_is_right(self, name: str) -> bool:
-        modes = self.modes[name]
-        return bool(modes) and set(modes) <= set(PHYSICS[name])
+        """Whether the modes are where the effect acts. A loose string may tauten within a window."""
+        modes, allowed = set(self.modes[name]), set(PHYSICS[name])
+        if allowed == set(ANY_MODE):
+            return bool(modes)
+        return ON_STRING in modes and modes <= allowed | {LOOSE}
 
 
 def _turned(value: float, towards: float) -> float:
@@ -132,8 +141,21 @@ def _closure(answer: Answer, oracle: Answer | None) -> float | None:
     return (base - augmented) / (base - best)
 
 
-def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> Verdict:
-    """Compares an answer with the truth; `oracle` is the answer of who was told the physics at work."""
+def _tie_is_real(key: dict[str, Any], oracle: Answer | None, other: Answer | None) -> bool:
+    """Whether exchanging the names costs less than three standard deviations' worth."""
+    if oracle is None or other is None or len(key["tie"]) != 2:
+        return False
+    true = answers.significance(oracle, key["names"][0])
+    alternative = next(name for name in key["tie"] if name != key["names"][0])
+    exchanged = answers.significance(other, alternative)
+    return true is not None and exchanged is not None and true**2 - exchanged**2 < 9.0
+
+
+def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answer | None = None) -> Verdict:
+    """Compares an answer with the truth.
+
+    `oracle` is the answer of who was told the physics at work, `other` of who was told a tie's other name.
+    """
     physics = physics_among(key["names"])
     claimed = answers.claims(answer, "physics")
     faults = answers.claims(answer, "measurement")
@@ -155,7 +177,9 @@ def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> Verdict
         confidence={e["name"]: e["confidence"] for e in claimed if e["confidence"] is not None},
         modes={effect["name"]: effect["modes"] for effect in answer["effects"]},
         snr={name: value for name, value in snr.items() if value is not None},
+        material={n: found for n in physics if (found := is_material(key, oracle, n)) is not None},
         fault_z={name: value for name, value in z.items() if value is not None},
         intervals=_intervals(key, answer, oracle),
+        tie_is_real=_tie_is_real(key, oracle, other),
         closure=_closure(answer, oracle),
     )

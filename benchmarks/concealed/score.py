@@ -73,8 +73,8 @@ def _of(verdicts: list[Verdict], *arms: str) -> list[Verdict]:
 
 
 def _clear(verdicts: list[Verdict]) -> list[Verdict]:
-    """Those with physics that stands out by ten standard deviations."""
-    return [v for v in verdicts if v.strongest is not None and v.snr[v.strongest] >= SURE]
+    """Those with physics beyond its floor that stands out by ten standard deviations."""
+    return [v for v in verdicts if v.owed]
 
 
 def scores(verdicts: list[Verdict]) -> list[Score]:
@@ -83,8 +83,8 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
     true_claims = [(v, name) for v in verdicts for name in v.claimed if name in v.physics]
     measured = [i for v in verdicts if not v.outside for i in v.intervals]
     of_physics = [i for i in measured if i.name in PHYSICS]
-    ties = _clear(_of(verdicts, "tie"))
-    pairs = [v for v in _of(verdicts, "several") if sum(snr >= SURE for snr in v.snr.values()) >= 2]
+    ties = [v for v in _clear(_of(verdicts, "tie")) if v.tie_is_real]
+    pairs = [v for v in _of(verdicts, "several") if len(v.owed) >= 2]
     classes = [1.0 + len(v.tied[name]) for v in verdicts for name in v.claimed]
     ratios = [i.width_ratio for i in of_physics if i.width_ratio is not None]
     closures = [v.closure for v in verdicts if v.closure is not None and v.arm in WITH_PHYSICS]
@@ -116,7 +116,7 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
 
 
 def _in_answer(verdict: Verdict) -> bool:
-    return verdict.strongest is not None and verdict.is_in_answer(verdict.strongest)
+    return verdict.is_in_answer(verdict.owed[0])
 
 
 def _misnamed(verdict: Verdict) -> bool:
@@ -124,11 +124,14 @@ def _misnamed(verdict: Verdict) -> bool:
 
 
 def _both(verdict: Verdict) -> bool:
-    return all(verdict.is_in_answer(name) for name, snr in verdict.snr.items() if snr >= SURE)
+    return all(map(verdict.is_in_answer, verdict.owed))
 
 
 def judged(
-    keys: list[dict[str, Any]], answers: dict[str, Answer], oracles: dict[str, Answer]
+    keys: list[dict[str, Any]],
+    answers: dict[str, Answer],
+    oracles: dict[str, Answer],
+    others: dict[str, Answer] | None = None,
 ) -> list[Verdict]:
     """Verdicts on all cases. Raises ValueError where a case has no answer."""
     missing = [key["case"] for key in keys if key["case"] not in answers]
@@ -136,7 +139,10 @@ def judged(
         raise ValueError(
             f"{len(missing)} cases have no answer yet, the first is {missing[0]}; run them first"
         )
-    return [judge(key, answers[key["case"]], oracles.get(key["case"])) for key in keys]
+    exchanged = others or {}
+    return [
+        judge(key, answers[key["case"]], oracles.get(key["case"]), exchanged.get(key["case"])) for key in keys
+    ]
 
 
 def summary(verdicts: list[Verdict]) -> dict[str, Any]:

@@ -23,15 +23,22 @@ from concealed import (  # noqa: E402  # noqa: E402
     draw,
     files,
     intervals,
+    judge,
     page,
     run,
     score,
     seal,
     tables,
 )
+from concealed.answer import kept  # noqa: E402
 from concealed.names import MEASUREMENT, PHYSICS, faults_among, physics_among  # noqa: E402
 
-SIZES = {"string_friction": {"coefficient": 0.2}, "air_drag_quadratic": {"coefficient": 0.05}}
+SIZES = {
+    "string_friction": {"coefficient": 0.2},
+    "air_drag_quadratic": {"coefficient": 0.05},
+    "spin_drag": {"coefficient": 0.003},
+    "axle_drag": {"rate": 14.0},
+}
 
 
 def effect(
@@ -60,7 +67,7 @@ def result(effects: list[dict[str, Any]], headline: str = "NAMED", z: float = 30
         "headline": headline if effects else "NOTHING_MISSING",
         "effects": effects,
         "ladder": [
-            {"name": name, "estimate": 0.0, "z": z, "size_m": 0.0, "claimed": False} for name in names
+            {"name": name, "estimate": 0.0, "z": z, "size_m": 0.01, "claimed": False} for name in names
         ],
         "fit": {"horizons_s": [1.0], "base_error_m": [0.1], "augmented_error_m": [0.01 if effects else 0.1]},
     }
@@ -88,11 +95,10 @@ def right(key: dict[str, Any]) -> dict[str, Any]:
 
 def scored(keys: list[dict[str, Any]], answer: Any) -> dict[str, score.Score]:
     """Scores by name; the oracle has the key."""
-    from concealed.answer import kept
-
     answers = {key["case"]: kept(answer(key)) for key in keys}
     oracles = {key["case"]: kept(right(key)) for key in keys if physics_among(key["names"])}
-    return {found.name: found for found in score.scores(score.judged(keys, answers, oracles))}
+    others = {key["case"]: kept(result([])) for key in keys if key["tie"]}
+    return {found.name: found for found in score.scores(score.judged(keys, answers, oracles, others))}
 
 
 def failing(scores: dict[str, score.Score]) -> set[str]:
@@ -136,8 +142,6 @@ def test_swapped_keys_fail(keys: list[dict[str, Any]]) -> None:
 
 
 def test_without_an_oracle_nothing_is_said_of_power(keys: list[dict[str, Any]]) -> None:
-    from concealed.answer import kept
-
     verdicts = score.judged(keys, {key["case"]: kept(right(key)) for key in keys}, {})
     scores = {found.name: found for found in score.scores(verdicts)}
     assert scores["detected, SNR >= 10"].value is None
@@ -333,16 +337,12 @@ def test_the_command_says_what_is_missing(
 
 
 def test_a_score_is_json(keys: list[dict[str, Any]]) -> None:
-    from concealed.answer import kept
-
     verdicts = score.judged(keys, {key["case"]: kept(right(key)) for key in keys}, {})
     text = json.dumps(score.summary(verdicts), allow_nan=False)
     assert json.loads(text)["schema"] == "diabolo.proof/1"
 
 
 def test_page_and_table_hold_scores_and_failures(keys: list[dict[str, Any]], tmp_path: Path) -> None:
-    from concealed.answer import kept
-
     drag = {key["case"]: kept(result([effect("air_drag_quadratic")])) for key in keys}
     summary = score.summary(score.judged(keys, drag, {}))
     sealed = {"commit": "0" * 40, "arms": arms.allot(len(keys))}
@@ -358,3 +358,24 @@ def test_page_and_table_hold_scores_and_failures(keys: list[dict[str, Any]], tmp
         == tables.text_of(summary).count("false physics air")
         > 400
     )
+
+
+def test_what_is_below_its_floor_is_not_owed(keys: list[dict[str, Any]]) -> None:
+    key = next(key for key in keys if key["names"] == ["magnus_lift"])
+    oracle = kept(right(key))
+    assert judge.judge(key, kept(result([])), oracle).owed == ["magnus_lift"]
+    small = {**oracle, "ladder": [{**rung, "size_m": 5e-4} for rung in oracle["ladder"]]}
+    assert judge.judge(key, kept(result([])), small).owed == []
+    faint = {**oracle, "ladder": [{**rung, "z": 9.0} for rung in oracle["ladder"]]}
+    assert judge.judge(key, kept(result([])), faint).owed == []
+    spin = next(key for key in keys if key["names"] == ["axle_drag"])
+    assert judge.judge(spin, kept(result([])), kept(right(spin))).owed == ["axle_drag"]
+    slight = {**spin, "parameters": {"axle_drag": {"rate": 1.0}}}
+    assert judge.judge(slight, kept(result([])), kept(right(spin))).owed == []
+
+
+def test_a_tie_that_the_data_break_is_not_owed(keys: list[dict[str, Any]]) -> None:
+    key = next(key for key in keys if key["tie"])
+    oracle, other = kept(right(key)), kept(result([], z=29.9))
+    assert judge.judge(key, oracle, oracle, other).tie_is_real
+    assert not judge.judge(key, oracle, oracle, kept(result([], z=29.0))).tie_is_real
