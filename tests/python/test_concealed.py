@@ -15,7 +15,7 @@ from diabolo.cli import main
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
-from concealed import (  # noqa: E402  # noqa: E402
+from concealed import (  # noqa: E402
     arms,
     batch,
     breakdown,
