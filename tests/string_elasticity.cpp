@@ -53,10 +53,10 @@ double energy(const State<double>& state, const Tips<double>& tips, double stiff
 
 TEST_CASE("stiffness is stated, compliance is kept") {
   const StringElasticity<double> e = StringElasticity<double>::of_stiffness(400.0, 2.0);
-  CHECK(e.compliance() == 1.0 / 400.0);
-  CHECK(e.damping_time() == 2.0 / 400.0);
-  CHECK(StringElasticity<double>().compliance() == 0.0);
-  CHECK(StringElasticity<double>().damping_time() == 0.0);
+  CHECK(e.spring().compliance == 1.0 / 400.0);
+  CHECK(e.spring().damping_time == 2.0 / 400.0);
+  CHECK(StringElasticity<double>().spring().compliance == 0.0);
+  CHECK(StringElasticity<double>().spring().damping_time == 0.0);
 }
 
 TEST_CASE("numbers out of their range are refused by effect and field") {

@@ -260,3 +260,37 @@ TEST_CASE("mirrored and turned, a string rubs as before") {
   };
   CHECK(worst_of_symmetry(model, model, same_spin, same_spin, seed) > 1e-3);
 }
+
+TEST_CASE("the difference of the tensions turns the axle, by the spin gain") {
+  const double gain = 4.0, coefficient = 0.25;
+  Full::Set set;
+  set.get<StringFriction>().coefficient = coefficient;
+  set.get<StringFriction>().spin_gain = gain;
+  Numbers numbers;
+  numbers.spin_coupling = 0.0;
+  const Tips<double> tips = level(0.5);
+  for (const double spin : {150.0, -150.0}) {
+    Full model(numbers, set);
+    State<double> state;
+    state.position =
+        Vector(0.0,
+               resting_y(0.5, numbers.string_length,
+                         [&](double contact) { return (spin > 0.0 ? -1.0 : 1.0) * coefficient * contact; }),
+               1.0);
+    const double semi_major = 0.5 * numbers.string_length;
+    state.position.z() -= std::sqrt(semi_major * semi_major - 0.25 * 0.25) *
+                          std::sqrt(1.0 - std::pow(state.position.y() / semi_major, 2));
+    state.string_state = StringState::kOnString;
+    state.spin = spin;
+    // At rest: the tensions carry the weight, and their ratio is that of the capstan.
+    const StringPath<double> path(state.position, tips);
+    const Vector left = -path.from_left / path.left_length, right = -path.from_right / path.right_length;
+    const double log_ratio = (spin > 0.0 ? -1.0 : 1.0) * coefficient * std::acos(-left.dot(right));
+    const double pull = kStandardGravity / (left.z() + std::exp(log_ratio) * right.z());
+    const double expected = gain * pull * (std::exp(log_ratio) - 1.0);
+    const double dt = 1e-3, duration = 0.5;
+    for (int k = 0; k < std::lround(duration / dt); ++k) model.step(state, tips, tips, dt);
+    CHECK((state.spin - spin) / duration == Approx(expected).epsilon(2e-3));
+    CHECK(std::abs(state.spin) < std::abs(spin));
+  }
+}

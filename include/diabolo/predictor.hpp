@@ -30,18 +30,16 @@ class Predictor {
       : Predictor(parameters, effects, AlreadyValid{}) {
     parameters.validate();
     effects.validate();
-    if (!all(length_ > Scalar(0)))
+    if (!all(string_.length > Scalar(0)))
       throw std::invalid_argument("string_length: not positive with the additions of all effects");
   }
 
   /// For parameters that have been validated before, such as the lanes of a batch.
   struct AlreadyValid {};
   Predictor(const Parameters<Scalar>& parameters, const Set& effects, AlreadyValid)
-      : parameters_(parameters), effects_(effects), length_(effects.string_length(parameters)) {
+      : parameters_(parameters), effects_(effects), string_(effects.string(parameters)) {
     plane_.active = parameters.planar;
     plane_.normal = parameters.plane_normal.template cast<Scalar>();
-    compliance_ = effects.compliance() * parameters.mass;
-    damping_time_ = effects.damping_time();
   }
 
   const Parameters<Scalar>& parameters() const { return parameters_; }
@@ -54,28 +52,28 @@ class Predictor {
     assert(all(dt > Scalar(0)));
     if constexpr (Set::kChangesTips)
       if (effects_.moves_tips()) return step_with_shifted_tips(state, begin, end, dt);
-    return dispatch(state, begin, end, dt, length_);
+    return dispatch(state, begin, end, dt, string_);
   }
 
  private:
   [[gnu::noinline]] StepStatus<Scalar> step_with_shifted_tips(State<Scalar>& state, Tips<Scalar> begin,
                                                               Tips<Scalar> end, const Scalar& dt) const {
-    const TipShift<Scalar> shift = effects_.tip_shift(state, begin);
+    const TipShift<Scalar> shift = effects_.tip_shift(state, begin, parameters_);
     begin.left += shift.left;
     begin.right += shift.right;
     end.left += shift.left;
     end.right += shift.right;
-    const Scalar length = length_ - effects_.bound_length(state, begin);
-    if (!elastic()) settle_on_string(state, begin, length);
-    return dispatch(state, begin, end, dt, length);
+    const StringNow<Scalar> string = effects_.string_at(string_, state, begin, parameters_);
+    if (!elastic(string)) settle_on_string(state, begin, string.length);
+    return dispatch(state, begin, end, dt, string);
   }
 
   StepStatus<Scalar> dispatch(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
-                              const Scalar& dt, const Scalar& length) const {
-    if (parameters_.string_law != StringLaw::kInextensible) return pull_step(state, begin, end, dt, length);
+                              const Scalar& dt, const StringNow<Scalar>& string) const {
+    if (parameters_.string_law != StringLaw::kInextensible) return pull_step(state, begin, end, dt, string);
     if constexpr (ScalarTraits<Scalar>::kLanes == 1)
-      if (usual_string_step(state, begin, end, dt, length)) return {};
-    return string_step(state, begin, end, dt, length);
+      if (usual_string_step(state, begin, end, dt, string)) return {};
+    return string_step(state, begin, end, dt, string);
   }
 
   /// Time that the per-step factors stand for.
@@ -86,16 +84,24 @@ class Predictor {
   /// string_step() in fewer instructions, bit for bit, while the string stays taut. False where it may not;
   /// then the state is as it was.
   bool usual_string_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
-                         const Scalar& dt, const Scalar& length) const {
-    if (state.string_state != StringState::kOnString || plane_.active || overstretched(end, length))
+                         const Scalar& dt, const StringNow<Scalar>& string) const {
+    if (state.string_state != StringState::kOnString || plane_.active || overstretched(end, string.length))
       return false;
     const PlaneProjector<Scalar> no_plane;
     const Vector3<Scalar> outer = effects_.acceleration(state, begin, parameters_);
-    const StringStep<Scalar> step{
-        state.position, state.velocity, outer,   begin, end, dt, length, state.string_acceleration,
-        compliance_,    damping_time_,  no_plane};
+    const StringStep<Scalar> step{state.position,
+                                  state.velocity,
+                                  outer,
+                                  begin,
+                                  end,
+                                  dt,
+                                  string.length,
+                                  state.string_acceleration,
+                                  string.compliance,
+                                  string.damping_time,
+                                  no_plane};
     StringStepResult<Scalar> result;
-    if (!(elastic() ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
+    if (!(elastic(string) ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
       return false;
     take_over(state, step, result);
     return true;
@@ -104,13 +110,21 @@ class Predictor {
   /// Ours: a massless string that pulls along the bisector of its two segments.
   [[gnu::noinline]] StepStatus<Scalar> string_step(State<Scalar>& state, const Tips<Scalar>& begin,
                                                    const Tips<Scalar>& end, const Scalar& dt,
-                                                   const Scalar& length) const {
+                                                   const StringNow<Scalar>& string) const {
     StepStatus<Scalar> status;
     const Vector3<Scalar> velocity = plane_(state.velocity);
     const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, parameters_));
-    const StringStep<Scalar> step{
-        state.position, velocity,      outer, begin, end, dt, length, state.string_acceleration,
-        compliance_,    damping_time_, plane_};
+    const StringStep<Scalar> step{state.position,
+                                  velocity,
+                                  outer,
+                                  begin,
+                                  end,
+                                  dt,
+                                  string.length,
+                                  state.string_acceleration,
+                                  string.compliance,
+                                  string.damping_time,
+                                  plane_};
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
     const StringStepResult<Scalar> result =
         any(flying) ? advance_in_flight(state, step, status.caught) : advance(step, !flying);
@@ -120,8 +134,8 @@ class Predictor {
       state.string_state = slack_string_state(state.string_state, state.position, result.slack,
                                               result.gradient_squared, end.left, end.right, parameters_);
     status.snapped_taut = result.snapped_taut;
-    const Mask<Scalar> straight = overstretched(end, length);
-    if (any(straight)) status.overstretched = hold(state, end, dt, captured && straight);
+    const Mask<Scalar> straight = overstretched(end, string.length);
+    if (any(straight)) status.overstretched = hold(state, end, dt, captured && straight, string);
     return status;
   }
 
@@ -131,10 +145,10 @@ class Predictor {
     const Scalar& dt = step.dt;
     const Scalar slipped =
         spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_);
-    const Scalar spin =
-        effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
-    const Vector3<Scalar> rubbed =
-        step.plane(effects_.after_contact(result.velocity, state, step.end, result, dt, parameters_));
+    Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
+    Vector3<Scalar> rubbed = result.velocity;
+    effects_.touch(rubbed, spin, state, step.end, result, dt, parameters_);
+    rubbed = step.plane(rubbed);
     // The change of velocity happens over the step: the mean of what it was before and after counts.
     if constexpr (Set::kTouches)
       state.position = result.position + (rubbed - result.velocity) * Scalar(Scalar(0.5) * dt);
@@ -153,7 +167,7 @@ class Predictor {
   /// The paper's and the published program's: back onto the spheroid, and a capped part of the way as
   /// velocity.
   StepStatus<Scalar> pull_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
-                               const Scalar& dt, const Scalar& length) const {
+                               const Scalar& dt, const StringNow<Scalar>& string) const {
     const Parameters<Scalar>& p = parameters_;
     StepStatus<Scalar> status;
     const Scalar length_change =
@@ -169,7 +183,8 @@ class Predictor {
     if (p.integrator == Integrator::kParabolic) position += a * (Scalar(0.5) * dt * dt);
     velocity += a * dt;
 
-    const Spheroid<Scalar> before(begin.left, begin.right, length), after(end.left, end.right, length);
+    const Spheroid<Scalar> before(begin.left, begin.right, string.length),
+        after(end.left, end.right, string.length);
     const bool published = p.flight_rule == FlightRule::kPublished;
     state.string_state = published ? published_string_state(state.string_state, position, after, p)
                                    : paper_string_state(state.string_state, position, after, p);
@@ -182,13 +197,14 @@ class Predictor {
                                                               : after.closest_point(position));
       const Vector3<Scalar> gradient = after.path_gradient(target);
       const Scalar give =
-          compliance_ / (compliance_ + Scalar(0.5) * dt * dt * squared_norm(gradient) + tiny<Scalar>());
+          string.compliance /
+          (string.compliance + Scalar(0.5) * dt * dt * squared_norm(gradient) + tiny<Scalar>());
       const Vector3<Scalar> put = target + (position - target) * give;
       const Vector3<Scalar> normal = normal_at(after, put);
       const Vector3<Scalar> facing = normal_at(after, position);
       const Vector3<Scalar> cap = facing * Scalar(-p.cap_scale * pull_cap(before, after, facing, dt));
       Vector3<Scalar> pull = capped_pull<Scalar>(put - position, normal, cap, dt, p.pull_scale);
-      const Mask<Scalar> thin = after.tip_distance() >= length - p.thin_slack;
+      const Mask<Scalar> thin = after.tip_distance() >= string.length - p.thin_slack;
       pull = select<Scalar>(thin,
                             p.thin_rule == ThinRule::kPublished
                                 ? pull_in_vertical_plane<Scalar>(pull, end.left, end.right)
@@ -218,26 +234,30 @@ class Predictor {
     result.velocity = velocity;
     result.string_acceleration = pulled * Scalar(Scalar(1) / dt);
     result.taut = held;
-    state.velocity = plane_(effects_.after_contact(velocity, state, end, result, dt, p));
+    effects_.touch(velocity, state.spin, state, end, result, dt, p);
+    state.velocity = plane_(velocity);
     state.position = position;
     state.string_acceleration = result.string_acceleration;
     if (p.release_when_overstretched)
       status.overstretched = after.overstretched();
     else if (any(after.overstretched()))
-      status.overstretched =
-          hold(state, end, dt, !is(state.string_state, StringState::kFlying) && after.overstretched());
+      status.overstretched = hold(
+          state, end, dt, !is(state.string_state, StringState::kFlying) && after.overstretched(), string);
     return status;
   }
 
-  bool elastic() const { return sizeof...(Effects) > 0 && !is_constant_zero(compliance_); }
+  static bool elastic(const StringNow<Scalar>& string) {
+    return sizeof...(Effects) > 0 && !is_constant_zero(string.compliance);
+  }
   /// On a straight string; an elastic one is longer.
   Mask<Scalar> hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
-                    const Mask<Scalar>& where) const {
-    return hold_between_tips<Scalar>(state, tips, dt, where && (compliance_ == Scalar(0)), plane_);
+                    const Mask<Scalar>& where, const StringNow<Scalar>& string) const {
+    return hold_between_tips<Scalar>(state, tips, dt, where && (string.compliance == Scalar(0)), plane_);
   }
 
   StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
-    return elastic() ? advance_on_string<true>(step, captured) : advance_on_string<false>(step, captured);
+    const bool elastic = sizeof...(Effects) > 0 && !is_constant_zero(step.compliance);
+    return elastic ? advance_on_string<true>(step, captured) : advance_on_string<false>(step, captured);
   }
 
   Scalar dissipation(const Scalar& dt, const Mask<Scalar>& where) const {
@@ -281,10 +301,17 @@ class Predictor {
     const Scalar t = fraction * step.dt;
     const Tips<Scalar> tips = step.tips_at(fraction);
     const Vector3<Scalar> position = step.free_position(t), velocity = step.free_velocity(t);
-    const StringStep<Scalar> rest{
-        position,    velocity,           step.acceleration,        tips,        step.end,
-        step.dt - t, step.string_length, step.string_acceleration, compliance_, damping_time_,
-        plane_};
+    const StringStep<Scalar> rest{position,
+                                  velocity,
+                                  step.acceleration,
+                                  tips,
+                                  step.end,
+                                  step.dt - t,
+                                  step.string_length,
+                                  step.string_acceleration,
+                                  step.compliance,
+                                  step.damping_time,
+                                  plane_};
     assign_where(caught, state.string_state, StringState::kLoose);
     StringStepResult<Scalar> result = advance(rest, !is(state.string_state, StringState::kFlying));
     result.string_acceleration = result.string_acceleration * Scalar(rest.dt / step.dt);
@@ -293,7 +320,7 @@ class Predictor {
 
   Parameters<Scalar> parameters_;
   Set effects_;
-  Scalar length_, compliance_, damping_time_;
+  StringNow<Scalar> string_;
   PlaneProjector<Scalar> plane_;
 };
 

@@ -21,6 +21,9 @@ struct Tips {
   Vector3<Scalar> right = Vector3<Scalar>::Constant(Scalar(0));           ///< [m]
   Vector3<Scalar> left_velocity = Vector3<Scalar>::Constant(Scalar(0));   ///< [m/s]
   Vector3<Scalar> right_velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s]
+  /// Of the sticks, unit vectors; zero where they are not known. Only StickFlex looks at them.
+  Vector3<Scalar> left_direction = Vector3<Scalar>::Constant(Scalar(0)),
+                  right_direction = Vector3<Scalar>::Constant(Scalar(0));
 };
 
 /// How tips are read between the given instants.

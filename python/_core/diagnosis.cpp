@@ -25,12 +25,12 @@ using namespace py::literals;
 
 /// JSON text and the model with what was found.
 py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
-                   const std::vector<Recording>& holdout, double budget, std::uint64_t seed, int threads,
-                   const py::object& progress) {
+                   const std::vector<Recording>& holdout, const std::vector<std::string>& bank, double budget,
+                   std::uint64_t seed, int threads, const py::object& progress) {
   for (const Recording& recording : recordings) check_recording(recording);
   for (const Recording& recording : holdout) check_recording(recording);
   const DiagnosisOptions options{
-      .base = base, .holdout = holdout, .budget = budget, .seed = seed, .threads = threads};
+      .base = base, .holdout = holdout, .bank = bank, .budget = budget, .seed = seed, .threads = threads};
   std::mutex mutex;
   std::pair<std::string, double> now{"", 0.0};
   Diagnosis result;
@@ -59,8 +59,8 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
 }  // namespace
 
 void bind_diagnosis(py::module_& module) {
-  module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "budget"_a, "seed"_a, "threads"_a,
-             "progress"_a, "See diabolo.diagnose.");
+  module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "budget"_a, "seed"_a,
+             "threads"_a, "progress"_a, "See diabolo.diagnose.");
 }
 
 }  // namespace diabolo::python

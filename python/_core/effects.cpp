@@ -23,8 +23,13 @@ amplitude is the compliance, so that zero, the default, is the rigid string.)";
 const char* doc_of(const StringFriction<double>&) {
   return R"(A string that rubs on the axle: Euler's and Eytelwein's capstan law.
 
-While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). Its torque on the
-spin is that of Parameters.spin_coupling.)";
+While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). The difference turns
+the axle, too: dw/dt = spin_gain (T_right - T_left) / mass; at zero the spin is left to
+Parameters.spin_coupling.)";
+}
+
+const char* doc_of(const StickFlex<double>&) {
+  return R"(Sticks that bend: each tip gives by compliance times the string's pull, square to its stick.)";
 }
 
 const char* doc_of(const Air<double>&) {

@@ -46,6 +46,7 @@ def diagnose(
     base: Model | str = "consistent",
     *,
     holdout: Iterable[Recording] = (),
+    bank: Iterable[str] = (),
     budget: float = 1e9,
     seed: int = 1,
     threads: int = 0,
@@ -57,6 +58,8 @@ def diagnose(
     base: the simulator: a Model, "consistent", "paper" or "published".
     holdout: recordings that nothing is fitted to, to compare base and answer on; by default recordings, or
         thirds of a single one, are left out in turn.
+    bank: names of what may be claimed, such as "string_friction"; by default everything known. What no
+        measurement is without stays free in every fit.
     budget: no new refit begins after so many seconds.
     seed: of the bootstrap intervals. threads: 0 takes all that help; the result does not depend on it.
     progress: called with the name of the step and the fraction done.
@@ -75,6 +78,6 @@ def diagnose(
         raise ValueError(f"budget: {budget} s; must be positive")
     chosen = Model.named(base) if isinstance(base, str) else base
     text, model = _core.diagnose(
-        given, chosen, list(holdout), budget, seed, 1 if threads == 1 else 2, progress
+        given, chosen, list(holdout), list(bank), budget, seed, 1 if threads == 1 else 2, progress
     )
     return Diagnosis(json.loads(text), model)

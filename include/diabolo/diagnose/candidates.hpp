@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,7 +20,7 @@ enum class CandidateKind { kPhysics, kMeasurement };
 struct Candidate {
   std::string_view name, plain;
   CandidateKind kind;
-  std::vector<Unknown> unknowns;
+  std::vector<Unknown> unknowns;  ///< none of body_swap, which is seen without a fit
   double floor;   ///< claimed only beyond, in any of its unknowns; of physics see kSmallestReach
   bool positive;  ///< a negative amplitude is against physics
 };
@@ -32,15 +34,27 @@ inline const std::vector<Candidate>& candidates() {
   using enum CandidateKind;
   static const std::vector<Candidate> all{
       {"string_elasticity", "the string's stretch", kPhysics, {kCompliance}, 0.0, true},
+      {"stick_flex", "the bending of the sticks", kPhysics, {kStickCompliance}, 0.0, true},
       {"string_friction", "friction of the string on the axle", kPhysics, {kFriction}, 0.0, true},
       {"air_drag_linear", "a drag that grows with speed", kPhysics, {kLinearDrag}, 0.0, true},
       {"air_drag_quadratic", "the drag of the air", kPhysics, {kQuadraticDrag}, 0.0, true},
+      {"wind", "wind", kPhysics, {kWindX, kWindY}, 0.0, false},
       {"magnus_lift", "the lift of the spinning diabolo (Magnus)", kPhysics, {kLift}, 0.0, false},
       {"spin_drag", "the air that slows the spin", kPhysics, {kSpinAir}, 0.0, true},
       {"axle_drag", "a bearing that slows the spin", kPhysics, {kSpinAxle}, 0.0, true},
+      {"spin_coupling", "the string's drive of the spin", kPhysics, {kSpinCoupling}, 0.0, true},
+      {"gravity_magnitude", "the strength of gravity", kPhysics, {kGravity}, 0.05 * kStandardGravity, false},
+      {"frame_rate", "the rate of the frames", kMeasurement, {kGravity}, 0.01 * kStandardGravity, false},
       {"gravity_tilt", "a tilted frame", kMeasurement, {kTiltX, kTiltY}, 0.3 * kDegree, false},
       {"length_scale", "the scale of lengths", kMeasurement, {kLengthScale}, 0.003, false},
       {"time_offset", "a delay between diabolo and sticks", kMeasurement, {kTimeOffset}, 0.002, false},
+      {"filter_lag", "a low pass that delays the diabolo", kMeasurement, {kTimeOffset}, 0.002, false},
+      {"robot_servo_lag",
+       "sticks that lag behind the recorded ones",
+       kMeasurement,
+       {kTimeOffset},
+       0.002,
+       false},
       {"marker_offset",
        "the diabolo's recorded centre",
        kMeasurement,
@@ -54,30 +68,81 @@ inline const std::vector<Candidate>& candidates() {
        0.002,
        false},
       {"string_length", "the string's length", kMeasurement, {kStringLength}, 0.004, false},
+      {"body_swap", "bodies under each other's names", kMeasurement, {}, 0.0, false},
   };
   return all;
 }
 
 /// Free in every fit: what no recording is without.
+inline bool is_nuisance(Unknown u) { return index_of(u) <= index_of(Unknown::kAxleRadius); }
+inline Unknown first_of(const Candidate& candidate) {
+  return candidate.unknowns.empty() ? Unknown::kCount : candidate.unknowns.front();
+}
+inline bool is_nuisance(const Candidate& candidate) { return is_nuisance(first_of(candidate)); }
 inline ActiveSet nuisances() {
   ActiveSet set = ActiveSet::Constant(false);
-  for (int u = index_of(Unknown::kTiltX); u <= index_of(Unknown::kAxleRadius); ++u) set[u] = true;
+  for (int u = 0; u < kUnknowns; ++u) set[u] = is_nuisance(static_cast<Unknown>(u));
   return set;
 }
 
-/// `set` with, or without, a candidate's unknowns; the string's damping goes with its compliance.
+/// The candidates that a diagnosis chooses from.
+using Bank = std::vector<const Candidate*>;
+
+inline const Candidate& candidate_of(std::string_view name) {
+  return *std::ranges::find(candidates(), name, &Candidate::name);
+}
+
+/// The fault that this one is looked for in place of (see exchange_faults()); empty for most.
+inline std::string_view alternative_to(std::string_view name) {
+  if (name == "filter_lag" || name == "robot_servo_lag") return "time_offset";
+  return name == "frame_rate" ? "length_scale" : "";
+}
+
+/// All of them, or those of some names, as far as they can be missing in a base: a base that has a spin
+/// coupling leaves it to be fitted, and one with the Earth's gravity has it right. What is an alternative to
+/// another fault comes in by exchange_faults(). Throws std::invalid_argument about a name that is none.
+inline Bank bank_for(const Parameters<double>& base, const std::vector<std::string>& names) {
+  Bank bank;
+  const auto wanted = [&](const Candidate& candidate) {
+    return names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
+             return name == candidate.name || alternative_to(name) == candidate.name;
+           });
+  };
+  const bool earth = std::abs(base.gravity / kStandardGravity - 1.0) < 0.01;
+  for (const Candidate& candidate : candidates()) {
+    if (candidate.unknowns.empty() || !alternative_to(candidate.name).empty() || !wanted(candidate)) continue;
+    if (candidate.name == "spin_coupling" && base.spin_coupling > 0.0) continue;
+    if (candidate.name == "gravity_magnitude" && earth) continue;
+    bank.push_back(&candidate);
+  }
+  for (const std::string& name : names)
+    if (std::ranges::find(candidates(), name, &Candidate::name) == candidates().end()) {
+      std::string known;
+      for (const Candidate& candidate : candidates())
+        known.append(known.empty() ? "" : ", ").append(candidate.name);
+      throw std::invalid_argument("bank: \"" + name + "\"; expected of " + known);
+    }
+  return bank;
+}
+
+/// `set` with, or without, a candidate's unknowns and those that count only beside them.
 inline ActiveSet with(ActiveSet set, const Candidate& candidate, bool included = true) {
-  for (const Unknown u : candidate.unknowns) set[index_of(u)] = included;
-  if (candidate.unknowns.front() == Unknown::kCompliance) set[index_of(Unknown::kDamping)] = included;
+  for (const Unknown u : candidate.unknowns) {
+    set[index_of(u)] = included;
+    if (u == Unknown::kCompliance) set[index_of(Unknown::kDamping)] = included;
+    if (u == Unknown::kStickCompliance) set[index_of(Unknown::kStickDamping)] = included;
+    if (u == Unknown::kFriction) set[index_of(Unknown::kSpinGain)] = included;
+  }
   return set;
 }
 
 inline bool is_in(const ActiveSet& set, const Candidate& candidate) {
-  return set[index_of(candidate.unknowns.front())];
+  return set[index_of(first_of(candidate))];
 }
 
 inline bool is_of_spin(const Candidate& candidate) {
-  return candidate.unknowns.front() == Unknown::kSpinAir || candidate.unknowns.front() == Unknown::kSpinAxle;
+  const Unknown first = first_of(candidate);
+  return first == Unknown::kSpinAir || first == Unknown::kSpinAxle || first == Unknown::kSpinCoupling;
 }
 
 /// How far unknowns like these move the diabolo within half a second in the most affected tenth of the

@@ -24,7 +24,12 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   auto& elasticity = model.effects.get<StringElasticity>();
   elasticity.compliance_per_newton += std::max(0.0, x(Unknown::kCompliance));
   if (x(Unknown::kCompliance) > 0.0) elasticity.damping += std::max(0.0, x(Unknown::kDamping));
-  model.effects.get<StringFriction>().coefficient += std::max(0.0, x(Unknown::kFriction));
+  auto& flex = model.effects.get<StickFlex>();
+  flex.compliance += std::max(0.0, x(Unknown::kStickCompliance));
+  if (x(Unknown::kStickCompliance) > 0.0) flex.damping += std::max(0.0, x(Unknown::kStickDamping));
+  auto& friction = model.effects.get<StringFriction>();
+  friction.coefficient += std::max(0.0, x(Unknown::kFriction));
+  if (x(Unknown::kFriction) > 0.0) friction.spin_gain += std::max(0.0, x(Unknown::kSpinGain));
   auto& air = model.effects.get<Air>();
   air.linear_drag += std::max(0.0, x(Unknown::kLinearDrag));
   air.quadratic_drag += std::max(0.0, x(Unknown::kQuadraticDrag));

@@ -12,9 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/alternatives.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/select.hpp"
+#include "diabolo/diagnose/swapped_bodies.hpp"
 
 namespace diabolo {
 
@@ -22,6 +24,7 @@ namespace diabolo {
 struct DiagnosisOptions {
   Model base = consistent_model();  ///< the simulator that is asked about
   std::vector<Recording> holdout;   ///< to compare on; else recordings, or blocks, are left out in turn
+  std::vector<std::string> bank;    ///< names of the candidates; empty: all
   double budget = 1e9;              ///< no new refit begins after it [s]
   std::uint64_t seed = 1;           ///< of the bootstrap
   int threads = 2;                  ///< 1 or 2; the result is the same
@@ -79,16 +82,11 @@ inline Fit prepared(const std::vector<Recording>& recordings) {
   return fit;
 }
 
-}  // namespace detail
-
-/// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
-/// std::invalid_argument about options, and Cancelled.
-template <class D = detail::FitDual>
-Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOptions& options = {},
-                   const DiagnosisWatch& watch = {}) {
-  if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
-  if (options.threads < 1 || options.threads > 2)
-    throw std::invalid_argument("threads: " + std::to_string(options.threads) + "; must be 1 or 2");
+/// With every body under its name, unless friction would have to give energy: then `backwards`.
+template <class D>
+Diagnosis diagnose_named(const std::vector<Recording>& recordings, const DiagnosisOptions& options,
+                         const DiagnosisWatch& watch, bool& backwards) {
+  Bank bank = bank_for(options.base.parameters, options.bank);
   const auto step = [&](const std::string& name, double done) {
     if (watch.progress) watch.progress(name, done);
     return Watch{{}, watch.cancelled};
@@ -99,6 +97,7 @@ Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOpti
   };
   Diagnosis result;
   result.base = options.base.name;
+  result.base_gravity = options.base.parameters.gravity;
   step("reading the motion", 0.0);
   Fit fit = detail::prepared(recordings);
   result.reason = detail::insufficient(fit.stages);
@@ -116,7 +115,7 @@ Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOpti
   refine<D>(fit, physics, ActiveSet::Constant(false), 2, options.threads, step("fitting starts", 0.05));
   remember_before(result, fit);
   ActiveSet set = nuisances();
-  for (const Candidate& candidate : candidates()) set = with(set, candidate);
+  for (const Candidate* candidate : bank) set = with(set, *candidate);
   const Fit start = fit;
   refine<D>(fit, physics, set, 8, options.threads, step("fitting everything", 0.15));
   // A soft string rings: from a stiff one the way there is long, so that it is tried from the other end, too.
@@ -126,22 +125,31 @@ Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOpti
     refine<D>(soft, physics, set, 8, options.threads, step("fitting everything, on a soft string", 0.35));
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
-  set = eliminate(Evidence(fit), set);
+  const Candidate& friction = candidate_of("string_friction");
+  backwards = is_in(set, friction) && significance(friction, standing(Evidence(fit), set)) < -kSignificance;
+  set = eliminate(Evidence(fit), bank, set);
   for (int round = 0;; ++round) {
     for (int u = 0; u < kUnknowns; ++u)
       if (!set[u]) fit.at[u] = fit.centre[u];
     refine<D>(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
     const Evidence evidence(fit);
-    ActiveSet next = eliminate(evidence, set);
-    if (const Candidate* candidate = strongest_left_out(evidence, next)) next = with(next, *candidate);
+    ActiveSet next = eliminate(evidence, bank, set);
+    if (const Candidate* candidate = strongest_left_out(evidence, bank, next)) next = with(next, *candidate);
     if ((next == set).all() || round == 2 || elapsed() > options.budget) break;  // judged at its own fit
     set = next;
   }
+  Diagnosis draft = result;
+  find(draft, fit, Evidence(fit), bank, set);
+  const std::vector<Exchange> exchanged =
+      exchange_faults<D>(fit, bank, set, draft, physics, options.threads, step("trying other faults", 0.8));
   const Evidence evidence(fit);
   result.at = fit.at;
   result.model = augmented_model(physics, fit.at, "diagnosed");
   result.model.own_string_length = false;
-  find(result, fit, evidence, set);
+  find(result, fit, evidence, bank, set);
+  for (const Exchange& exchange : exchanged)
+    for (Finding& f : result.findings)
+      if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
   std::vector<HeldOutRecording> held;
   for (const Recording& recording : options.holdout)
     held.push_back({make_stage(recording).recording, fit.at});
@@ -156,7 +164,57 @@ Diagnosis diagnose(const std::vector<Recording>& recordings, const DiagnosisOpti
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
   conclude(result);
-  step("done", 1.0);
+  return result;
+}
+
+/// Claims that bodies were recorded under each other's names in so many frames.
+inline void claim_swap(Diagnosis& d, long frames, const std::string& reason) {
+  Finding f;
+  f.candidate = &candidate_of("body_swap");
+  f.p_value = 0.0;
+  f.claimed = f.material = true;
+  f.confidence = 0.99;
+  f.swapped = frames;
+  f.reason = reason;
+  d.findings.insert(d.findings.begin(), f);
+  conclude(d);
+}
+
+}  // namespace detail
+
+/// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
+/// std::invalid_argument about options, and Cancelled.
+template <class D = detail::FitDual>
+Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options = {},
+                   const DiagnosisWatch& watch = {}) {
+  if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
+  if (options.threads < 1 || options.threads > 2)
+    throw std::invalid_argument("threads: " + std::to_string(options.threads) + "; must be 1 or 2");
+  long swapped = 0, frames = 0;
+  for (Recording& recording : recordings) {
+    swapped += static_cast<long>(unswap(recording).count);
+    frames += static_cast<long>(recording.size());
+  }
+  for (Recording& recording : options.holdout) unswap(recording);
+  bool backwards = false, still = false;
+  Diagnosis result = detail::diagnose_named<D>(recordings, options, watch, backwards);
+  if (backwards) {
+    for (std::vector<Recording>* list : {&recordings, &options.holdout})
+      for (Recording& recording : *list) recording = with_sticks_exchanged(std::move(recording));
+    Diagnosis exchanged = detail::diagnose_named<D>(recordings, options, watch, still);
+    const bool rubs = std::ranges::any_of(exchanged.findings, [](const Finding& f) {
+      return f.claimed && f.candidate->name == "string_friction";
+    });
+    if (rubs && !still) {
+      result = std::move(exchanged);
+      swapped += frames;
+    }
+  }
+  if (swapped > 0 && result.reason.empty())
+    detail::claim_swap(result, swapped,
+                       swapped >= frames ? "friction would give energy unless the sticks are exchanged"
+                                         : "bodies jump to each other's places and back");
+  if (watch.progress) watch.progress("done", 1.0);
   return result;
 }
 

@@ -46,7 +46,9 @@ class Evidence {
   }
 
   /// Two covariances of the scaled free unknowns: what the noise makes of them, and what the windows' own
-  /// disagreement does (White's sandwich), which also knows of what no unknown explains.
+  /// disagreement does (the jackknife that leaves out one window at a time), which also knows of correlated
+  /// noise and of what no unknown explains. (White's sandwich comes out too narrow where unknowns are not
+  /// far fewer than windows.)
   struct Covariances {
     UnknownMatrix noise, spread;
   };
@@ -59,7 +61,7 @@ class Evidence {
                                              static_cast<Eigen::Index>(f.size())));
     Covariances result{UnknownMatrix::Zero(kUnknowns, kUnknowns), UnknownMatrix::Zero(kUnknowns, kUnknowns)};
     result.noise(f, f) = dispersion_ * inverse;
-    result.spread(f, f) = inverse * scatter(f, solve(free)) * inverse;
+    result.spread(f, f) = jackknife(f, solve(free)(f));
     return result;
   }
 
@@ -107,16 +109,19 @@ class Evidence {
     return result;
   }
 
-  /// Sum of the outer products of the windows' own scores at x.
-  Eigen::MatrixXd scatter(const std::vector<int>& f, const UnknownVector& x) const {
+  /// Sum of the outer products of what the estimate x moves by without each window.
+  Eigen::MatrixXd jackknife(const std::vector<int>& f, const Eigen::VectorXd& x) const {
     const Eigen::Index n = static_cast<Eigen::Index>(f.size());
+    const Eigen::MatrixXd all = precision(f, information_);
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
     for (const Part& part : parts_) {
-      const UnknownVector score = part.slope - part.information * x;
-      const Eigen::VectorXd own = score(f);
-      sum += own * own.transpose();
+      // (A - A_w) dx = -(b_w - A_w x) from A x = b.
+      const Eigen::MatrixXd own = part.information(f, f);
+      const Eigen::VectorXd move = (all - own).ldlt().solve(own * x - part.slope(f));
+      sum += move * move.transpose();
     }
-    return sum;
+    const double count = static_cast<double>(parts_.size());
+    return sum * ((count - 1.0) / std::max(count, 1.0));
   }
 
   UnknownVector prior_, centre_;  ///< scaled

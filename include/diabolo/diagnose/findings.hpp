@@ -28,6 +28,7 @@ struct Finding {
   bool claimed = false;
   bool material = false;
   double confidence = 0.0;
+  long swapped = 0;  ///< frames, of body_swap
   std::vector<std::string> tied_with;
   std::vector<std::size_t> windows;  ///< in which it matters
   std::string reason;                ///< why it is claimed, or not
@@ -62,7 +63,8 @@ enum class Headline {
 struct Diagnosis {
   Headline headline = Headline::kNothingMissing;
   std::string base, sentence, reason;
-  std::vector<Finding> findings;  ///< of every candidate, the surest first
+  double base_gravity = kStandardGravity;  ///< [m/s^2]
+  std::vector<Finding> findings;           ///< of every candidate, the surest first
   std::vector<Leftover> leftovers;
   std::vector<WindowFinding> windows;
   std::vector<std::pair<std::string, CameraNoise>> noise;
@@ -113,15 +115,17 @@ inline bool is_tied(const Evidence& evidence, const ActiveSet& set, const Candid
 }
 
 /// Judges every candidate at the final fit.
-inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const ActiveSet& set) {
+inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const Bank& bank,
+                 const ActiveSet& set) {
   std::size_t i = 0;
   for (WindowFinding& window : result.windows) window.residual_after = fit.systems[i++].position_residual();
   const Standing final_standing = standing(evidence, set);
   for (int u = 0; u < kUnknowns; ++u)
     if (set[u]) result.deviation[u] = final_standing.deviation(u);
-  for (const Candidate& candidate : candidates()) {
+  for (const Candidate* member : bank) {
+    const Candidate& candidate = *member;
     Finding f;
-    f.candidate = &candidate;
+    f.candidate = member;
     const Standing own = is_in(set, candidate) ? final_standing : standing(evidence, with(set, candidate));
     f.estimate = own.estimate;
     for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = own.deviation(u);
@@ -132,7 +136,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     for (std::size_t w = 0; w < fit.systems.size(); ++w)
       if (size_of(candidate, f.estimate, {fit.systems[w]}) > smallest) f.windows.push_back(w);
     const bool sure = speaks_for(candidate, f.z);
-    if (candidate.kind == CandidateKind::kPhysics) {
+    if (candidate.kind == CandidateKind::kPhysics && candidate.floor == 0.0) {
       f.material = f.size > smallest;
     } else {
       for (const Unknown u : candidate.unknowns) {
@@ -146,25 +150,15 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
                : !f.material ? "there, but too small to matter"
                              : "sure, and large enough to matter";
     if (f.claimed && candidate.kind == CandidateKind::kPhysics)
-      for (const Candidate& other : candidates())
-        if (other.kind == CandidateKind::kPhysics && &other != &candidate &&
-            is_tied(evidence, set, candidate, other))
-          f.tied_with.emplace_back(other.name);
+      for (const Candidate* other : bank)
+        if (other->kind == CandidateKind::kPhysics && other != member &&
+            is_tied(evidence, set, candidate, *other))
+          f.tied_with.emplace_back(other->name);
     // Calibrated by no proof yet: grows with how far it stands out, less where another does as well.
     f.confidence =
         f.claimed ? (f.tied_with.empty() ? 1.0 - 0.5 * std::exp(-(std::abs(f.z) - 3.0) / 2.0) : 0.5) : 0.0;
     result.findings.push_back(f);
   }
-  const auto claimed = [&](std::string_view name) {
-    return std::ranges::any_of(result.findings,
-                               [&](const Finding& f) { return f.claimed && f.candidate->name == name; });
-  };
-  if (claimed("string_friction"))  // its torque slows the spin
-    for (Finding& f : result.findings)
-      if (f.claimed && is_of_spin(*f.candidate)) {
-        f.claimed = false;
-        f.reason = "the rubbing string slows the spin as well";
-      }
   for (int k = 0; k < kLatents; ++k) {
     ActiveSet with_latent = set;
     with_latent[kLatentFirst + k] = true;

@@ -56,6 +56,8 @@ struct Fit {
   UnknownVector at = UnknownVector::Zero();      ///< the unknowns, SI units
   UnknownVector centre = UnknownVector::Zero();  ///< what is expected of them
   ActiveSet active = ActiveSet::Constant(false);
+  Delay delay = Delay::kClock;
+  bool noise_is_known = false;        ///< else it is estimated again in the first iterations
   std::vector<Stage> stages;          ///< with the fitted starts
   std::vector<CameraNoise> noise;     ///< of each stage
   std::vector<WindowSystem> systems;  ///< of all windows, stage after stage
@@ -87,7 +89,7 @@ void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
   std::vector<std::vector<StageTips>> grids;
   std::vector<detail::FitModel> models;
   for (std::size_t s = 0; s < fit.stages.size(); ++s) {
-    grids.push_back(stage_tips(fit.stages[s], fit.at));
+    grids.push_back(stage_tips(fit.stages[s], fit.at, fit.delay));
     models.push_back(detail::fit_model(base, fit.stages[s].recording, fit.at));
     for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
   }
@@ -96,7 +98,8 @@ void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
   for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
     const auto [s, w] = jobs[i];
     const Stage& stage = fit.stages[s];
-    fit.systems[i] = window_system<D>(stage, grids[s], stage.windows[w], models[s], fit.at, fit.noise[s]);
+    fit.systems[i] =
+        window_system<D>(stage, grids[s], stage.windows[w], models[s], fit.at, fit.noise[s], fit.delay);
     fit.scores[i] = without_start(fit.systems[i]);
   });
   std::vector<double> sizes;
@@ -213,7 +216,7 @@ void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_itera
       }
     }
     const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
-    if (iteration < 3) {
+    if (iteration < 3 && !fit.noise_is_known) {
       update_noise(fit);
       look<D>(fit, base, threads, watch);
     } else if (settled) {

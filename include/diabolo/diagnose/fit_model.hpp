@@ -45,11 +45,11 @@ inline FitDual unknown(Unknown u, const UnknownVector& at) {
 /// one follows its tension at once (see string_shift), and only its mean stretch can be seen.
 inline constexpr double kSoftString = 3e-4;
 inline bool dynamic_spring(const UnknownVector& at) {
-  return at[index_of(Unknown::kCompliance)] > kSoftString;
+  return at[index_of(Unknown::kCompliance)] + 2.0 * at[index_of(Unknown::kStickCompliance)] > kSoftString;
 }
 
 using FitPredictor = Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                               GravityTilt, FiniteAxle, LatentForce>;
+                               GravityTilt, FiniteAxle, StickFlex, LatentForce>;
 
 /// The base with everything that may be missing, which carries its derivatives.
 struct FitModel {
@@ -81,8 +81,13 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
     auto& elasticity = effects.get<StringElasticity>();
     elasticity.compliance_per_newton += x(Unknown::kCompliance) * scale;
     elasticity.damping += x(Unknown::kDamping);
+    auto& flex = effects.get<StickFlex>();
+    flex.compliance += x(Unknown::kStickCompliance) * scale;
+    flex.damping += x(Unknown::kStickDamping);
   }
-  effects.get<StringFriction>().coefficient += x(Unknown::kFriction);
+  auto& friction = effects.get<StringFriction>();
+  friction.coefficient += x(Unknown::kFriction);
+  friction.spin_gain += x(Unknown::kSpinGain);
   auto& air = effects.get<Air>();
   air.linear_drag += x(Unknown::kLinearDrag);
   air.quadratic_drag += x(Unknown::kQuadraticDrag);
@@ -106,14 +111,14 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
 
 /// The tips with their derivatives by time offset and tip offsets.
 inline Tips<FitDual> fit_tips(const StageTips& s) {
-  const auto with = [](const Vector3<double>& value, const Vector3<double>& by_time,
-                       const Eigen::Matrix3d& by_offset, Unknown first) {
+  const auto with = [&](const Vector3<double>& value, const Vector3<double>& by_time,
+                        const Eigen::Matrix3d& by_offset, Unknown first) {
     Vector3<FitDual> result;
     for (int k = 0; k < 3; ++k) {
       result[k] = FitDual(value[k]);
       auto& slope = result[k].gradient;
       slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] =
-          by_time[k] * info_of(Unknown::kTimeOffset).scale;
+          s.delay_slope * by_time[k] * info_of(Unknown::kTimeOffset).scale;
       for (int j = 0; j < 3; ++j)
         slope[kStartUnknowns + index_of(first) + j] = -by_offset(k, j) * info_of(first).scale;
     }
@@ -122,6 +127,8 @@ inline Tips<FitDual> fit_tips(const StageTips& s) {
   Tips<FitDual> tips;
   tips.left = with(s.tips.left, s.tips.left_velocity, s.left_frame, Unknown::kLeftX);
   tips.right = with(s.tips.right, s.tips.right_velocity, s.right_frame, Unknown::kRightX);
+  tips.left_direction = s.tips.left_direction.cast<FitDual>();
+  tips.right_direction = s.tips.right_direction.cast<FitDual>();
   tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_frame_rate, Unknown::kLeftX);
   tips.right_velocity =
       with(s.tips.right_velocity, s.right_acceleration, s.right_frame_rate, Unknown::kRightX);
@@ -156,13 +163,16 @@ inline Vector3<FitDual> string_shift(const State<FitDual>& state, const Tips<Fit
   return gradient * D(stretch_per_acceleration * pull / square);
 }
 
-/// Moves a start ON_STRING to where the taut string allows it: path length and its rate.
+/// Moves a start ON_STRING to where the taut string allows it under the pull tension/mass [m/s^2]: path
+/// length and its rate.
 template <class D>
-void place_on_string(State<D>& state, Tips<D> tips, D length, const FitPredictor::Set& effects) {
-  const TipShift<D> shift = effects.tip_shift(state, tips);
+void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPredictor& predictor) {
+  const TipShift<D> shift = predictor.effects().tip_shift(state, tips, predictor.parameters());
   tips.left += shift.left;
   tips.right += shift.right;
-  length = length - effects.bound_length(state, tips);
+  const StringNow<D> string = predictor.effects().string_at(
+      predictor.effects().string(predictor.parameters()), state, tips, predictor.parameters());
+  const D length = string.length + string.compliance * pull;
   for (int i = 0; i < 3; ++i) {
     const StringPath<D> path(state.position, tips);
     const Vector3<D> gradient = path.gradient();
@@ -192,17 +202,22 @@ State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const
   const D& length = predictor.parameters().string_length;
   const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);
   if (state.string_state != StringState::kOnString || !room) return state;
-  place_on_string(state, tips, length, predictor.effects());
-  const auto& elasticity = predictor.effects().template get<StringElasticity>();
-  if (elasticity.neutral() || predictor.parameters().string_law != StringLaw::kInextensible) return state;
-  // At rest relative to its spring: longer by what the tension of the first step stretches it.
+  place_on_string(state, tips, D(0.0), predictor);
+  const auto& effects = predictor.effects();
+  const bool rigid =
+      effects.template get<StringElasticity>().neutral() && effects.template get<StickFlex>().neutral();
+  if (rigid || predictor.parameters().string_law != StringLaw::kInextensible) return state;
+  // At rest relative to its springs: longer by what the tension of a rigid string's first step stretches
+  // them.
+  FitPredictor::Set stiff = effects;
+  stiff.template get<StringElasticity>() = {};
+  stiff.template get<StickFlex>() = {};
   State<D> trial = state;
-  predictor.step(trial, tips, next, dt);
+  FitPredictor(predictor.parameters(), stiff, FitPredictor::AlreadyValid{}).step(trial, tips, next, dt);
   const D pull =
       norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
-  place_on_string(state, tips,
-                  D(length + elasticity.compliance_per_newton * predictor.parameters().mass * pull),
-                  predictor.effects());
+  state.string_acceleration = trial.string_acceleration;
+  place_on_string(state, tips, pull, predictor);
   return state;
 }
 

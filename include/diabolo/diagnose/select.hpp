@@ -58,32 +58,32 @@ inline bool speaks_for(const Candidate& candidate, double z) {
   return candidate.positive ? z > kSignificance : std::abs(z) > kSignificance;
 }
 
-/// From a set with everything, takes away the physics that is least sure, one by one, until all that is left
-/// is sure.
-inline ActiveSet eliminate(const Evidence& evidence, ActiveSet set) {
+/// From a set with everything, takes away what is least sure, one by one, until all that is left is sure, or
+/// a nuisance.
+inline ActiveSet eliminate(const Evidence& evidence, const Bank& bank, ActiveSet set) {
   for (;;) {
     const Standing now = standing(evidence, set);
     const Candidate* weakest = nullptr;
     double least = 0.0;
-    for (const Candidate& candidate : candidates()) {
-      if (candidate.kind != CandidateKind::kPhysics || !is_in(set, candidate)) continue;
-      const double z = significance(candidate, now), sure = candidate.positive ? z : std::abs(z);
-      if (weakest == nullptr || sure < least) weakest = &candidate, least = sure;
+    for (const Candidate* candidate : bank) {
+      if (is_nuisance(*candidate) || !is_in(set, *candidate)) continue;
+      const double z = significance(*candidate, now), sure = candidate->positive ? z : std::abs(z);
+      if (weakest == nullptr || sure < least) weakest = candidate, least = sure;
     }
     if (weakest == nullptr || least > kSignificance) return set;
     set = with(set, *weakest, false);
   }
 }
 
-/// The physics that is surest of what the set leaves out; null where none is sure.
-inline const Candidate* strongest_left_out(const Evidence& evidence, const ActiveSet& set) {
+/// The surest of what the set leaves out; null where none is sure.
+inline const Candidate* strongest_left_out(const Evidence& evidence, const Bank& bank, const ActiveSet& set) {
   const Candidate* strongest = nullptr;
   double most = kSignificance;
-  for (const Candidate& candidate : candidates()) {
-    if (candidate.kind != CandidateKind::kPhysics || is_in(set, candidate)) continue;
-    const double z = significance(candidate, standing(evidence, with(set, candidate)));
-    const double sure = candidate.positive ? z : std::abs(z);
-    if (sure > most) strongest = &candidate, most = sure;
+  for (const Candidate* candidate : bank) {
+    if (is_in(set, *candidate)) continue;
+    const double z = significance(*candidate, standing(evidence, with(set, *candidate)));
+    const double sure = candidate->positive ? z : std::abs(z);
+    if (sure > most) strongest = candidate, most = sure;
   }
   return strongest;
 }

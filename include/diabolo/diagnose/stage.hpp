@@ -28,6 +28,7 @@ struct FitWindow {
 struct StageTips {
   Tips<double> tips;
   Vector3<double> left_acceleration, right_acceleration;  ///< [m/s^2]
+  double delay_slope = 1.0;                               ///< whether the time offset moves the tips
   Eigen::Matrix3d left_frame, right_frame;                ///< stick to world
   Eigen::Matrix3d left_frame_rate, right_frame_rate;      ///< their derivatives [1/s]
 };
@@ -168,11 +169,14 @@ inline std::vector<Eigen::Matrix3d> stick_frames(const OrientationTrack& track, 
 }
 
 /// Tips at each substep from row 0 on, read at the recorded time plus the time offset, less the tip offsets.
-inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector& at) {
+/// As kServo the offset's negative is the time constant of a lag: c - tau c' + tau^2 c''.
+inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector& at,
+                                         Delay delay = Delay::kClock) {
   const Eigen::Index rows = stage.times.size();
   const std::vector<Eigen::Matrix3d> left = stick_frames(stage.recording.left_orientation, rows),
                                      right = stick_frames(stage.recording.right_orientation, rows);
-  const double offset = at[index_of(Unknown::kTimeOffset)];
+  const double clock = delay == Delay::kClock ? at[index_of(Unknown::kTimeOffset)] : 0.0,
+               servo = delay == Delay::kServo ? at[index_of(Unknown::kTimeOffset)] : 0.0;
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));
   std::vector<StageTips> result(static_cast<std::size_t>((rows - 1) * stage.substeps + 1));
@@ -183,15 +187,25 @@ inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector
       const double fraction = static_cast<double>(s) / stage.substeps;
       const Eigen::Index next = std::min(i + 1, rows - 1);
       const double gap = std::max(stage.times[next] - stage.times[i], 1e-6);
-      const double time = stage.times[i] + fraction * gap + offset, h = 5e-4;
+      const double time = stage.times[i] + fraction * gap + clock, h = 5e-4;
       out.tips = stage.motion->at(time, hint);
       const Tips<double> before = stage.motion->at(time - h, hint_before),
                          after = stage.motion->at(time + h, hint_after);
       out.left_acceleration = (after.left_velocity - before.left_velocity) / (2.0 * h);
       out.right_acceleration = (after.right_velocity - before.right_velocity) / (2.0 * h);
+      out.delay_slope = delay == Delay::kFilter ? 0.0 : 1.0;
+      if (delay == Delay::kServo) {
+        const Tips<double> given = out.tips;
+        out.tips.left += servo * given.left_velocity + servo * servo * out.left_acceleration;
+        out.tips.right += servo * given.right_velocity + servo * servo * out.right_acceleration;
+        out.tips.left_velocity += servo * out.left_acceleration;
+        out.tips.right_velocity += servo * out.right_acceleration;
+      }
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(next);
       out.left_frame = left[a] * (1.0 - fraction) + left[b] * fraction;
       out.right_frame = right[a] * (1.0 - fraction) + right[b] * fraction;
+      if (!stage.recording.left_orientation.empty()) out.tips.left_direction = out.left_frame.col(0);
+      if (!stage.recording.right_orientation.empty()) out.tips.right_direction = out.right_frame.col(0);
       out.left_frame_rate = (left[b] - left[a]) / gap;
       out.right_frame_rate = (right[b] - right[a]) / gap;
       out.tips.left -= out.left_frame * left_offset;

@@ -25,16 +25,19 @@ enum class Unknown : int {
   kRightX,
   kRightY,
   kRightZ,
-  kStringLength,   ///< true less given [m]
-  kSpinCoupling,   ///< of the string to the spin, less the base's [1/s]
-  kAxleRadius,     ///< that the string runs around, beyond the base's [m]
-  kGravity,        ///< magnitude, less the base's [m/s^2]
-  kCompliance,     ///< of the string [m/N]
-  kDamping,        ///< of the string [N s/m]; counts where there is compliance
-  kFriction,       ///< capstan coefficient
-  kLinearDrag,     ///< [1/s]
-  kQuadraticDrag,  ///< [1/m]
-  kWindX,          ///< [m/s]; counts where there is drag
+  kStringLength,     ///< true less given [m]
+  kSpinCoupling,     ///< of the string to the spin, less the base's [1/s]
+  kAxleRadius,       ///< that the string runs around, beyond the base's [m]
+  kGravity,          ///< magnitude, less the base's [m/s^2]
+  kCompliance,       ///< of the string [m/N]
+  kDamping,          ///< of the string [N s/m]; counts where there is compliance
+  kStickCompliance,  ///< of one stick's tip [m/N]
+  kStickDamping,     ///< of one stick's tip [N s/m]; counts where there is compliance
+  kFriction,         ///< capstan coefficient
+  kSpinGain,         ///< mass times axle radius over moment of inertia [1/m]; counts where there is friction
+  kLinearDrag,       ///< [1/s]
+  kQuadraticDrag,    ///< [1/m]
+  kWindX,            ///< [m/s]; counts where there is drag
   kWindY,
   kLift,      ///< Magnus [1/rad]
   kSpinAir,   ///< [1/rad]
@@ -52,6 +55,13 @@ enum class Unknown : int {
 
 inline constexpr int kUnknowns = static_cast<int>(Unknown::kCount);
 inline constexpr int index_of(Unknown u) { return static_cast<int>(u); }
+
+/// What makes the recorded diabolo late, or early, against the sticks.
+enum class Delay {
+  kClock,   ///< the one's clock against the others': time_offset
+  kFilter,  ///< a first-order low pass that the diabolo's track went through; late only
+  kServo,   ///< sticks that follow the recorded, commanded ones as through such a filter; late only
+};
 
 /// One number for each unknown, in SI units.
 using UnknownVector = Eigen::Matrix<double, kUnknowns, 1>;
@@ -84,10 +94,13 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"string_length", "m", 0.01, 0.02, -0.08, 0.08},
     {"spin_coupling", "1/s", 0.1, 1.0, -1e3, 1e3},
     {"axle_radius", "m", 0.001, 0.0007, 0.0, 0.03},
-    {"gravity", "m/s^2", 0.1, 0.0, -5.0, 5.0},
+    {"gravity", "m/s^2", 0.1, 0.0, -10.0, 10.0},
     {"compliance", "m/N", 1e-3, 3e-3, 0.0, 1.0 / 30.0},
     {"damping", "N s/m", 10.0, 10.0, 0.0, 1e3},
+    {"stick_compliance", "m/N", 1e-3, 3e-3, 0.0, 1.0 / 30.0},
+    {"stick_damping", "N s/m", 1.0, 2.0, 0.0, 1e3},
     {"friction", "1", 0.1, 0.3, 0.0, 0.6},
+    {"spin_gain", "1/m", 1.0, 5.0, 0.0, 100.0},
     {"linear_drag", "1/s", 0.1, 0.3, 0.0, 1.0},
     {"quadratic_drag", "1/m", 0.1, 0.15, 0.0, 0.5},
     {"wind_x", "m/s", 1.0, 3.0, -6.0, 6.0},

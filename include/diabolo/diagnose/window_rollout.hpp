@@ -46,14 +46,16 @@ struct WindowSystem {
 /// duals.)
 template <class D = detail::FitDual>
 WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid, const FitWindow& window,
-                           const detail::FitModel& model, const UnknownVector& at, const CameraNoise& noise) {
+                           const detail::FitModel& model, const UnknownVector& at, const CameraNoise& noise,
+                           Delay delay = Delay::kClock) {
   constexpr int n = kStartUnknowns + kUnknowns;
   const Recording& r = stage.recording;
   WindowSystem system;
   const double usual = detail::usual_pull(r, window);
-  const D stretch = detail::dynamic_spring(at)
-                        ? D(0.0)
-                        : D(detail::unknown(Unknown::kCompliance, at) * model.parameters.mass);
+  const D stretch = detail::dynamic_spring(at) ? D(0.0)
+                                               : D((detail::unknown(Unknown::kCompliance, at) +
+                                                    detail::unknown(Unknown::kStickCompliance, at) * D(2.0)) *
+                                                   model.parameters.mass);
   Parameters<D> parameters = model.parameters;
   parameters.string_length = parameters.string_length + stretch * D(usual);
   const detail::FitPredictor predictor(parameters, model.effects, detail::FitPredictor::AlreadyValid{});
@@ -69,6 +71,10 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
   const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
   const double half = stage.times[window.first] + 0.5;
   bool measured_reach = false;
+  // A low pass leaves the track behind: x - tau v + tau^2 a.
+  const bool filtered = delay == Delay::kFilter;
+  const D lead = detail::unknown(Unknown::kTimeOffset, at);
+  Vector3<D> velocity_before = state.velocity;
   Eigen::VectorXd line(n + 1);
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
@@ -93,6 +99,12 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       const double pull = value_of(squared_norm(state.string_acceleration));
       if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
         centre = centre + detail::string_shift(state, now, stretch, usual);
+      if (filtered) {
+        known = known && row > window.first;  // the acceleration is that of the last step
+        const Vector3<D> acceleration =
+            (state.velocity - velocity_before) / step_of(std::max<Eigen::Index>(row - 1, 0));
+        centre = centre + (state.velocity + acceleration * lead) * lead;
+      }
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = r.diabolo.position(c, row) - centre[c].value - shift[c];
         line.head(n) = centre[c].gradient.matrix();
@@ -133,6 +145,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     spin_before = state.spin;
     for (int s = 0; s < stage.substeps; ++s, ++k) {
       next = tips_at(k + 1);
+      velocity_before = state.velocity;
       predictor.step(state, now, next, step_of(row));
       now = next;
     }

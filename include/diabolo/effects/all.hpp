@@ -6,6 +6,7 @@
 #include "diabolo/effects/gravity_tilt.hpp"
 #include "diabolo/effects/magnus_lift.hpp"
 #include "diabolo/effects/spin_loss.hpp"
+#include "diabolo/effects/stick_flex.hpp"
 #include "diabolo/effects/string_elasticity.hpp"
 #include "diabolo/effects/string_friction.hpp"
 #include "diabolo/predictor.hpp"
@@ -14,13 +15,13 @@ namespace diabolo {
 
 /// Every effect of the library.
 template <class Scalar>
-using AllEffects =
-    EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle>;
+using AllEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt,
+                             FiniteAxle, StickFlex>;
 
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
-using FullPredictor =
-    Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle>;
+using FullPredictor = Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
+                                GravityTilt, FiniteAxle, StickFlex>;
 
 }  // namespace diabolo

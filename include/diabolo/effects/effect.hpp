@@ -18,6 +18,35 @@ struct TipShift {
   Vector3<Scalar> left = Vector3<Scalar>::Constant(Scalar(0)), right = Vector3<Scalar>::Constant(Scalar(0));
 };
 
+/// A spring in series with the string.
+template <class Scalar>
+struct Spring {
+  Scalar compliance{0};    ///< extension of the path length per tension [m/N]
+  Scalar damping_time{0};  ///< damping over stiffness [s]
+};
+
+/// The string as a step sees it.
+template <class Scalar>
+struct StringNow {
+  Scalar length;           ///< in the strands [m]
+  Scalar compliance{0};    ///< extension of the path length per tension/mass [s^2]
+  Scalar damping_time{0};  ///< damping over stiffness [s]
+
+  void add(const Spring<Scalar>& spring, const Scalar& mass) {
+    const Scalar own = spring.compliance * mass, sum = compliance + own;
+    damping_time =
+        (compliance * damping_time + own * spring.damping_time) / maximum(sum, Scalar(tiny<Scalar>()));
+    compliance = sum;
+  }
+};
+
+/// What goes with the string's tension in a step.
+template <class Scalar>
+struct Contact {
+  Vector3<Scalar> impulse = Vector3<Scalar>::Constant(Scalar(0));  ///< change of velocity [m/s]
+  Scalar spin{0};                                                  ///< change of spin [rad/s]
+};
+
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
 /// from this, holds its parameters (amplitude zero by default: then it changes no bit of the result) and
 /// hides neutral() and the hooks that it needs. All hooks are const, allocate nothing and know no time.
@@ -31,19 +60,21 @@ struct NeutralEffect {
   }
   /// Where the string's strands begin, relative to the given tips at the beginning of a step; the same for
   /// its end.
-  TipShift<Scalar> tip_shift(const State<Scalar>&, const Tips<Scalar>&) const { return {}; }
+  TipShift<Scalar> tip_shift(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
+    return {};
+  }
   /// String that is not in the strands [m], at the beginning of a step; `tips` are shifted.
   Scalar bound_length(const State<Scalar>&, const Tips<Scalar>&) const { return Scalar(0); }
   /// Addition to the string's length [m].
   Scalar added_length(const Parameters<Scalar>&) const { return Scalar(0); }
-  /// Extension of the path length per tension [m/N].
-  Scalar compliance() const { return Scalar(0); }
-  /// Damping over stiffness of the path length [s].
-  Scalar damping_time() const { return Scalar(0); }
-  /// Change of velocity [m/s] by what goes with the string's tension, such as friction along the string.
-  Vector3<Scalar> contact_impulse(const State<Scalar>&, const Tips<Scalar>&, const StringStepResult<Scalar>&,
-                                  const Scalar& /*dt*/, const Parameters<Scalar>&) const {
-    return Vector3<Scalar>::Constant(Scalar(0));
+  /// Wherever the diabolo is.
+  Spring<Scalar> spring() const { return {}; }
+  /// Where it is at the beginning of a step; beside spring(), for effects that have a tip_shift().
+  Spring<Scalar> spring_at(const State<Scalar>&, const Tips<Scalar>&) const { return {}; }
+  /// Of what goes with the string's tension, such as friction along the string.
+  Contact<Scalar> contact(const State<Scalar>&, const Tips<Scalar>&, const StringStepResult<Scalar>&,
+                          const Scalar& /*dt*/, const Parameters<Scalar>&) const {
+    return {};
   }
   /// Rate of change of the spin beside the string's [rad/s^2].
   Scalar spin_acceleration(const State<Scalar>&, const Parameters<Scalar>&) const { return Scalar(0); }
@@ -58,8 +89,7 @@ struct EffectSet {
       (!std::is_same_v<decltype(&Effects<Scalar>::tip_shift), decltype(&Neutral::tip_shift)> || ...);
 
   static constexpr bool kTouches =
-      (!std::is_same_v<decltype(&Effects<Scalar>::contact_impulse), decltype(&Neutral::contact_impulse)> ||
-       ...);
+      (!std::is_same_v<decltype(&Effects<Scalar>::contact), decltype(&Neutral::contact)> || ...);
 
   std::tuple<Effects<Scalar>...> members;
 
@@ -82,10 +112,11 @@ struct EffectSet {
     });
     return sum;
   }
-  TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& given) const {
+  TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& given,
+                             const Parameters<Scalar>& parameters) const {
     TipShift<Scalar> sum;
     each([&](const auto& effect) {
-      const TipShift<Scalar> own = effect.tip_shift(state, given);
+      const TipShift<Scalar> own = effect.tip_shift(state, given, parameters);
       sum.left = sum.left + own.left;
       sum.right = sum.right + own.right;
     });
@@ -110,25 +141,30 @@ struct EffectSet {
     each([&](const auto& effect) { sum += effect.added_length(parameters); });
     return sum;
   }
-  Scalar compliance() const {
-    Scalar sum{0};
-    each([&](const auto& effect) { sum += effect.compliance(); });
-    return sum;
+  /// The string with what makes it longer and softer wherever the diabolo is.
+  StringNow<Scalar> string(const Parameters<Scalar>& parameters) const {
+    StringNow<Scalar> string{string_length(parameters)};
+    each([&](const auto& effect) { string.add(effect.spring(), parameters.mass); });
+    return string;
   }
-  Scalar damping_time() const {
-    Scalar sum{0};
-    each([&](const auto& effect) { sum += effect.damping_time(); });
-    return sum;
+  /// The same, and what depends on where it is; `tips` are shifted.
+  StringNow<Scalar> string_at(StringNow<Scalar> string, const State<Scalar>& state, const Tips<Scalar>& tips,
+                              const Parameters<Scalar>& parameters) const {
+    string.length = string.length - bound_length(state, tips);
+    each([&](const auto& effect) { string.add(effect.spring_at(state, tips), parameters.mass); });
+    return string;
   }
-  /// The velocity after all contact impulses.
-  Vector3<Scalar> after_contact(Vector3<Scalar> velocity, const State<Scalar>& state,
-                                const Tips<Scalar>& given, const StringStepResult<Scalar>& result,
-                                const Scalar& dt, const Parameters<Scalar>& parameters) const {
+  /// Adds all contact impulses to velocity and spin.
+  void touch(Vector3<Scalar>& velocity, Scalar& spin, const State<Scalar>& state, const Tips<Scalar>& given,
+             const StringStepResult<Scalar>& result, const Scalar& dt,
+             const Parameters<Scalar>& parameters) const {
     each([&]<class Effect>(const Effect& effect) {
-      if constexpr (!std::is_same_v<decltype(&Effect::contact_impulse), decltype(&Neutral::contact_impulse)>)
-        velocity = velocity + effect.contact_impulse(state, given, result, dt, parameters);
+      if constexpr (!std::is_same_v<decltype(&Effect::contact), decltype(&Neutral::contact)>) {
+        const Contact<Scalar> own = effect.contact(state, given, result, dt, parameters);
+        velocity = velocity + own.impulse;
+        spin += own.spin;
+      }
     });
-    return velocity;
   }
   /// The spin after all torques.
   Scalar after_torques(Scalar spin, const State<Scalar>& state, const Scalar& dt,

@@ -20,7 +20,8 @@ struct FiniteAxle : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(radius); }
 
-  TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips) const {
+  TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips,
+                             const Parameters<Scalar>&) const {
     const StringPath<Scalar> path(state.position, tips);
     const Vector3<Scalar> to_left = path.from_left * Scalar(Scalar(-1) / path.left_length),
                           to_right = path.from_right * Scalar(Scalar(-1) / path.right_length);

@@ -28,8 +28,7 @@ struct StringElasticity : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(compliance_per_newton); }
 
-  Scalar compliance() const { return compliance_per_newton; }
-  Scalar damping_time() const { return damping * compliance_per_newton; }
+  Spring<Scalar> spring() const { return {compliance_per_newton, damping * compliance_per_newton}; }
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>

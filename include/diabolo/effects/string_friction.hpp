@@ -13,19 +13,21 @@ namespace diabolo {
 /// (b = pi - 2 e). The constraint keeps the normal force F; friction adds the tangential part, and takes
 /// energy exactly where the string slips against it. String on a plastic or metal axle: 0.1 to 0.35.
 ///
-/// Its torque on the spin is the model's spin rule, whose coefficient a recording tells separately.
+/// The same difference of tensions turns the axle: dw/dt = spin_gain (T_right - T_left) / m, spin_gain = m r
+/// / I (4 to 9 1/m for the paper's diabolos); zero leaves the spin to the model's spin rule.
 template <class Scalar>
 struct StringFriction : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "string_friction";
   /// Slip over which the sign of friction is smoothed [m/s].
   static constexpr double kSlipScale = 0.02;
   Scalar coefficient{0};  ///< capstan coefficient, >= 0
+  Scalar spin_gain{0};    ///< mass times axle radius over the axial moment of inertia [1/m], >= 0
 
   bool neutral() const { return is_constant_zero(coefficient); }
 
-  Vector3<Scalar> contact_impulse(const State<Scalar>& state, const Tips<Scalar>& tips,
-                                  const StringStepResult<Scalar>& result, const Scalar& dt,
-                                  const Parameters<Scalar>& parameters) const {
+  Contact<Scalar> contact(const State<Scalar>& state, const Tips<Scalar>& tips,
+                          const StringStepResult<Scalar>& result, const Scalar& dt,
+                          const Parameters<Scalar>& parameters) const {
     using std::atan2;
     using std::tanh;
     // Everything at the middle of the step: the strands, the slip and the normal force.
@@ -53,10 +55,12 @@ struct StringFriction : NeutralEffect<Scalar> {
         turn(right, tangent, Vector3<Scalar>(velocity - tips.right_velocity)) / path.right_length;
     const Scalar feedback = tanh(half * lean * steepness * bend / thin);
     const Scalar impulse = select(result.taut, Scalar(largest * lean * (Scalar(1) + feedback)), Scalar(0));
+    // The tensions' difference pulls along the tangent with the sine of e alone.
+    const Scalar difference = impulse * Scalar(2) / maximum(sine, Scalar(0.02));
     // Along the taut string at the end of the step: what points off it would come back as tension.
     const Vector3<Scalar> normal = StringPath<Scalar>(result.position, tips).gradient();
     const Scalar off = dot(normal, tangent) / maximum(squared_norm(normal), Scalar(4e-4));
-    return (tangent - normal * off) * impulse;
+    return {(tangent - normal * off) * impulse, spin_gain * difference};
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -64,6 +68,8 @@ struct StringFriction : NeutralEffect<Scalar> {
   static void for_each(Self& self, Visitor&& visit) {
     visit(ParameterInfo{"coefficient", "1", 0.0, 3.0, "capstan coefficient of string on axle"},
           self.coefficient);
+    visit(ParameterInfo{"spin_gain", "1/m", 0.0, 1e3, "mass times axle radius over axial moment of inertia"},
+          self.spin_gain);
   }
 
  private:

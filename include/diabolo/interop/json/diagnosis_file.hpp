@@ -45,9 +45,14 @@ inline const char* text_of(StringState state) {
 
 /// In which direction a candidate acts.
 inline const char* direction_of(const Candidate& candidate) {
-  switch (candidate.unknowns.front()) {
+  switch (first_of(candidate)) {
     case Unknown::kCompliance:
+    case Unknown::kStickCompliance:
       return "string_normal";
+    case Unknown::kWindX:
+      return "horizontal";
+    case Unknown::kGravity:
+      return candidate.kind == CandidateKind::kPhysics ? "vertical" : "measurement";
     case Unknown::kFriction:
       return "string_tangent";
     case Unknown::kLinearDrag:
@@ -55,6 +60,7 @@ inline const char* direction_of(const Candidate& candidate) {
       return "against_v";
     case Unknown::kLift:
       return "axis_x_v";
+    case Unknown::kSpinCoupling:
     case Unknown::kSpinAir:
     case Unknown::kSpinAxle:
       return "spin";
@@ -81,7 +87,7 @@ inline Json where_of(const Finding& f, const std::vector<WindowFinding>& windows
   return {{"modes", modes}, {"direction", direction_of(*f.candidate)}, {"intervals", intervals}};
 }
 
-inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length) {
+inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length, double given_gravity) {
   const bool physics = f.candidate->kind == CandidateKind::kPhysics, of_spin = is_of_spin(*f.candidate);
   return {{"name", f.candidate->name},
           {"kind", physics ? "physics" : "measurement"},
@@ -89,7 +95,7 @@ inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length)
           {"tied_with", f.tied_with},
           {"p_value", f.p_value},
           {"confidence", f.confidence},
-          {"parameters", parameters_of(f, given_length)},
+          {"parameters", parameters_of(f, given_length, given_gravity)},
           {"where", where_of(f, d.windows)},
           // As a constant acceleration would: x = a t^2 / 2 at half a second, four times that at one.
           {"size",
@@ -101,7 +107,7 @@ inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length)
 
 inline Json ladder_of(const Finding& f) {
   // The unknown that stands out most stands for a candidate of several.
-  Unknown shown_unknown = f.candidate->unknowns.front();
+  Unknown shown_unknown = first_of(*f.candidate);
   double most = -1.0;
   for (const Unknown u : f.candidate->unknowns) {
     const double deviation = f.deviation[index_of(u)];
@@ -110,9 +116,9 @@ inline Json ladder_of(const Finding& f) {
   }
   return {{"name", f.candidate->name},
           {"kind", f.candidate->kind == CandidateKind::kPhysics ? "physics" : "measurement"},
-          {"parameter", info_of(shown_unknown).name},
-          {"estimate", f.estimate[index_of(shown_unknown)]},
-          {"unit", info_of(shown_unknown).unit},
+          {"parameter", f.swapped > 0 ? "frames" : info_of(shown_unknown).name},
+          {"estimate", f.swapped > 0 ? static_cast<double>(f.swapped) : f.estimate[index_of(shown_unknown)]},
+          {"unit", f.swapped > 0 ? "1" : info_of(shown_unknown).unit},
           {"z", f.z},
           {"p_value", f.p_value},
           {"size_m", is_of_spin(*f.candidate) ? Json(nullptr) : Json(f.size)},
@@ -162,7 +168,7 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
   for (const Finding& f : d.findings) {
     ladder.push_back(detail::ladder_of(f));
     if (f.claimed) {
-      effects.push_back(detail::effect_of(f, d, length));
+      effects.push_back(detail::effect_of(f, d, length, d.base_gravity));
       continue;
     }
     if (f.candidate->kind != CandidateKind::kPhysics) continue;

@@ -38,14 +38,18 @@ inline std::pair<double, double> length_of(double a, double b, double da, double
 }
 
 /// The parameters of a finding by their fixed names.
-inline Json parameters_of(const Finding& f, double given_length) {
+inline Json parameters_of(const Finding& f, double given_length, double given_gravity) {
   const auto value = [&](Unknown u) { return f.estimate[index_of(u)]; };
   const auto deviation = [&](Unknown u) { return f.deviation[index_of(u)]; };
   const auto plain = [&](const char* name, Unknown u, const char* unit, double offset = 0.0) {
     return with_deviation(name, offset + value(u), deviation(u), unit);
   };
   using enum Unknown;
-  switch (f.candidate->unknowns.front()) {
+  if (f.swapped > 0) {
+    const double frames = static_cast<double>(f.swapped);
+    return Json::array({parameter("frames", frames, "1", frames, frames)});
+  }
+  switch (first_of(*f.candidate)) {
     case kCompliance: {
       const double c = value(kCompliance), spread = kNormal95 * deviation(kCompliance);
       const auto stiffness = [](double compliance) { return 1.0 / std::max(compliance, 1e-6); };
@@ -53,12 +57,31 @@ inline Json parameters_of(const Finding& f, double given_length) {
           {parameter("stiffness", stiffness(c), "N/m", stiffness(c + spread), stiffness(c - spread)),
            plain("damping", kDamping, "N s/m")});
     }
+    case kStickCompliance: {
+      const double c = value(kStickCompliance), spread = kNormal95 * deviation(kStickCompliance);
+      const auto stiffness = [](double compliance) { return 1.0 / std::max(compliance, 1e-6); };
+      return Json::array(
+          {parameter("stiffness", stiffness(c), "N/m", stiffness(c + spread), stiffness(c - spread)),
+           plain("damping", kStickDamping, "N s/m")});
+    }
     case kFriction:
       return Json::array({plain("coefficient", kFriction, "1")});
     case kLinearDrag:
       return Json::array({plain("rate", kLinearDrag, "1/s")});
     case kQuadraticDrag:
       return Json::array({plain("coefficient", kQuadraticDrag, "1/m")});
+    case kWindX:
+      return Json::array({plain("x", kWindX, "m/s"), plain("y", kWindY, "m/s")});
+    case kSpinCoupling:
+      return Json::array({plain("coefficient", kSpinCoupling, "1/s")});
+    case kGravity: {
+      if (f.candidate->kind == CandidateKind::kPhysics)
+        return Json::array({plain("g", kGravity, "m/s^2", given_gravity)});
+      // In the file's seconds gravity is as much stronger as the square of what the rate is too high by.
+      const double factor = std::sqrt(std::max(1e-6, 1.0 + value(kGravity) / given_gravity));
+      return Json::array(
+          {with_deviation("factor", factor, deviation(kGravity) / (2.0 * factor * given_gravity), "1")});
+    }
     case kLift:
       return Json::array({plain("coefficient", kLift, "1/rad")});
     case kSpinAir:
@@ -77,6 +100,9 @@ inline Json parameters_of(const Finding& f, double given_length) {
     case kLengthScale:
       return Json::array({plain("factor", kLengthScale, "1", 1.0)});
     case kTimeOffset:
+      // A lag is how late the one is; an offset, how early the diabolo is.
+      if (!alternative_to(f.candidate->name).empty())
+        return Json::array({with_deviation("seconds", -value(kTimeOffset), deviation(kTimeOffset), "s")});
       return Json::array({plain("seconds", kTimeOffset, "s")});
     case kMarkerX: {
       const auto [radius, spread] =

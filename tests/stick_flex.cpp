@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/effects/stick_flex.hpp"
+
+#include "effect_scene.hpp"
+
+using namespace effect_scene;
+
+namespace {
+
+Full bending(double compliance, double damping = 0.0) {
+  return full<StickFlex>([&](auto& flex) {
+    flex.compliance = compliance;
+    flex.damping = damping;
+  });
+}
+
+Tips<double> pointing(const Vector& left, const Vector& right) {
+  Tips<double> tips;
+  tips.left = Vector(0.0, 0.3, 1.2);
+  tips.right = Vector(0.0, -0.25, 1.25);
+  tips.left_direction = left.normalized();
+  tips.right_direction = right.normalized();
+  return tips;
+}
+
+/// After a minute with some damping.
+State<double> rested(const Full& model, const Tips<double>& tips) {
+  State<double> state;
+  state.position = Vector(0.0, 0.02, 0.55);
+  Numbers numbers = model.parameters();
+  numbers.dissipation_rate = 2.0;
+  const Full damped(numbers, model.effects());
+  for (int k = 0; k < 20000; ++k) damped.step(state, tips, tips, 1e-3);
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("sticks that do not bend change no bit") {
+  const unsigned seed = 1010;
+  CAPTURE(seed);
+  Full::Set set;
+  set.get<StickFlex>().damping = 3.0;
+  CHECK(differing_steps(set, seed) == 0);
+  set.get<StickFlex>().compliance = 1e-5;
+  CHECK(differing_steps(set, seed) > 1000);
+}
+
+TEST_CASE("sticks of unknown direction are a string of twice their compliance") {
+  const unsigned seed = 1011;
+  CAPTURE(seed);
+  Random random(seed);
+  const Full string =
+      full<StringElasticity>([](auto& elasticity) { elasticity = elasticity.of_stiffness(100.0, 1.5); });
+  const Full sticks = bending(1.0 / 200.0, 3.0);
+  for (int episode = 0; episode < 10; ++episode) {
+    const Scene scene = hanging_scene(random);
+    const auto tips = [&](double time) { return scene.tips.at(time); };
+    CHECK(difference(run(string, scene.start, tips, 1.0, 1000), run(sticks, scene.start, tips, 1.0, 1000)) <
+          1e-9);
+    CHECK(difference(run(Full(Numbers()), scene.start, tips, 1.0, 1000),
+                     run(sticks, scene.start, tips, 1.0, 1000)) > 1e-3);
+  }
+}
+
+TEST_CASE("a diabolo at rest hangs from tips that its weight has bent") {
+  const Tips<double> tips = pointing(Vector(1.0, 0.8, 0.1), Vector(1.0, -0.3, 0.6));
+  const double compliance = 1.0 / 250.0, mass = Numbers().mass;
+  const State<double> state = rested(bending(compliance), tips);
+  CHECK(state.velocity.norm() < 1e-6);
+  // From the statics of bent tips: the pull is the same in both strands and their sum carries the weight.
+  Tips<double> bent = tips;
+  double pull = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector left = (state.position - bent.left).normalized(),
+                 right = (state.position - bent.right).normalized();
+    pull = mass * kStandardGravity / (left + right).norm();
+    const auto square = [](const Vector& v, const Vector& stick) { return Vector(v - stick * stick.dot(v)); };
+    bent.left = tips.left + square(left, tips.left_direction) * (pull * compliance);
+    bent.right = tips.right + square(right, tips.right_direction) * (pull * compliance);
+  }
+  const StringPath<double> path(state.position, bent);
+  // Strands meet the bend to its first order.
+  const double bend = pull * compliance;
+  CHECK(path.length() == Approx(Numbers().string_length).margin(1.5 * bend * bend / path.left_length));
+  const Vector sum = path.gradient() * pull;
+  CHECK((sum + Vector(0.0, 0.0, mass * kStandardGravity)).norm() <
+        mass * kStandardGravity * 2.0 * bend * bend / (path.left_length * path.left_length));
+  CHECK((state.position - rested(Full(Numbers()), tips).position).norm() > 0.5 * bend);
+}
+
+TEST_CASE("sticks in line with their strands do not give") {
+  // The strands of a diabolo at rest, found without bending.
+  Tips<double> tips = pointing(Vector::UnitX(), Vector::UnitX());
+  const State<double> rigid = rested(Full(Numbers()), tips);
+  tips.left_direction = (tips.left - rigid.position).normalized();
+  tips.right_direction = (tips.right - rigid.position).normalized();
+  CHECK((rested(bending(1.0 / 100.0), tips).position - rigid.position).norm() < 1e-6);
+}
+
+TEST_CASE("sticks that bend keep the energy of a swing, and lose it by their damping alone") {
+  const Tips<double> tips = pointing(Vector(1.0, 0.0, 0.0), Vector(1.0, 0.0, 0.0));
+  const double compliance = 1.0 / 200.0;
+  const auto energy = [&](const State<double>& state) {
+    const double stretch = StringPath<double>(state.position, tips).length() - Numbers().string_length;
+    const double elastic = 0.5 * stretch * stretch / (2.0 * compliance) / Numbers().mass;
+    return 0.5 * state.velocity.squaredNorm() + kStandardGravity * state.position.z() + elastic;
+  };
+  const auto lost = [&](double damping) {
+    const Full model = bending(compliance, damping);
+    State<double> state;
+    state.position = Vector(0.0, 0.2, 0.55);
+    state.string_state = StringState::kOnString;
+    for (int k = 0; k < 4000; ++k) model.step(state, tips, tips, 2.5e-4);
+    const double before = energy(state);
+    for (int k = 0; k < 4000; ++k) model.step(state, tips, tips, 2.5e-4);
+    return before - energy(state);
+  };
+  CHECK(std::abs(lost(0.0)) < 1e-3);
+  CHECK(lost(2.0) > 1e-3);
+}
+
+TEST_CASE("mirrored with their sticks, bending tips act as before") {
+  const Full model = bending(1.0 / 150.0, 1.0);
+  const Vector flip(1.0, -1.0, 1.0);
+  const Tips<double> tips = pointing(Vector(1.0, 0.8, 0.1), Vector(1.0, -0.3, 0.6));
+  Tips<double> mirror;
+  mirror.left = tips.right.cwiseProduct(flip);
+  mirror.right = tips.left.cwiseProduct(flip);
+  mirror.left_direction = tips.right_direction.cwiseProduct(flip);
+  mirror.right_direction = tips.left_direction.cwiseProduct(flip);
+  State<double> a;
+  a.position = Vector(0.05, 0.1, 0.55);
+  a.velocity = Vector(0.3, 0.2, 0.0);
+  State<double> b = a;
+  b.position = a.position.cwiseProduct(flip);
+  b.velocity = a.velocity.cwiseProduct(flip);
+  for (int k = 0; k < 2000; ++k) {
+    model.step(a, tips, tips, 1e-3);
+    model.step(b, mirror, mirror, 1e-3);
+  }
+  CHECK((a.position.cwiseProduct(flip) - b.position).norm() < 1e-9);
+  CHECK(a.position.allFinite());
+}
