@@ -75,19 +75,15 @@ def by_name(verdicts: list[Verdict]) -> list[dict[str, Any]]:
         there = [v for v in verdicts if name in (v.physics if is_physics else v.faults) and not v.outside]
         sizes = [(v, (v.snr if is_physics else v.fault_z).get(name)) for v in there]
         clear = [v for v, z in sizes if (name in v.owed if is_physics else z is not None and z >= SURE)]
-
-        def found(verdict: Verdict, name: str = name, is_physics: bool = is_physics) -> bool:
-            return verdict.is_in_answer(name) if is_physics else name in verdict.claimed_faults
-
         false = [v for v in verdicts if name in (v.false_physics if is_physics else v.false_faults)]
         inside = [i.covers for v in there for i in v.intervals if i.name == name]
         rows.append(
             {
                 "name": name,
                 "cases": len(there),
-                "found": sum(map(found, there)),
+                "found": sum(v.is_in_answer(name) for v in there),
                 "clear": len(clear),
-                "clear_found": sum(map(found, clear)),
+                "clear_found": sum(v.is_in_answer(name) for v in clear),
                 "false": len(false),
                 "intervals": len(inside),
                 "covered": sum(inside),
@@ -117,7 +113,7 @@ def faults_of(verdict: Verdict) -> list[str]:
         said.append("no tie of " + " and ".join(verdict.tie))
     for name in verdict.faults:
         z = verdict.fault_z.get(name)
-        if name not in verdict.claimed_faults and (z is None or z >= SURE):
+        if not verdict.is_in_answer(name) and (z is None or z >= SURE):
             said.append(f"missed fault {name} ({'z not known' if z is None else f'z {z:.0f}'})")
     if verdict.bad and verdict.headline != "INSUFFICIENT_DATA":
         said.append(f"bad data not refused ({verdict.bad})")

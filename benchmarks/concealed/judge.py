@@ -72,16 +72,18 @@ class Verdict:
 
     @property
     def false_physics(self) -> list[str]:
-        """Claims of what is not at work, nor what the data cannot tell from what is."""
-        return [name for name in self.claimed if name not in self.physics and name not in self.tie]
+        """Claims of what is not at work, nor tied with what is."""
+        at_work = {*self.physics, *self.tie}
+        return [name for name in self.claimed if not at_work & {name, *self.tied[name]}]
 
     @property
     def false_faults(self) -> list[str]:
-        return [name for name in self.claimed_faults if name not in self.faults]
+        at_work = set(self.faults)
+        return [name for name in self.claimed_faults if not at_work & {name, *self.tied[name]}]
 
     def is_in_answer(self, name: str) -> bool:
-        """Whether a name is claimed, or tied with what is."""
-        return name in self.claimed or any(name in self.tied[claim] for claim in self.claimed)
+        """Whether a name, of physics or of a fault, is claimed, or tied with what is."""
+        return any(name in (claim, *self.tied[claim]) for claim in (*self.claimed, *self.claimed_faults))
 
     @property
     def top_is_right(self) -> bool:

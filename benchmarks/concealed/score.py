@@ -108,7 +108,7 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
         rate("false faults on nulls", (bool(v.false_faults) for v in _of(verdicts, "null"))),
         rate("more faults than there are", (bool(v.false_faults) for v in _of(verdicts, "faults"))),
         rate("false faults beside physics", (bool(v.false_faults) for v in _of(verdicts, *WITH_PHYSICS))),
-        rate("faults named, z >= 10", (f in v.claimed_faults for v, f in strong_faults)),
+        rate("faults named, z >= 10", (v.is_in_answer(f) for v, f in strong_faults)),
         rate("90 % intervals that cover, faults", (i.covers for i in measured if i.name not in PHYSICS)),
         rate("bad data refused", (v.headline == "INSUFFICIENT_DATA" for v in _of(verdicts, "bad"))),
         rate("answers that are errors", (v.headline == "ERROR" for v in verdicts)),
