@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Diagnoses recordings of the plant in which one effect at most is at work, and prints what was found.
 
-Not the sealed proof: the effects and their sizes stand below, and the tool was developed with them in sight. The
-plant's ideal form has an axle of finite radius and nothing else beyond the consistent model.
+Not the sealed proof: the effects and their sizes stand below, and the tool was developed with them in sight.
+The plant's ideal form has an axle of finite radius and nothing else beyond the consistent model.
 
     make test-plant && .venv/bin/python benchmarks/diagnosis/single_effects.py
 """

@@ -32,6 +32,10 @@ const char* doc_of(const StickFlex<double>&) {
   return R"(Sticks that bend: each tip gives by compliance times the string's pull, square to its stick.)";
 }
 
+const char* doc_of(const StringMass<double>&) {
+  return R"(A string that weighs something: while it is loose, half of it hangs on the diabolo.)";
+}
+
 const char* doc_of(const Air<double>&) {
   return R"(Air that holds the diabolo back: a = -(linear_drag + quadratic_drag |u|) u, u = v - wind.)";
 }

@@ -26,8 +26,8 @@ struct Candidate {
 };
 
 /// Physics is claimed only where it moves the diabolo by so much within half a second, in the most affected
-/// tenth of the windows [m]; the spin by this share within a second.
-inline constexpr double kSmallestReach = 1e-3, kSmallestSpinShare = 0.05;
+/// tenth of the windows [m]; the spin by this share within this time [s].
+inline constexpr double kSmallestReach = 1e-3, kSmallestSpinShare = 0.05, kSpinTime = 10.0;
 
 inline const std::vector<Candidate>& candidates() {
   using enum Unknown;
@@ -40,6 +40,7 @@ inline const std::vector<Candidate>& candidates() {
       {"air_drag_quadratic", "the drag of the air", kPhysics, {kQuadraticDrag}, 0.0, true},
       {"wind", "wind", kPhysics, {kWindX, kWindY}, 0.0, false},
       {"magnus_lift", "the lift of the spinning diabolo (Magnus)", kPhysics, {kLift}, 0.0, false},
+      {"string_mass", "the weight of the loose string", kPhysics, {kStringMass}, 0.0, true},
       {"spin_drag", "the air that slows the spin", kPhysics, {kSpinAir}, 0.0, true},
       {"axle_drag", "a bearing that slows the spin", kPhysics, {kSpinAxle}, 0.0, true},
       {"spin_coupling", "the string's drive of the spin", kPhysics, {kSpinCoupling}, 0.0, true},
@@ -146,7 +147,7 @@ inline bool is_of_spin(const Candidate& candidate) {
 }
 
 /// How far unknowns like these move the diabolo within half a second in the most affected tenth of the
-/// windows [m]; of spin effects the share of the spin that goes within a second.
+/// windows [m]; of spin effects the share of the spin that goes within kSpinTime.
 inline double size_of(const Candidate& candidate, const UnknownVector& at,
                       const std::vector<WindowSystem>& systems) {
   std::vector<double> sizes;
@@ -156,7 +157,7 @@ inline double size_of(const Candidate& candidate, const UnknownVector& at,
     for (const Unknown u : candidate.unknowns) {
       const double amplitude = std::abs(at[index_of(u)] / info_of(u).scale);
       size += is_of_spin(candidate)
-                  ? 2.0 * amplitude * system.spin_reach[index_of(u)] / std::max(10.0, system.spin)
+                  ? 2.0 * kSpinTime * amplitude * system.spin_reach[index_of(u)] / std::max(10.0, system.spin)
                   : amplitude * system.reach[index_of(u)];
     }
     sizes.push_back(size);

@@ -36,6 +36,7 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   air.wind_x += x(Unknown::kWindX);
   air.wind_y += x(Unknown::kWindY);
   model.effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
+  model.effects.get<StringMass>().linear_density += std::max(0.0, x(Unknown::kStringMass));
   auto& loss = model.effects.get<SpinLoss>();
   loss.air += std::max(0.0, x(Unknown::kSpinAir));
   loss.axle += std::max(0.0, x(Unknown::kSpinAxle));

@@ -49,7 +49,7 @@ inline bool dynamic_spring(const UnknownVector& at) {
 }
 
 using FitPredictor = Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                               GravityTilt, FiniteAxle, StickFlex, LatentForce>;
+                               GravityTilt, FiniteAxle, StickFlex, StringMass, LatentForce>;
 
 /// The base with everything that may be missing, which carries its derivatives.
 struct FitModel {
@@ -94,6 +94,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   air.wind_x += x(Unknown::kWindX);
   air.wind_y += x(Unknown::kWindY);
   effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
+  effects.get<StringMass>().linear_density += x(Unknown::kStringMass);
   auto& loss = effects.get<SpinLoss>();
   loss.air += x(Unknown::kSpinAir);
   loss.axle += x(Unknown::kSpinAxle);

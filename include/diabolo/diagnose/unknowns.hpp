@@ -39,9 +39,10 @@ enum class Unknown : int {
   kQuadraticDrag,    ///< [1/m]
   kWindX,            ///< [m/s]; counts where there is drag
   kWindY,
-  kLift,      ///< Magnus [1/rad]
-  kSpinAir,   ///< [1/rad]
-  kSpinAxle,  ///< [rad/s^2]
+  kLift,        ///< Magnus [1/rad]
+  kStringMass,  ///< per length [kg/m]
+  kSpinAir,     ///< [1/rad]
+  kSpinAxle,    ///< [rad/s^2]
   // Latent accelerations: what is left, wherever it comes from [m/s^2], [rad/s^2].
   kStringTangent,
   kStringBinormal,
@@ -106,6 +107,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"wind_x", "m/s", 1.0, 3.0, -6.0, 6.0},
     {"wind_y", "m/s", 1.0, 3.0, -6.0, 6.0},
     {"lift", "1/rad", 1e-3, 5e-3, -0.02, 0.02},
+    {"string_mass", "kg/m", 1e-3, 3e-3, 0.0, 0.1},
     {"spin_air", "1/rad", 1e-3, 5e-3, 0.0, 0.02},
     {"spin_axle", "rad/s^2", 1.0, 20.0, 0.0, 60.0},
     {"string_tangent", "m/s^2", 0.1, 0.0, -10.0, 10.0},

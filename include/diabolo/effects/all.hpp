@@ -9,6 +9,7 @@
 #include "diabolo/effects/stick_flex.hpp"
 #include "diabolo/effects/string_elasticity.hpp"
 #include "diabolo/effects/string_friction.hpp"
+#include "diabolo/effects/string_mass.hpp"
 #include "diabolo/predictor.hpp"
 
 namespace diabolo {
@@ -16,12 +17,12 @@ namespace diabolo {
 /// Every effect of the library.
 template <class Scalar>
 using AllEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt,
-                             FiniteAxle, StickFlex>;
+                             FiniteAxle, StickFlex, StringMass>;
 
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
 using FullPredictor = Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                                GravityTilt, FiniteAxle, StickFlex>;
+                                GravityTilt, FiniteAxle, StickFlex, StringMass>;
 
 }  // namespace diabolo

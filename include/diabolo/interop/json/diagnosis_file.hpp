@@ -51,6 +51,8 @@ inline const char* direction_of(const Candidate& candidate) {
       return "string_normal";
     case Unknown::kWindX:
       return "horizontal";
+    case Unknown::kStringMass:
+      return "vertical";
     case Unknown::kGravity:
       return candidate.kind == CandidateKind::kPhysics ? "vertical" : "measurement";
     case Unknown::kFriction:
@@ -102,7 +104,7 @@ inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length,
            {{"acceleration_mps2", of_spin ? Json(nullptr) : Json(8.0 * f.size)},
             {"position_1s_m", of_spin ? Json(nullptr) : Json(4.0 * f.size)},
             {"position_05s_m", of_spin ? Json(nullptr) : Json(f.size)},
-            {"spin_share_1s", of_spin ? Json(f.size) : Json(nullptr)}}}};
+            {"spin_share_1s", of_spin ? Json(f.size / kSpinTime) : Json(nullptr)}}}};
 }
 
 inline Json ladder_of(const Finding& f) {

@@ -84,6 +84,8 @@ inline Json parameters_of(const Finding& f, double given_length, double given_gr
     }
     case kLift:
       return Json::array({plain("coefficient", kLift, "1/rad")});
+    case kStringMass:
+      return Json::array({plain("linear_density", kStringMass, "kg/m")});
     case kSpinAir:
       return Json::array({plain("coefficient", kSpinAir, "1/rad")});
     case kSpinAxle:
