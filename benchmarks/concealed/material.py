@@ -10,13 +10,13 @@ import numpy as np
 from .answer import Answer
 
 SMALLEST_REACH = 1e-3  # after half a second, in the most affected tenth of the windows [m]
-SMALLEST_SPIN_SHARE = 0.05  # lost within a second
+SMALLEST_SPIN_SHARE, SPIN_TIME = 0.05, 10.0  # lost within so long, at the rate of the moment [s]
 MARGIN = 1.25  # beyond the floor, since sizes are only estimated
 OF_SPIN = ("spin_drag", "axle_drag")
 
 
 def spin_share(key: dict[str, Any], name: str) -> float:
-    """Share of the spin that an effect takes within a second, in the most affected tenth of the recording."""
+    """Share of the spin that an effect takes, in the most affected tenth of the recording."""
     scenario = key["scenario"]
     times = np.linspace(0.0, scenario["duration"], 200)
     start = abs(scenario["start"]["spin"])
@@ -26,7 +26,7 @@ def spin_share(key: dict[str, Any], name: str) -> float:
     else:
         rate = key["parameters"][name]["rate"]
         shares = rate / np.maximum(10.0, start - rate * times)
-    return float(np.quantile(shares, 0.9))
+    return SPIN_TIME * float(np.quantile(shares, 0.9))
 
 
 def is_material(key: dict[str, Any], oracle: Answer | None, name: str) -> bool | None:

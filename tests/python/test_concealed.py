@@ -370,7 +370,7 @@ def test_what_is_below_its_floor_is_not_owed(keys: list[dict[str, Any]]) -> None
     assert judge.judge(key, kept(result([])), faint).owed == []
     spin = next(key for key in keys if key["names"] == ["axle_drag"])
     assert judge.judge(spin, kept(result([])), kept(right(spin))).owed == ["axle_drag"]
-    slight = {**spin, "parameters": {"axle_drag": {"rate": 1.0}}}
+    slight = {**spin, "parameters": {"axle_drag": {"rate": 0.1}}}
     assert judge.judge(slight, kept(result([])), kept(right(spin))).owed == []
 
 
