@@ -48,6 +48,17 @@ class TipMotion {
     if (interpolation_ == Interpolation::kSpline) solve_spline();
   }
 
+  /// Gives the sticks' directions at the instants, unit vectors; straight in between. Throws
+  /// std::invalid_argument where there are not as many as instants.
+  void point_along(const std::vector<Vector3<Scalar>>& left, const std::vector<Vector3<Scalar>>& right) {
+    if (left.size() != times_.size() || right.size() != times_.size())
+      throw std::invalid_argument("tip motion: " + std::to_string(times_.size()) + " instants, " +
+                                  std::to_string(left.size()) + " left and " + std::to_string(right.size()) +
+                                  " right directions; must be equal");
+    directions_.resize(times_.size());
+    for (std::size_t i = 0; i < times_.size(); ++i) directions_[i] << left[i], right[i];
+  }
+
   double begin() const { return times_.front(); }  ///< [s]
   double end() const { return times_.back(); }     ///< [s]
   std::size_t size() const { return times_.size(); }
@@ -87,7 +98,13 @@ class TipMotion {
     Tips<Scalar> tips;
     tips.left = knots_[i].value.template head<3>();
     tips.right = knots_[i].value.template tail<3>();
+    if (!directions_.empty()) point(tips, directions_[i]);
     return tips;
+  }
+
+  static void point(Tips<Scalar>& tips, const Vector6& directions) {
+    tips.left_direction = directions.template head<3>();
+    tips.right_direction = directions.template tail<3>();
   }
 
   Tips<Scalar> between(std::size_t i, double time) const {
@@ -107,6 +124,7 @@ class TipMotion {
     tips.right = value.template tail<3>();
     tips.left_velocity = rate.template head<3>();
     tips.right_velocity = rate.template tail<3>();
+    if (!directions_.empty()) point(tips, directions_[i] * Scalar(u) + directions_[i + 1] * Scalar(v));
     return tips;
   }
 
@@ -148,6 +166,7 @@ class TipMotion {
   Interpolation interpolation_;
   std::vector<double> times_;
   std::vector<Knot> knots_;
+  std::vector<Vector6> directions_;  ///< of the sticks, left over right; empty where not given
 };
 
 }  // namespace diabolo

@@ -9,39 +9,66 @@
 
 namespace diabolo {
 
-/// Another explanation of a fault, which takes the place of the first in a fit of its own.
+/// Another explanation, which takes the place of the first in a fit of its own.
 struct Alternative {
   std::string_view name;
   Delay delay;
   ActiveSet set;
+  UnknownVector at;  ///< to begin with
 };
 
-/// The explanations that are as good as the best one, which `fit`, `bank` and `set` are moved to.
+/// What took a claim's place, or kept it, and what does as well.
 struct Exchange {
   std::string_view name;               ///< of the best
   std::vector<std::string> tied_with;  ///< others that do as well
 };
 
-/// Refits with each alternative to a claimed fault and keeps the best. A pure delay, a low pass and a lagging
-/// servo differ in the second order of the delay only; a wrong rate of the frames looks like a wrong scale on
-/// a string of another length. `draft` holds what is claimed before.
+/// `fit` with one unknown's part taken by another.
+inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_view from, std::string_view to,
+                             double share) {
+  const Candidate &old = candidate_of(from), &young = candidate_of(to);
+  Alternative result{to, fit.delay, with(with(set, old, false), young), fit.at};
+  result.at[index_of(first_of(young))] =
+      std::min(info_of(first_of(young)).maximum, share * fit.at[index_of(first_of(old))]);
+  return result;
+}
+
+/// What else may explain what is claimed under this name. A pure delay, a low pass and a lagging servo differ
+/// in the second order of the delay only; a wrong rate of the frames looks like a wrong scale on a string of
+/// another length; the give of string and sticks by the sticks' directions; the laws of drag by the speeds.
+inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit& fit, const ActiveSet& set) {
+  constexpr double kUsualSpeed = 2.0;  // [m/s]
+  std::vector<Alternative> others;
+  const auto absent = [&](std::string_view other) { return !is_in(set, candidate_of(other)); };
+  if (name == "time_offset" && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
+    others.push_back({"filter_lag", Delay::kFilter, set, fit.at});
+    others.push_back({"robot_servo_lag", Delay::kServo, set, fit.at});
+  } else if (name == "length_scale" && !set[index_of(Unknown::kGravity)]) {
+    ActiveSet rate = set;
+    rate[index_of(Unknown::kLengthScale)] = false;
+    rate[index_of(Unknown::kGravity)] = true;
+    others.push_back({"frame_rate", fit.delay, rate, fit.at});
+  } else if (name == "string_elasticity" && absent("stick_flex")) {
+    others.push_back(exchanged(fit, set, name, "stick_flex", 0.5));
+  } else if (name == "stick_flex" && absent("string_elasticity")) {
+    others.push_back(exchanged(fit, set, name, "string_elasticity", 2.0));
+  } else if (name == "air_drag_linear" && absent("air_drag_quadratic")) {
+    others.push_back(exchanged(fit, set, name, "air_drag_quadratic", 1.0 / kUsualSpeed));
+  } else if (name == "air_drag_quadratic" && absent("air_drag_linear")) {
+    others.push_back(exchanged(fit, set, name, "air_drag_linear", kUsualSpeed));
+  }
+  return others;
+}
+
+/// Refits with each alternative to a claim and keeps the best. `draft` holds what is claimed before; `fit`,
+/// `bank` and `set` are moved to what is best.
 template <class D = detail::FitDual>
-std::vector<Exchange> exchange_faults(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
+std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
                                       const Model& base, int threads, const Watch& watch) {
   std::vector<Exchange> result;
   for (const Finding& finding : draft.findings) {
     if (!finding.claimed) continue;
-    std::vector<Alternative> others;
-    if (finding.candidate->name == "time_offset" && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
-      others.push_back({"filter_lag", Delay::kFilter, set});
-      others.push_back({"robot_servo_lag", Delay::kServo, set});
-    }
-    if (finding.candidate->name == "length_scale" && !set[index_of(Unknown::kGravity)]) {
-      ActiveSet rate = set;
-      rate[index_of(Unknown::kLengthScale)] = false;
-      rate[index_of(Unknown::kGravity)] = true;
-      others.push_back({"frame_rate", fit.delay, rate});
-    }
+    const std::vector<Alternative> others = alternatives_to(finding.candidate->name, fit, set);
     if (others.empty()) continue;
     Fit same = fit;
     same.noise_is_known = true;
@@ -51,9 +78,14 @@ std::vector<Exchange> exchange_faults(Fit& fit, Bank& bank, ActiveSet& set, cons
     Fit best = same;
     ActiveSet best_set = set;
     for (const Alternative& other : others) {
+      const bool known = std::ranges::any_of(bank, [&](const Candidate* c) {
+        return c->name == other.name || c->name == alternative_to(other.name);
+      });
+      if (!known) continue;
       Fit trial = fit;
       trial.noise_is_known = true;
       trial.delay = other.delay;
+      trial.at = other.at;
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
       refine<D>(trial, base, other.set, 6, threads, watch);
@@ -65,8 +97,9 @@ std::vector<Exchange> exchange_faults(Fit& fit, Bank& bank, ActiveSet& set, cons
     for (const auto& [cost, name] : costs)
       if (name != exchange.name && cost - costs.front().first < 9.0 * dispersion)
         exchange.tied_with.emplace_back(name);
-    std::ranges::replace_if(
-        bank, [&](const Candidate* c) { return c == finding.candidate; }, &candidate_of(exchange.name));
+    if (!alternative_to(exchange.name).empty())
+      std::ranges::replace_if(
+          bank, [&](const Candidate* c) { return c == finding.candidate; }, &candidate_of(exchange.name));
     fit = std::move(best);
     fit.noise_is_known = false;
     set = best_set;

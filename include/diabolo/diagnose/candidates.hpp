@@ -93,7 +93,7 @@ inline const Candidate& candidate_of(std::string_view name) {
   return *std::ranges::find(candidates(), name, &Candidate::name);
 }
 
-/// The fault that this one is looked for in place of (see exchange_faults()); empty for most.
+/// The fault that this one is looked for in place of (see exchange_claims()); empty for most.
 inline std::string_view alternative_to(std::string_view name) {
   if (name == "filter_lag" || name == "robot_servo_lag") return "time_offset";
   return name == "frame_rate" ? "length_scale" : "";
@@ -101,7 +101,7 @@ inline std::string_view alternative_to(std::string_view name) {
 
 /// All of them, or those of some names, as far as they can be missing in a base: a base that has a spin
 /// coupling leaves it to be fitted, and one with the Earth's gravity has it right. What is an alternative to
-/// another fault comes in by exchange_faults(). Throws std::invalid_argument about a name that is none.
+/// another fault comes in by exchange_claims(). Throws std::invalid_argument about a name that is none.
 inline Bank bank_for(const Parameters<double>& base, const std::vector<std::string>& names) {
   Bank bank;
   const auto wanted = [&](const Candidate& candidate) {

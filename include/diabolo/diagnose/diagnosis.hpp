@@ -119,10 +119,16 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   const Fit start = fit;
   refine<D>(fit, physics, set, 8, options.threads, step("fitting everything", 0.15));
   // A soft string rings: from a stiff one the way there is long, so that it is tried from the other end, too.
-  if (std::abs(significance(candidates().front(), standing(Evidence(fit), set))) > 2.0) {
+  const Standing all = standing(Evidence(fit), set);
+  for (const Unknown u : {Unknown::kCompliance, Unknown::kStickCompliance}) {
+    const double deviation = all.deviation(index_of(u));
+    const double give =
+        fit.at[index_of(Unknown::kCompliance)] + 2.0 * fit.at[index_of(Unknown::kStickCompliance)];
+    if (!set[index_of(u)] || give > 1e-3 || !(std::abs(all.estimate[index_of(u)]) > 2.0 * deviation))
+      continue;
     Fit soft = start;
-    soft.at[index_of(Unknown::kCompliance)] = 1e-3;
-    refine<D>(soft, physics, set, 8, options.threads, step("fitting everything, on a soft string", 0.35));
+    soft.at[index_of(u)] = 1e-3;
+    refine<D>(soft, physics, set, 8, options.threads, step("fitting everything, with a soft string", 0.35));
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   const Candidate& friction = candidate_of("string_friction");
@@ -140,8 +146,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   }
   Diagnosis draft = result;
   find(draft, fit, Evidence(fit), bank, set);
-  const std::vector<Exchange> exchanged =
-      exchange_faults<D>(fit, bank, set, draft, physics, options.threads, step("trying other faults", 0.8));
+  const std::vector<Exchange> exchanged = exchange_claims<D>(fit, bank, set, draft, physics, options.threads,
+                                                             step("trying other explanations", 0.8));
   const Evidence evidence(fit);
   result.at = fit.at;
   result.model = augmented_model(physics, fit.at, "diagnosed");

@@ -13,6 +13,7 @@
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/recording/spin.hpp"
 #include "diabolo/recording/start_state.hpp"
+#include "diabolo/recording/stick_frames.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/recording/windows.hpp"
 
@@ -149,25 +150,6 @@ inline Stage make_stage(const Recording& given) {
   return stage;
 }
 
-/// Stick frames in each row, held over dropouts; the world's where none were recorded.
-inline std::vector<Eigen::Matrix3d> stick_frames(const OrientationTrack& track, Eigen::Index size) {
-  std::vector<Eigen::Matrix3d> frames(static_cast<std::size_t>(size), Eigen::Matrix3d::Identity());
-  if (track.empty()) return frames;
-  Eigen::Index seen = -1;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    if (track.valid[i]) {
-      const Eigen::Matrix3d frame =
-          Eigen::Quaterniond(Eigen::Vector4d(track.quaternion.col(i))).toRotationMatrix();
-      if (seen < 0) std::fill_n(frames.begin(), i, frame);
-      frames[static_cast<std::size_t>(i)] = frame;
-      seen = i;
-    } else if (seen >= 0) {
-      frames[static_cast<std::size_t>(i)] = frames[static_cast<std::size_t>(seen)];
-    }
-  }
-  return frames;
-}
-
 /// Tips at each substep from row 0 on, read at the recorded time plus the time offset, less the tip offsets.
 /// As kServo the offset's negative is the time constant of a lag: c - tau c' + tau^2 c''.
 inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector& at,
@@ -204,8 +186,6 @@ inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(next);
       out.left_frame = left[a] * (1.0 - fraction) + left[b] * fraction;
       out.right_frame = right[a] * (1.0 - fraction) + right[b] * fraction;
-      if (!stage.recording.left_orientation.empty()) out.tips.left_direction = out.left_frame.col(0);
-      if (!stage.recording.right_orientation.empty()) out.tips.right_direction = out.right_frame.col(0);
       out.left_frame_rate = (left[b] - left[a]) / gap;
       out.right_frame_rate = (right[b] - right[a]) / gap;
       out.tips.left -= out.left_frame * left_offset;

@@ -14,6 +14,7 @@
 #include "diabolo/recording/evaluation_step.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/recording/resample.hpp"
+#include "diabolo/recording/stick_frames.hpp"
 #include "diabolo/recording/text.hpp"
 #include "diabolo/sticks.hpp"
 
@@ -85,6 +86,10 @@ class RecordedTips {
   /// Throws RecordingError where the tips are never seen at the same time.
   RecordedTips(const Recording& recording, Interpolation interpolation)
       : interpolation_(interpolation), times_(row_times(recording)) {
+    for (const auto& [track, sticks] : {std::pair{&recording.left_orientation, &left_sticks_},
+                                        std::pair{&recording.right_orientation, &right_sticks_}})
+      for (const Eigen::Matrix3d& frame : stick_frames(*track, recording.size()))
+        sticks->emplace_back(track->empty() ? Vector3<double>::Zero() : Vector3<double>(frame.col(0)));
     left_ = fill_gaps(recording.left, tip_span(recording.left, recording, "left"), times_, interpolation);
     right_ = fill_gaps(recording.right, tip_span(recording.right, recording, "right"), times_, interpolation);
     if (!(left_.valid && right_.valid).any())
@@ -108,19 +113,24 @@ class RecordedTips {
   TipMotion<double> through(Eigen::Index first, Eigen::Index last) const {
     const double delay = interpolation_ == Interpolation::kHeld ? kHeldDelay : 0.0;
     std::vector<double> instants;
-    std::vector<Vector3<double>> left, right;
+    std::vector<Vector3<double>> left, right, left_sticks, right_sticks;
     for (Eigen::Index i = first; i <= last; ++i) {
       if (!left_.valid[i] || !right_.valid[i]) continue;
+      left_sticks.push_back(left_sticks_[static_cast<std::size_t>(i)]);
+      right_sticks.push_back(right_sticks_[static_cast<std::size_t>(i)]);
       instants.push_back(times_[i] + delay);
       left.emplace_back(left_.position.col(i));
       right.emplace_back(right_.position.col(i));
     }
-    return TipMotion<double>(std::move(instants), left, right, interpolation_);
+    TipMotion<double> motion(std::move(instants), left, right, interpolation_);
+    motion.point_along(left_sticks, right_sticks);
+    return motion;
   }
 
   Interpolation interpolation_;
   Eigen::VectorXd times_;
-  Track left_, right_;  ///< gaps filled
+  Track left_, right_;                                       ///< gaps filled
+  std::vector<Vector3<double>> left_sticks_, right_sticks_;  ///< directions; zero where not recorded
   std::shared_ptr<const TipMotion<double>> whole_;
 };
 
