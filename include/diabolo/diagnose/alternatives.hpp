@@ -35,7 +35,8 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
 
 /// What else may explain what is claimed under this name. A pure delay, a low pass and a lagging servo differ
 /// in the second order of the delay only; a wrong rate of the frames looks like a wrong scale on a string of
-/// another length; the give of string and sticks by the sticks' directions; the laws of drag by the speeds.
+/// another length; wind in a drag like a tilt; the give of string and sticks by the sticks' directions; the laws of
+/// drag by the speeds; friction slows the spin as a bearing does.
 inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit& fit, const ActiveSet& set) {
   constexpr double kUsualSpeed = 2.0;  // [m/s]
   std::vector<Alternative> others;
@@ -48,6 +49,12 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
     rate[index_of(Unknown::kLengthScale)] = false;
     rate[index_of(Unknown::kGravity)] = true;
     others.push_back({"frame_rate", fit.delay, rate, fit.at});
+  } else if (name == "gravity_tilt" && absent("wind") && !(absent("air_drag_linear") && absent("air_drag_quadratic"))) {
+    Alternative wind{"wind", fit.delay, with(with(set, candidate_of("wind")), candidate_of(name), false), fit.at};
+    others.push_back(wind);
+  } else if ((name == "axle_drag" || name == "spin_drag") && absent("string_friction")) {
+    others.push_back(exchanged(fit, set, name, "string_friction", 0.0));
+    others.back().at[index_of(Unknown::kFriction)] = 0.1;
   } else if (name == "string_elasticity" && absent("stick_flex")) {
     others.push_back(exchanged(fit, set, name, "stick_flex", 0.5));
   } else if (name == "stick_flex" && absent("string_elasticity")) {

@@ -17,6 +17,7 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   Model model = base;
   model.name = name;
   model.parameters.gravity += x(Unknown::kGravity);
+  if (model.own_string_length) model.parameters.string_length += x(Unknown::kStringLength);
   model.parameters.spin_coupling = std::max(0.0, model.parameters.spin_coupling + x(Unknown::kSpinCoupling));
   auto& tilt = model.effects.get<GravityTilt>();
   tilt.x += x(Unknown::kTiltX);

@@ -98,6 +98,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   Diagnosis result;
   result.base = options.base.name;
   result.base_gravity = options.base.parameters.gravity;
+  result.base_string_length = parameters_for(options.base, recordings.front()).string_length;
   step("reading the motion", 0.0);
   Fit fit = detail::prepared(recordings);
   result.reason = detail::insufficient(fit.stages);
@@ -151,7 +152,6 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   const Evidence evidence(fit);
   result.at = fit.at;
   result.model = augmented_model(physics, fit.at, "diagnosed");
-  result.model.own_string_length = false;
   find(result, fit, evidence, bank, set);
   for (const Exchange& exchange : exchanged)
     for (Finding& f : result.findings)

@@ -64,6 +64,7 @@ struct Diagnosis {
   Headline headline = Headline::kNothingMissing;
   std::string base, sentence, reason;
   double base_gravity = kStandardGravity;  ///< [m/s^2]
+  double base_string_length = 0.0;         ///< [m]
   std::vector<Finding> findings;           ///< of every candidate, the surest first
   std::vector<Leftover> leftovers;
   std::vector<WindowFinding> windows;

@@ -32,10 +32,11 @@ struct WindowScore {
   Eigen::MatrixXd start_by_unknowns;                    ///< its change by the unknowns
 };
 
-/// Takes the window's start out of its system.
-inline WindowScore without_start(const WindowSystem& system) {
+/// Takes the window's start out of its system, whitened by the noise.
+inline WindowScore without_start(const WindowSystem& system, const CameraNoise& noise) {
   constexpr int s = kStartUnknowns, n = kUnknowns;
-  const auto& m = system.normal;
+  const WindowMatrix m =
+      system.positions / (noise.position * noise.position) + system.spins / (noise.spin * noise.spin);
   Eigen::Matrix<double, s, s> start = m.topLeftCorner<s, s>();
   for (int i = 0; i < s; ++i) start(i, i) += 1.0 / (kStartPriors[i] * kStartPriors[i]);
   const Eigen::LDLT<Eigen::Matrix<double, s, s>> solver(start);
@@ -82,26 +83,12 @@ inline UnknownVector scales() {
   return result;
 }
 
-/// Predicts all windows at `fit.at`: systems and scores.
-template <class D = detail::FitDual>
-void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
-  std::vector<std::pair<std::size_t, std::size_t>> jobs;
-  std::vector<std::vector<StageTips>> grids;
-  std::vector<detail::FitModel> models;
-  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
-    grids.push_back(stage_tips(fit.stages[s], fit.at, fit.delay));
-    models.push_back(detail::fit_model(base, fit.stages[s].recording, fit.at));
-    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
-  }
-  fit.systems.resize(jobs.size());
-  fit.scores.resize(jobs.size());
-  for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
-    const auto [s, w] = jobs[i];
-    const Stage& stage = fit.stages[s];
-    fit.systems[i] =
-        window_system<D>(stage, grids[s], stage.windows[w], models[s], fit.at, fit.noise[s], fit.delay);
-    fit.scores[i] = without_start(fit.systems[i]);
-  });
+/// Scores of all windows from their systems and the noise, and the cost.
+inline void weigh(Fit& fit) {
+  fit.scores.clear();
+  for (std::size_t s = 0; s < fit.stages.size(); ++s)
+    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w)
+      fit.scores.push_back(without_start(fit.systems[fit.scores.size()], fit.noise[s]));
   std::vector<double> sizes;
   for (const WindowScore& score : fit.scores)
     sizes.push_back(std::sqrt(score.chi_square / std::max(1, score.numbers)));
@@ -118,6 +105,26 @@ void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
   }
   const UnknownVector prior = prior_precision(), scaled = (fit.at - fit.centre).cwiseQuotient(scales());
   fit.cost += scaled.dot(prior.cwiseProduct(scaled));
+}
+
+/// Predicts all windows at `fit.at`: systems and scores.
+template <class D = detail::FitDual>
+void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;
+  std::vector<std::vector<StageTips>> grids;
+  std::vector<detail::FitModel> models;
+  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
+    grids.push_back(stage_tips(fit.stages[s], fit.at, fit.delay));
+    models.push_back(detail::fit_model(base, fit.stages[s].recording, fit.at));
+    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
+  }
+  fit.systems.resize(jobs.size());
+  for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
+    const auto [stage, w] = jobs[i];
+    fit.systems[i] = window_system<D>(fit.stages[stage], grids[stage], fit.stages[stage].windows[w],
+                                      models[stage], fit.at, fit.delay);
+  });
+  weigh(fit);
 }
 
 /// Noise of each recording from what the windows leave, once their starts are fitted.
@@ -218,7 +225,7 @@ void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_itera
     const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
     if (iteration < 3 && !fit.noise_is_known) {
       update_noise(fit);
-      look<D>(fit, base, threads, watch);
+      weigh(fit);
     } else if (settled) {
       return;
     }

@@ -112,22 +112,22 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
 
 /// The tips with their derivatives by time offset and tip offsets.
 inline Tips<FitDual> fit_tips(const StageTips& s) {
-  const auto with = [&](const Vector3<double>& value, const Vector3<double>& by_time,
+  const auto with = [](const Vector3<double>& value, const Vector3<double>& by_time,
                         const Eigen::Matrix3d& by_offset, Unknown first) {
     Vector3<FitDual> result;
     for (int k = 0; k < 3; ++k) {
       result[k] = FitDual(value[k]);
       auto& slope = result[k].gradient;
       slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] =
-          s.delay_slope * by_time[k] * info_of(Unknown::kTimeOffset).scale;
+          by_time[k] * info_of(Unknown::kTimeOffset).scale;
       for (int j = 0; j < 3; ++j)
         slope[kStartUnknowns + index_of(first) + j] = -by_offset(k, j) * info_of(first).scale;
     }
     return result;
   };
   Tips<FitDual> tips;
-  tips.left = with(s.tips.left, s.tips.left_velocity, s.left_frame, Unknown::kLeftX);
-  tips.right = with(s.tips.right, s.tips.right_velocity, s.right_frame, Unknown::kRightX);
+  tips.left = with(s.tips.left, s.left_by_delay, s.left_frame, Unknown::kLeftX);
+  tips.right = with(s.tips.right, s.right_by_delay, s.right_frame, Unknown::kRightX);
   tips.left_direction = s.tips.left_direction.cast<FitDual>();
   tips.right_direction = s.tips.right_direction.cast<FitDual>();
   tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_frame_rate, Unknown::kLeftX);

@@ -29,7 +29,7 @@ struct FitWindow {
 struct StageTips {
   Tips<double> tips;
   Vector3<double> left_acceleration, right_acceleration;  ///< [m/s^2]
-  double delay_slope = 1.0;                               ///< whether the time offset moves the tips
+  Vector3<double> left_by_delay, right_by_delay;          ///< derivatives by the time offset [m/s]
   Eigen::Matrix3d left_frame, right_frame;                ///< stick to world
   Eigen::Matrix3d left_frame_rate, right_frame_rate;      ///< their derivatives [1/s]
 };
@@ -150,15 +150,57 @@ inline Stage make_stage(const Recording& given) {
   return stage;
 }
 
-/// Tips at each substep from row 0 on, read at the recorded time plus the time offset, less the tip offsets.
-/// As kServo the offset's negative is the time constant of a lag: c - tau c' + tau^2 c''.
+/// Shortest time constant of a lag that is told from none [s].
+inline constexpr double kShortestLag = 3e-4;
+
+/// The time constant that a time offset stands for as kFilter or kServo [s].
+inline double lag_of(const UnknownVector& at) {
+  return std::max(kShortestLag, -at[index_of(Unknown::kTimeOffset)]);
+}
+
+/// Lets the tips follow the given ones as s' = (c - s) / tau; exact for a c that is straight between the
+/// substeps. With derivatives by the time offset, -tau.
+inline void lag_behind(std::vector<StageTips>& grid, double step, double tau) {
+  const auto follow = [&](auto tip, double lag) {
+    std::vector<Vector3<double>> result;
+    const double keep = std::exp(-step / lag);
+    Vector3<double> s = tip(grid.front()) - lag * (tip(grid[1]) - tip(grid.front())) / step;
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+      result.push_back(s);
+      if (k + 1 == grid.size()) break;
+      const Vector3<double> here = tip(grid[k]), slope = (tip(grid[k + 1]) - here) / step;
+      s = keep * s + (1.0 - keep) * here + slope * (step - lag * (1.0 - keep));
+    }
+    return result;
+  };
+  const auto left = [](const StageTips& s) { return s.tips.left; };
+  const auto right = [](const StageTips& s) { return s.tips.right; };
+  const double more = tau * 1.001;
+  const std::vector<Vector3<double>> l = follow(left, tau), r = follow(right, tau), l2 = follow(left, more),
+                                     r2 = follow(right, more);
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    StageTips& out = grid[k];
+    const Vector3<double> left_velocity = (out.tips.left - l[k]) / tau,
+                          right_velocity = (out.tips.right - r[k]) / tau;
+    out.left_acceleration = (out.tips.left_velocity - left_velocity) / tau;
+    out.right_acceleration = (out.tips.right_velocity - right_velocity) / tau;
+    out.tips.left = l[k];
+    out.tips.right = r[k];
+    out.tips.left_velocity = left_velocity;
+    out.tips.right_velocity = right_velocity;
+    out.left_by_delay = -(l2[k] - l[k]) / (more - tau);
+    out.right_by_delay = -(r2[k] - r[k]) / (more - tau);
+  }
+}
+
+/// Tips at each substep from row 0 on, read at the recorded time plus the time offset, or as kServo lagging
+/// behind the recorded ones, less the tip offsets.
 inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector& at,
                                          Delay delay = Delay::kClock) {
   const Eigen::Index rows = stage.times.size();
   const std::vector<Eigen::Matrix3d> left = stick_frames(stage.recording.left_orientation, rows),
                                      right = stick_frames(stage.recording.right_orientation, rows);
-  const double clock = delay == Delay::kClock ? at[index_of(Unknown::kTimeOffset)] : 0.0,
-               servo = delay == Delay::kServo ? at[index_of(Unknown::kTimeOffset)] : 0.0;
+  const double clock = delay == Delay::kClock ? at[index_of(Unknown::kTimeOffset)] : 0.0;
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));
   std::vector<StageTips> result(static_cast<std::size_t>((rows - 1) * stage.substeps + 1));
@@ -175,24 +217,22 @@ inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector
                          after = stage.motion->at(time + h, hint_after);
       out.left_acceleration = (after.left_velocity - before.left_velocity) / (2.0 * h);
       out.right_acceleration = (after.right_velocity - before.right_velocity) / (2.0 * h);
-      out.delay_slope = delay == Delay::kFilter ? 0.0 : 1.0;
-      if (delay == Delay::kServo) {
-        const Tips<double> given = out.tips;
-        out.tips.left += servo * given.left_velocity + servo * servo * out.left_acceleration;
-        out.tips.right += servo * given.right_velocity + servo * servo * out.right_acceleration;
-        out.tips.left_velocity += servo * out.left_acceleration;
-        out.tips.right_velocity += servo * out.right_acceleration;
-      }
+      out.left_by_delay = delay == Delay::kClock ? out.tips.left_velocity : Vector3<double>::Zero();
+      out.right_by_delay = delay == Delay::kClock ? out.tips.right_velocity : Vector3<double>::Zero();
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(next);
       out.left_frame = left[a] * (1.0 - fraction) + left[b] * fraction;
       out.right_frame = right[a] * (1.0 - fraction) + right[b] * fraction;
       out.left_frame_rate = (left[b] - left[a]) / gap;
       out.right_frame_rate = (right[b] - right[a]) / gap;
-      out.tips.left -= out.left_frame * left_offset;
-      out.tips.right -= out.right_frame * right_offset;
-      out.tips.left_velocity -= out.left_frame_rate * left_offset;
-      out.tips.right_velocity -= out.right_frame_rate * right_offset;
     }
+  if (delay == Delay::kServo && result.size() > 1)
+    lag_behind(result, 1.0 / (stage.recording.rate * stage.substeps), lag_of(at));
+  for (StageTips& out : result) {
+    out.tips.left -= out.left_frame * left_offset;
+    out.tips.right -= out.right_frame * right_offset;
+    out.tips.left_velocity -= out.left_frame_rate * left_offset;
+    out.tips.right_velocity -= out.right_frame_rate * right_offset;
+  }
   return result;
 }
 

@@ -15,6 +15,19 @@ namespace diabolo {
 /// Of the string on the diabolo [m/s^2]: beyond, it is the jerk of a string that came taut.
 inline constexpr double kHardestPull = 60.0;
 
+namespace detail {
+
+/// A low pass of time constant `lag` after a step in which its input goes straight from `from` to `to`.
+template <class D>
+Vector3<D> low_passed(const Vector3<D>& y, const Vector3<D>& from, const Vector3<D>& to, const D& dt,
+                      const D& lag) {
+  using std::exp;
+  const D kept = exp(-dt / lag), share = lag * (D(1.0) - kept) / dt;
+  return y * kept + from * D(share - kept) + to * D(D(1.0) - share);
+}
+
+}  // namespace detail
+
 /// Columns: start, unknowns, residual.
 inline constexpr int kWindowColumns = kStartUnknowns + kUnknowns + 1;
 using WindowMatrix = Eigen::MatrixXd;  ///< kWindowColumns x kWindowColumns
@@ -27,8 +40,9 @@ struct CameraNoise {
 
 /// What one window says, in the scales of kUnknownInfos and kStartScales.
 struct WindowSystem {
-  WindowMatrix normal = WindowMatrix::Zero(
-      kWindowColumns, kWindowColumns);              ///< [J r]^T [J r], whitened; r = recorded - predicted
+  /// [J r]^T [J r] of the positions [m] and of the spin [rad/s]; r = recorded - predicted.
+  WindowMatrix positions = WindowMatrix::Zero(kWindowColumns, kWindowColumns),
+               spins = WindowMatrix::Zero(kWindowColumns, kWindowColumns);
   int numbers = 0;                                  ///< residuals in it
   double position_square = 0.0, spin_square = 0.0;  ///< sums of squared residuals [m^2], [rad^2/s^2]
   int position_numbers = 0, spin_numbers = 0;
@@ -46,7 +60,7 @@ struct WindowSystem {
 /// duals.)
 template <class D = detail::FitDual>
 WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid, const FitWindow& window,
-                           const detail::FitModel& model, const UnknownVector& at, const CameraNoise& noise,
+                           const detail::FitModel& model, const UnknownVector& at,
                            Delay delay = Delay::kClock) {
   constexpr int n = kStartUnknowns + kUnknowns;
   const Recording& r = stage.recording;
@@ -71,10 +85,14 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
   const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
   const double half = stage.times[window.first] + 0.5;
   bool measured_reach = false;
-  // A low pass leaves the track behind: x - tau v + tau^2 a.
+  // A low pass of the diabolo's track: y' = (x - y) / tau, begun as x - tau v.
   const bool filtered = delay == Delay::kFilter;
-  const D lead = detail::unknown(Unknown::kTimeOffset, at);
-  Vector3<D> velocity_before = state.velocity;
+  D lag(0.0);
+  Vector3<D> trail = state.position;
+  if (filtered) {
+    lag = D(lag_of(at)) - (detail::unknown(Unknown::kTimeOffset, at) - D(at[index_of(Unknown::kTimeOffset)]));
+    trail = state.position - state.velocity * lag;
+  }
   Eigen::VectorXd line(n + 1);
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
@@ -99,12 +117,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       const double pull = value_of(squared_norm(state.string_acceleration));
       if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
         centre = centre + detail::string_shift(state, now, stretch, usual);
-      if (filtered) {
-        known = known && row > window.first;  // the acceleration is that of the last step
-        const Vector3<D> acceleration =
-            (state.velocity - velocity_before) / step_of(std::max<Eigen::Index>(row - 1, 0));
-        centre = centre + (state.velocity + acceleration * lead) * lead;
-      }
+      if (filtered) centre = centre + (trail - state.position);
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = r.diabolo.position(c, row) - centre[c].value - shift[c];
         line.head(n) = centre[c].gradient.matrix();
@@ -113,8 +126,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
           line[kStartUnknowns + unknown] += frame(c, j) * info_of(static_cast<Unknown>(unknown)).scale;
         }
         line[n] = residual;
-        system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line,
-                                                                 1.0 / (noise.position * noise.position));
+        system.positions.selfadjointView<Eigen::Lower>().rankUpdate(line);
         system.position_square += residual * residual;
         ++system.position_numbers;
       }
@@ -124,7 +136,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       double residual = stage.spin.value[row - 1] - mean.value;
       line.head(n) = mean.gradient.matrix();
       line[n] = residual;
-      system.normal.selfadjointView<Eigen::Lower>().rankUpdate(line, 1.0 / (noise.spin * noise.spin));
+      system.spins.selfadjointView<Eigen::Lower>().rankUpdate(line);
       system.spin_square += residual * residual;
       ++system.spin_numbers;
     }
@@ -145,16 +157,18 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     spin_before = state.spin;
     for (int s = 0; s < stage.substeps; ++s, ++k) {
       next = tips_at(k + 1);
-      velocity_before = state.velocity;
+      const Vector3<D> before = state.position;
       predictor.step(state, now, next, step_of(row));
+      if (filtered) trail = detail::low_passed(trail, before, state.position, step_of(row), lag);
       now = next;
     }
     state.axis = stage.axis.col(row + 1).cast<D>();
   }
   system.numbers = system.position_numbers + system.spin_numbers;
   system.spin = std::abs(state.spin.value);
-  system.failed = !system.normal.allFinite();
-  system.normal = WindowMatrix(system.normal.selfadjointView<Eigen::Lower>());
+  system.failed = !system.positions.allFinite() || !system.spins.allFinite();
+  system.positions = WindowMatrix(system.positions.selfadjointView<Eigen::Lower>());
+  system.spins = WindowMatrix(system.spins.selfadjointView<Eigen::Lower>());
   return system;
 }
 

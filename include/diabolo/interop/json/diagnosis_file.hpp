@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/diagnosis.hpp"
+#include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/interop/json/fields.hpp"
 #include "diabolo/interop/json/finding.hpp"
 #include "diabolo/version.hpp"
@@ -152,9 +153,9 @@ inline Json heldout_of(const HeldOut& h) {
 inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
                                                 const std::vector<Recording>& recordings) {
   using detail::Json;
-  const double length = recordings.front().string_length;
+  const double length = d.base_string_length;
   Json effects = Json::array(), ladder = effects, limits = effects, nuisances = effects, unnamed = effects,
-       windows = effects, directions = effects, noise = effects;
+       windows = effects, directions = effects, noise = effects, experiments = effects;
   if (d.numerical && *d.numerical > 0.1)
     effects.push_back(
         {{"name", "solver_artefact"},
@@ -212,6 +213,12 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
                        {"residual_after_m", w.residual_after},
                        {"z", z}});
   }
+  for (const Experiment& e : next_experiments(d))
+    experiments.push_back({{"motion", e.motion},
+                           {"what", e.plain},
+                           {"parts", e.parts},
+                           {"odds", nullptr},
+                           {"seconds", e.seconds}});
   for (const auto& [name, n] : d.noise)
     noise.push_back({{"recording", name}, {"position_m", n.position}, {"spin_rad_s", n.spin}});
   return {{"schema", kDiagnosisSchema},
@@ -223,7 +230,7 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
           {"upper_limits", limits},
           {"nuisances", nuisances},
           {"fit", detail::heldout_of(d.heldout)},
-          {"next_experiment", Json::array()},
+          {"next_experiment", experiments},
           {"ladder", ladder},
           {"locate", {{"directions", directions}, {"windows", windows}}},
           {"noise", noise},
