@@ -23,6 +23,7 @@ FLOORS: list[list[str]] = [
     [
         "string_path.hpp",
         "string_step.hpp",
+        "keep_energy.hpp",
         "put_back.hpp",
         "snap_taut.hpp",
         "taut_string.hpp",

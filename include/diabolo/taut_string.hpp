@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "diabolo/keep_energy.hpp"
 #include "diabolo/put_back.hpp"
 #include "diabolo/snap_taut.hpp"
 
@@ -29,6 +30,11 @@ struct TautSearch {
     begin_part = (Scalar(1) - end_weight) * (begin.length() - step.string_length);
     spring = step.compliance / half_square;
   }
+
+  /// A diabolo that begins outside a rigid string is put back without being thrown.
+  Mask<Scalar> thrown() const {
+    return (begin.length() - step.string_length <= Scalar(10) * step.tolerance()) || (resolution > Scalar(0));
+  }
 };
 
 /// How far the search has come. It is Newton's method for shift = -direction * pull, pull = tension / mass *
@@ -40,7 +46,8 @@ struct TautIterate {
   StringPath<Scalar> path;    ///< at the last position
   Vector3<Scalar> gradient;   ///< of the path length there
   Vector3<Scalar> direction;  ///< discrete gradient over the step
-  Scalar slope, pull;
+  Scalar slope;               ///< of the path length along it
+  Scalar pull;
   Mask<Scalar> settled;
 
   /// The path at the position that was moved by `guess`.
@@ -55,13 +62,14 @@ struct TautIterate {
     const StringStep<Scalar>& step = search.step;
     const Vector3<Scalar> last = shift;
     direction = step.plane(discrete_gradient(search.begin, path));
-    slope = maximum(dot(gradient, direction), Scalar(1e-9));
+    slope = dot(gradient, direction);
+    const Scalar steep = maximum(slope, Scalar(1e-9));
     const Scalar extension = path.length() - step.string_length - dot(gradient, last);
     if constexpr (kElastic)
       pull =
-          (search.end_weight * extension + search.begin_part) / (search.end_weight * slope + search.spring);
+          (search.end_weight * extension + search.begin_part) / (search.end_weight * steep + search.spring);
     else
-      pull = extension / slope;
+      pull = extension / steep;
     pull = select(may_pull, maximum(pull, Scalar(0)), Scalar(0));
     shift = direction * Scalar(-pull);
     // What another iteration could still change is about moved * (moved + pull) / strand; the energy per mass
@@ -90,23 +98,29 @@ struct TautIterate {
   }
 };
 
+/// Whether tension times what the path of a rigid string began too long by, as far as rounding lets it tell,
+/// is energy that counts.
+template <bool kElastic, class Scalar>
+[[gnu::always_inline]] inline Mask<Scalar> may_gain(const TautSearch<kElastic, Scalar>& search,
+                                                    const TautIterate<Scalar>& found) {
+  const Scalar longer = search.begin.length() - search.step.string_length + path_rounding(search.step);
+  return (longer * found.pull > energy_tolerance<Scalar>() * search.half_square) &&
+         (search.resolution == Scalar(0));
+}
+
 /// The step that the search has found.
 template <bool kElastic, class Scalar>
 [[gnu::always_inline]] inline StringStepResult<Scalar> pulled(const TautSearch<kElastic, Scalar>& search,
                                                               const TautIterate<Scalar>& found) {
   const StringStep<Scalar>& step = search.step;
-  const Scalar &length = step.string_length, begin_length = search.begin.length();
   StringStepResult<Scalar> result;
   result.taut = found.pull > Scalar(0);
-  result.slack = length - found.path.length();
+  result.slack = step.string_length - found.path.length();
   result.gradient_squared = squared_norm(found.gradient);
   result.passed = Scalar(0.5) * (found.path.imbalance() - search.begin.imbalance());
   const Scalar inverse_dt = Scalar(1) / step.dt;
-  // A diabolo that begins outside a rigid string is put back without being thrown.
-  const Mask<Scalar> thrown =
-      (begin_length <= length + Scalar(10) * step.tolerance()) || (search.resolution > Scalar(0));
   const Scalar impulse =
-      select(result.taut && thrown, Scalar(Scalar(2) * inverse_dt * found.pull), Scalar(0));
+      select(result.taut && search.thrown(), Scalar(Scalar(2) * inverse_dt * found.pull), Scalar(0));
   const Vector3<Scalar> arriving = step.free_velocity(step.dt);
   const Scalar rate_before =
       dot(found.gradient, arriving) + found.path.tip_rate(step.end.left_velocity, step.end.right_velocity);
@@ -117,14 +131,6 @@ template <bool kElastic, class Scalar>
   result.velocity = arriving - string_impulse;
   result.position = search.free + found.shift;
   result.string_acceleration = string_impulse * Scalar(-inverse_dt);
-  // A rigid string that began too long by less than the tolerance would give that length back times its
-  // tension.
-  const Scalar surplus = (begin_length - length) * impulse * inverse_dt;
-  const Mask<Scalar> gains = (surplus > energy_tolerance<Scalar>()) && (search.resolution == Scalar(0));
-  if (any(gains)) {
-    const Scalar kept = Scalar(1) - Scalar(2) * surplus / (squared_norm(result.velocity) + tiny<Scalar>());
-    result.velocity = result.velocity * select(gains, positive_sqrt<Scalar>(kept), Scalar(1));
-  }
   return result;
 }
 
@@ -206,22 +212,27 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
     now = next;
   }
   StringStepResult<Scalar> result = detail::pulled(search, now);
+  const Mask<Scalar> gains = search.thrown() && detail::may_gain(search, now);
+  if (any(gains))
+    keep_energy<Scalar>(step, search.begin, now.path, now.pull * Scalar(step.dt / search.half_square), gains,
+                        result.velocity);
   const Mask<Scalar> lost = may_pull && !now.settled;
   if (any(lost)) put_back(step, lost, result);
   return result;
 }
 
 /// The same, bit for bit, for the usual step of one captured lane: the string is taut from beginning to end,
-/// and the first step of Newton's method finds its pull. False, and no result, where that is not so.
+/// the first step of Newton's method finds its pull, and its energy is beyond doubt. False, and no result,
+/// where that is not so.
 template <bool kElastic, class Scalar>
 [[gnu::always_inline]] inline bool advance_at_once(const StringStep<Scalar>& step,
                                                    StringStepResult<Scalar>& result) {
   detail::TautSearch<kElastic, Scalar> search{step};
-  if (search.slack) return false;
+  if (search.slack || (!kElastic && !search.thrown())) return false;
   detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
   if constexpr (kElastic) search.resolve_spring(found.gradient);
   found.improve(search, true);
-  if (!found.settled || !(found.pull > Scalar(0))) return false;
+  if (!found.settled || detail::may_gain(search, found) || !(found.pull > Scalar(0))) return false;
   result = detail::pulled(search, found);
   return true;
 }
