@@ -2,6 +2,7 @@
 #include "catching.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace plant {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kAims = 4;
 Moment landing(const Plant& plant, Moment moment, double end) {
   const double step = 1.0 / plant.parameters().steps_per_second;
   while (moment.time < end && !moment.missed && moment.mode == Mode::kFlying) {
-    moment = plant.advanced(moment, step);
+    moment = plant.advanced(std::move(moment), step);
   }
   return moment;
 }
@@ -39,7 +40,7 @@ Motion with_catch(const PlantParameters& parameters, const Motion& planned, Mome
   Motion motion = planned;
   Vec3 offset = Vec3::Zero();
   for (int aim = 0; aim <= kAims; ++aim) {
-    moment = landing(Plant(parameters, motion), release, end);
+    moment = landing(*make_plant(parameters, motion), release, end);
     const bool has_landed = moment.missed || moment.mode != Mode::kFlying;
     const Vec3 error = distance_from_middle(motion, moment);
     if (!has_landed || moment.time - release.time < kShortestFlight || error.norm() < kClose) break;

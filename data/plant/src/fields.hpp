@@ -33,6 +33,8 @@ class Fields {
   Fields(const Json& object, std::string path);
 
   bool has(const std::string& key) const { return object_->contains(key); }
+  /// A field's value as it is written; the field must be there.
+  std::string text(const std::string& key) const { return object_->at(key).dump(); }
 
   /// Overwrites `value` when the field is there.
   void read(const std::string& key, double& value, Range range = {});

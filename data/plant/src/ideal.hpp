@@ -5,10 +5,22 @@
 
 namespace plant {
 
-/// The plant with every effect neutral: a point of mass on a string that hardly stretches, without friction,
-/// air or bending sticks. The string keeps just enough stiffness and damping for the integrator's step.
-inline PlantParameters ideal_plant() {
+/// The plant as it is where a scenario says nothing else. A chain has mass and rigid sticks.
+inline PlantParameters nominal_plant(Structure structure) {
   PlantParameters plant;
+  plant.structure = structure;
+  if (structure == Structure::kChain) {
+    plant.string.linear_density = 0.0022;
+    plant.sticks.bending_stiffness.reset();
+  }
+  return plant;
+}
+
+/// The plant with every effect neutral: a point of mass on a string that hardly stretches, without friction,
+/// air or bending sticks. The string keeps just enough stiffness and damping for the integrator's step; a
+/// chain keeps its mass as well.
+inline PlantParameters ideal_plant(Structure structure) {
+  PlantParameters plant = nominal_plant(structure);
   plant.diabolo.groove = {0.0, 0.0, 0.0};
   plant.string.radius = 0.0;
   plant.string.stiffness = 2e5;

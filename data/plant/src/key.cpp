@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "coulomb.hpp"
+
 namespace plant {
 namespace {
 
@@ -21,6 +23,15 @@ Json stick_flex(const StickParameters& sticks) {
   return {{"stiffness", *sticks.bending_stiffness},
           {"tip_mass", sticks.tip_mass},
           {"damping_ratio", sticks.damping_ratio}};
+}
+
+/// A chain's Coulomb friction as the capstan coefficient with the same ratio of tensions at a typical wrap.
+Json friction(const PlantParameters& plant) {
+  const StringParameters& string = plant.string;
+  if (plant.structure == Structure::kStrands) {
+    return {{"coefficient", string.friction}, {"rise", string.friction_rise}};
+  }
+  return {{"coefficient", equivalent_capstan(string.friction)}, {"rise", nullptr}};
 }
 
 Json tip_offsets(const Pair<Vec3>& offsets) {
@@ -45,7 +56,7 @@ void write_key(std::ostream& out, const Scenario& scenario) {
           {"damping", string.damping},
           {"stiffening_stretch",
            std::isfinite(string.stiffening_stretch) ? Json(string.stiffening_stretch) : Json(nullptr)}}},
-        {"string_friction", {{"coefficient", string.friction}, {"rise", string.friction_rise}}},
+        {"string_friction", friction(plant)},
         {"string_wrap", {{"turns", string.wraps}}},
         {"stick_flex", stick_flex(plant.sticks)},
         {"air_drag_linear", {{"rate", air.linear_drag}}},

@@ -73,8 +73,8 @@ void make_recording(const Options& options) {
   write_file(description, [&](std::ostream& out) { write_description(out, scenario); });
   if (!options.key.empty()) write_file(options.key, [&](std::ostream& out) { write_key(out, scenario); });
   if (!options.truth.empty()) {
-    const Plant plant(scenario.plant, scenario.motion);
-    write_file(options.truth, [&](std::ostream& out) { write_truth(out, plant, take.truth); });
+    const std::unique_ptr<Plant> plant = make_plant(scenario.plant, scenario.motion);
+    write_file(options.truth, [&](std::ostream& out) { write_truth(out, *plant, take.truth); });
   }
   std::cout << options.out << ": " << frames.size() << " frames";
   if (take.missed) {

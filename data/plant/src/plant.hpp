@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "chain_state.hpp"
 #include "diabolo.hpp"
 #include "motion.hpp"
 #include "stick.hpp"
 
 namespace plant {
 
+/// What the string is made of.
+enum class Structure {
+  kStrands,  ///< two massless springs around the axle (`StrandsPlant`)
+  kChain,    ///< lumps of mass joined by springs, over which the axle slides (`ChainPlant`)
+};
+
 /// Everything that makes up the plant but the hands' motion.
 struct PlantParameters {
+  Structure structure = Structure::kStrands;
   DiaboloParameters diabolo;
   StringParameters string;
   StickParameters sticks;
   AirParameters air;
   Vec3 gravity{0.0, 0.0, -9.80665};  ///< [m/s^2]
-  int steps_per_second = 48000;      ///< of the Runge-Kutta integrator
+  int steps_per_second = 48000;      ///< of the integrator
 };
 
 /// How play begins.
@@ -38,6 +47,7 @@ struct Moment {
   double chirality = -1.0;      ///< sense of the string around the axis (see StringEnds)
   double wrap_reference = 0.0;  ///< wrap angle of the last step [rad]
   bool missed = false;          ///< fell past the string: play is over
+  ChainState chain;             ///< only where the string is a chain
 };
 
 /// Quantities that follow from a moment.
@@ -50,44 +60,37 @@ struct Reading {
   double energy = 0.0;   ///< kinetic, potential, elastic and of the sticks' bends [J]
 };
 
-/// A diabolo on a string between two driven sticks. The string is two explicit springs around a finite axle;
-/// the integrator is Runge-Kutta of order four with a fixed step, cut where the string tautens, slackens or
-/// parts.
+/// A diabolo on a string between two driven sticks: what every structure of the string has in common.
 class Plant {
  public:
   Plant(PlantParameters parameters, Motion motion)
       : parameters_(std::move(parameters)), motion_(std::move(motion)) {}
+  virtual ~Plant() = default;
 
   const PlantParameters& parameters() const { return parameters_; }
   const Motion& motion() const { return motion_; }
 
   /// First moment of play. Throws std::invalid_argument when no hanging position is found.
-  Moment begin(const Start& start) const;
+  virtual Moment begin(const Start& start) const = 0;
 
   /// The moment `step` later [s], at most one integrator step; stops early when the diabolo misses the
   /// string. Throws std::domain_error when a tip has come within the axle.
-  Moment advanced(Moment moment, double step) const;
+  virtual Moment advanced(Moment moment, double step) const = 0;
 
-  Reading read(const Moment& moment) const;
+  virtual Reading read(const Moment& moment) const = 0;
 
- private:
-  Pair<Vec3> tips(const State& state, const Pair<Stick>& sticks) const;
-  StringShape shape(const Moment& moment, const State& state, const Pair<Stick>& sticks) const;
-  State rate(const Moment& moment, const State& state, const Pair<Stick>& sticks) const;
-  State runge_kutta(const Moment& moment, double step) const;
-  Moment stepped(const Moment& moment, double step) const;
-  bool is_taut(const StringShape& shape) const;
-  double height_above_chord(const Moment& moment) const;
-  bool stays(const Moment& moment) const;
-  void switch_mode(Moment& moment) const;
-  void land(Moment& moment) const;
+ protected:
+  /// Unit vector against gravity, world z where there is none.
   Vec3 up() const;
-  void hang(Moment& moment) const;
-  double energy(const State& state) const;
+  /// Height [m] of a place above the line between two ends.
+  double height_above(const Pair<Vec3>& ends, const Vec3& place) const;
 
   PlantParameters parameters_;
   Motion motion_;
 };
+
+/// The plant of the structure that the parameters name.
+std::unique_ptr<Plant> make_plant(PlantParameters parameters, Motion motion);
 
 /// Moments of play at the given rising times [s], fewer when the diabolo misses the string before the last of
 /// them.

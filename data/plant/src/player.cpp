@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "catching.hpp"
 #include "steering.hpp"
@@ -20,15 +21,15 @@ Motion played_by(const Player& player, const PlantParameters& parameters, const 
                  const Motion& planned, double duration) {
   Motion motion = planned;
   if (!player.catches && !player.steers) return motion;
-  Moment now = Plant(parameters, motion).begin(start);
+  Moment now = make_plant(parameters, motion)->begin(start);
   double offset = 0.0;
   const double rate = parameters.steps_per_second;
   while (now.time < duration && !now.missed) {
     const double look = kLook * (std::floor(now.time / kLook + 1e-6) + 1.0);
-    const Plant plant(parameters, motion);
+    const std::unique_ptr<Plant> plant = make_plant(parameters, motion);
     while (now.time < std::min(look, duration) && !now.missed) {
       const bool was_flying = now.mode == Mode::kFlying;
-      now = plant.advanced(now, 1.0 / rate);
+      now = plant->advanced(std::move(now), 1.0 / rate);
       if (player.catches && !was_flying && now.mode == Mode::kFlying) break;
     }
     if (player.catches && now.mode == Mode::kFlying && now.time < look) {

@@ -2,6 +2,7 @@
 #include "scenario.hpp"
 
 #include <fstream>
+#include <initializer_list>
 
 #include "ideal.hpp"
 #include "player.hpp"
@@ -9,7 +10,16 @@
 namespace plant {
 namespace {
 
-DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo) {
+/// Refuses fields for which a chain has no law.
+void refuse_in_chain(const Fields& fields, Structure structure, std::initializer_list<const char*> keys) {
+  if (structure != Structure::kChain) return;
+  for (const char* key : keys) {
+    if (fields.has(key)) fields.fail(key, fields.text(key), "no such field for a chain");
+  }
+}
+
+DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo, Structure structure) {
+  refuse_in_chain(fields, structure, {"bearing_torque", "flank_friction", "flank_radius"});
   fields.read("mass", diabolo.mass, {0.01, 5.0});
   fields.read("diameter", diabolo.diameter, {0.02, 0.5});
   fields.read("length", diabolo.length, {0.03, 0.5});
@@ -26,17 +36,24 @@ DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo) {
   return diabolo;
 }
 
-StringParameters read_string(Fields fields, StringParameters string) {
+StringParameters read_string(Fields fields, StringParameters string, Structure structure) {
+  const bool is_chain = structure == Structure::kChain;
+  refuse_in_chain(fields, structure, {"stiffening_stretch", "friction_rise", "stribeck_speed", "wraps"});
   fields.read("length", string.length, {0.2, 5.0});
   fields.read("radius", string.radius, {0.0, 0.01});
   fields.read("stiffness", string.stiffness, {10.0, 1e6});
   fields.read("stiffening_stretch", string.stiffening_stretch, {1e-4, 1e6});
   fields.read("damping", string.damping, {0.0, 1e4});
-  fields.read("friction", string.friction, {0.0, 1.0});
+  fields.read("friction", string.friction, {0.0, is_chain ? 0.9 : 1.0});
   fields.read("friction_rise", string.friction_rise, {0.0, 1.0});
   fields.read("stribeck_speed", string.stribeck_speed, {1e-4, 10.0});
   fields.read("slip_scale", string.slip_scale, {1e-4, 1.0});
-  fields.read("linear_density", string.linear_density, {0.0, 0.05});
+  fields.read("linear_density", string.linear_density, {is_chain ? 1e-4 : 0.0, 0.05});
+  if (is_chain) {
+    fields.read("segments", string.segments, {10.0, 100.0});
+    fields.read("bending_damping", string.bending_damping, {0.0, 1e-4});
+    fields.read("wave_damping", string.wave_damping, {0.0, 100.0});
+  }
   fields.read("wraps", string.wraps, {0.0, 5.0});
   fields.finish();
   return string;
@@ -117,13 +134,19 @@ Scenario scenario_from_json(const Fields::Json& json, std::optional<std::uint64_
   std::string about;
   fields.read("about", about);
 
+  std::string structure_name = "strands";
+  fields.read("structure", structure_name);
+  const Structure structure = structure_name == "chain" ? Structure::kChain : Structure::kStrands;
+  if (structure == Structure::kStrands && structure_name != "strands") {
+    fields.fail("structure", '"' + structure_name + '"', "\"strands\" or \"chain\"");
+  }
   std::string base = "nominal";
   fields.read("base", base);
   const bool ideal = base == "ideal";
   if (!ideal && base != "nominal") fields.fail("base", '"' + base + '"', "\"nominal\" or \"ideal\"");
-  PlantParameters plant = ideal ? ideal_plant() : PlantParameters{};
-  plant.diabolo = read_diabolo(fields.object("diabolo"), plant.diabolo);
-  plant.string = read_string(fields.object("string"), plant.string);
+  PlantParameters plant = ideal ? ideal_plant(structure) : nominal_plant(structure);
+  plant.diabolo = read_diabolo(fields.object("diabolo"), plant.diabolo, structure);
+  plant.string = read_string(fields.object("string"), plant.string, structure);
   plant.sticks = read_sticks(fields.object("sticks"), plant.sticks);
   plant.air = read_air(fields.object("air"), plant.air);
   fields.read("gravity", plant.gravity);

@@ -9,7 +9,7 @@
 
 namespace plant {
 
-/// A massless elastic string that rubs around the axle.
+/// An elastic string that rubs around the axle.
 struct StringParameters {
   double length = 1.45;       ///< unstretched, tip to tip [m]
   double radius = 0.0008;     ///< [m]
@@ -17,12 +17,15 @@ struct StringParameters {
   double stiffening_stretch =
       std::numeric_limits<double>::infinity();  ///< stretch that doubles the stiffness [m]
   double damping = 10.0;                        ///< force per rate of stretch [N s/m]
-  double friction = 0.3;                        ///< capstan coefficient of fast slip
+  double friction = 0.3;                        ///< capstan coefficient of fast slip; of a chain, Coulomb's
   double friction_rise = 0.0;                   ///< added to the coefficient as slip goes to zero (Stribeck)
   double stribeck_speed = 0.1;                  ///< slip speed over which that rise fades [m/s]
   double slip_scale = 0.01;                     ///< slip speed that regularises the sign of friction [m/s]
-  double linear_density = 0.0;  ///< counts only as the slack string's weight on the axle [kg/m]
-  int wraps = 0;                ///< whole turns around the axle beyond the simple pass under it
+  double linear_density = 0.0;    ///< of a chain; else only the slack string's weight on the axle [kg/m]
+  int segments = 41;              ///< of a chain
+  double bending_damping = 4e-7;  ///< of a chain: moment per rate of curvature [N m^2 s]
+  double wave_damping = 3.0;      ///< of a chain: rate at which waves across the string die out [1/s]
+  int wraps = 0;                  ///< whole turns around the axle beyond the simple pass under it
 };
 
 /// Where the string is asked to lie: the axle, the tips and their motion.

@@ -18,8 +18,8 @@ Take take(const Scenario& scenario, bool with_truth) {
   std::vector<double> times(filmed.size() + watched.size());
   std::merge(filmed.begin(), filmed.end(), watched.begin(), watched.end(), times.begin());
 
-  const Plant plant(scenario.plant, scenario.motion);
-  const std::vector<Moment> moments = simulate(plant, scenario.start, times);
+  const std::unique_ptr<Plant> plant = make_plant(scenario.plant, scenario.motion);
+  const std::vector<Moment> moments = simulate(*plant, scenario.start, times);
   Take take;
   take.missed = moments.size() < times.size();
   auto next_filmed = filmed.begin();

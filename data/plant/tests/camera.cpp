@@ -40,7 +40,7 @@ Filmed film_play(const CameraParameters& camera, const Motion& motion, double du
   Start start;
   start.spin = 150.0;
   Filmed filmed;
-  filmed.moments = simulate(Plant(parameters, motion), start, diabolo_times(camera, duration));
+  filmed.moments = simulate(StrandsPlant(parameters, motion), start, diabolo_times(camera, duration));
   filmed.frames = film(camera, motion, filmed.moments, seed);
   return filmed;
 }
@@ -120,7 +120,7 @@ TEST_CASE("noise has its size, its memory and its share of lost frames") {
   const Motion motion = still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25});
   CameraParameters camera;
   // Frames are filmed without playing: the noise does not look at the play.
-  const std::vector<Moment> moments(60000, Plant(PlantParameters{}, motion).begin(Start{}));
+  const std::vector<Moment> moments(60000, StrandsPlant(PlantParameters{}, motion).begin(Start{}));
   const std::vector<Frame> frames = film(camera, motion, moments, 7);
   double square = 0.0;
   double neighbours = 0.0;

@@ -58,7 +58,7 @@ Vec3 closed_form(const PlantParameters& parameters, const Moment& moment, const 
 /// Largest distance [m/s^2] between mean acceleration and closed form, and largest acceleration by friction.
 Vec3 compare(double friction, double spin) {
   const PlantParameters parameters = stiff(friction);
-  const Plant plant(parameters, beating_hands());
+  const StrandsPlant plant(parameters, beating_hands());
   Start start;
   start.spin = spin;
   Vec3 largest = Vec3::Zero();

@@ -13,7 +13,7 @@ TEST_CASE("without gravity and friction a stiff string keeps the sum of distance
   parameters.string.damping = 5.0;
   parameters.string.radius = 0.0;
   parameters.diabolo.groove.radius = 1e-6;
-  const Plant plant(parameters, still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25}));
+  const StrandsPlant plant(parameters, still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25}));
   // At the lowest point the string must bend the path: m v^2 b / a^2 along the bisector, half by each strand.
   constexpr double kSpeed = 1.5;
   const double major = 0.5 * parameters.string.length;
@@ -48,8 +48,8 @@ TEST_CASE("a wrapped axle rolls down a vertical string at g / (1 + I / (m r^2))"
   const double lever = parameters.diabolo.groove.radius + parameters.string.radius;
   const double pretension_stretch = 6.0 * parameters.string.length / parameters.string.stiffness;
   const double distance = parameters.string.length + pretension_stretch - 2.0 * std::numbers::pi * lever;
-  const Plant plant(parameters,
-                    still_hands({0.0, 0.0, 1.25 + 0.5 * distance}, {0.0, 0.0, 1.25 - 0.5 * distance}));
+  const StrandsPlant plant(parameters,
+                           still_hands({0.0, 0.0, 1.25 + 0.5 * distance}, {0.0, 0.0, 1.25 - 0.5 * distance}));
   Start start;
   start.spin = 0.0;
   // Which side of the string the axle hangs on follows from the sense in which the string runs around it.
@@ -70,7 +70,7 @@ TEST_CASE("shifted tips tilt the axis at the rate of their torque over the spin"
   double slower = 0.0;
   for (const double spin : {150.0, 300.0}) {
     // One hand forward and one back turn the axis up or down.
-    const Plant plant(parameters, still_hands({kShift, 0.3, 1.25}, {-kShift, -0.3, 1.25}));
+    const StrandsPlant plant(parameters, still_hands({kShift, 0.3, 1.25}, {-kShift, -0.3, 1.25}));
     Start start;
     start.spin = spin;
     const std::vector<Moment> moments = simulate(plant, start, times_until(0.5, 500));

@@ -9,7 +9,7 @@ namespace {
 
 /// Largest change of energy [J] over 2 s of free swinging.
 double energy_drift(const PlantParameters& parameters, double stretch) {
-  const Plant plant(parameters, still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25}));
+  const StrandsPlant plant(parameters, still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25}));
   const Start start = on_ellipse(parameters, plant.motion(), stretch, 0.15, Vec3::Zero());
   const std::vector<Moment> moments = simulate(plant, start, times_until(2.0, 400));
   REQUIRE(moments.size() == 401);
@@ -58,7 +58,7 @@ TEST_CASE("damping, friction and air only take energy") {
     if (kind == 1) parameters.string.friction = 0.3;
     if (kind == 2) parameters.air = AirParameters{};
     CAPTURE(kind);
-    const Plant plant(parameters, still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25}));
+    const StrandsPlant plant(parameters, still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25}));
     Start start = on_ellipse(parameters, plant.motion(), 0.0, 0.15, Vec3::Zero());
     start.spin = 100.0;
     const std::vector<Moment> moments = simulate(plant, start, times_until(2.0, 400));

@@ -21,7 +21,7 @@ const Motion kHands = still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25});
 }  // namespace
 
 TEST_CASE("a flight without air is a parabola with constant spin and angular momentum") {
-  const Plant plant(airless(), kHands);
+  const StrandsPlant plant(airless(), kHands);
   Start start = thrown({0.3, -0.2, 4.0}, 150.0);
   start.pitch = 0.1;
   const Moment first = plant.begin(start);
@@ -33,7 +33,7 @@ TEST_CASE("a flight without air is a parabola with constant spin and angular mom
 }
 
 TEST_CASE("a tumbling axis circles the angular momentum at |L| / I_t") {
-  const Plant plant(airless(), kHands);
+  const StrandsPlant plant(airless(), kHands);
   const Start start = thrown({0.0, 0.0, 4.0}, 100.0);
   Moment moment = plant.begin(start);
   moment.state.col(kAngularMomentum) += Vec3(0.0, 0.0, 0.01);
@@ -57,7 +57,7 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
 
   SECTION("quadratic drag") {
     parameters.air.drag = 0.03;
-    const Plant plant(parameters, kHands);
+    const StrandsPlant plant(parameters, kHands);
     const Moment last = simulate(plant, thrown({0.0, 5.0, 0.0}, 0.0), {0.9}).front();
     CHECK(last.state(1, kVelocity) == Approx(5.0 / (1.0 + 0.03 * 5.0 * 0.9)).epsilon(1e-10));
     CHECK(last.state(1, kPosition) == Approx(std::log(1.0 + 0.03 * 5.0 * 0.9) / 0.03).epsilon(1e-10));
@@ -65,7 +65,7 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
 
   SECTION("linear drag") {
     parameters.air.linear_drag = 0.4;
-    const Plant plant(parameters, kHands);
+    const StrandsPlant plant(parameters, kHands);
     const Moment last = simulate(plant, thrown({0.0, 5.0, 0.0}, 0.0), {0.9}).front();
     CHECK(last.state(1, kVelocity) == Approx(5.0 * std::exp(-0.4 * 0.9)).epsilon(1e-10));
   }
@@ -73,7 +73,7 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
   SECTION("wind carries a diabolo at rest along, by either drag, and without drag does nothing") {
     parameters.air.wind = Vec3(2.0, -1.0, 0.0);
     const auto carried = [&] {
-      return Vec3(simulate(Plant(parameters, kHands), thrown({0.0, 0.0, 0.0}, 0.0), {0.5})
+      return Vec3(simulate(StrandsPlant(parameters, kHands), thrown({0.0, 0.0, 0.0}, 0.0), {0.5})
                       .front()
                       .state.col(kVelocity));
     };
@@ -92,15 +92,16 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
     parameters.air.magnus = 0.002;
     const Vec3 velocity(0.4, 2.0, 1.0);
     const Vec3 wind(1.0, -2.0, 0.0);
-    const Moment still = simulate(Plant(parameters, kHands), thrown(velocity, 100.0), {0.5}).front();
+    const Moment still = simulate(StrandsPlant(parameters, kHands), thrown(velocity, 100.0), {0.5}).front();
     parameters.air.wind = wind;
-    const Moment windy = simulate(Plant(parameters, kHands), thrown(velocity + wind, 100.0), {0.5}).front();
+    const Moment windy =
+        simulate(StrandsPlant(parameters, kHands), thrown(velocity + wind, 100.0), {0.5}).front();
     CHECK((windy.state.col(kPosition) - still.state.col(kPosition) - 0.5 * wind).norm() < 1e-10);
   }
 
   SECTION("Magnus force turns the velocity about the axis") {
     parameters.air.magnus = 0.002;
-    const Plant plant(parameters, kHands);
+    const StrandsPlant plant(parameters, kHands);
     const Moment last = simulate(plant, thrown({0.0, 3.0, 0.0}, 150.0), {0.9}).front();
     const double angle = -0.002 * 150.0 * 0.9;
     CHECK(last.state(1, kVelocity) == Approx(3.0 * std::cos(angle)).epsilon(1e-9));
@@ -109,7 +110,7 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
 
   SECTION("windage") {
     parameters.air.windage = 5e-8;
-    const Plant plant(parameters, kHands);
+    const StrandsPlant plant(parameters, kHands);
     const Moment last = simulate(plant, thrown({0.0, 0.0, 1.0}, 150.0), {0.9}).front();
     const double rate = 5e-8 * 150.0 / parameters.diabolo.axial_inertia;
     CHECK(play_spin(parameters.diabolo, last.state) == Approx(150.0 / (1.0 + 0.9 * rate)).epsilon(1e-10));
@@ -117,7 +118,7 @@ TEST_CASE("drag, Magnus force and windage follow their closed forms") {
 
   SECTION("a drag of the axle slows spin of either sense at a constant rate, down to rest") {
     parameters.diabolo.axle_drag = 20.0;
-    const Plant plant(parameters, kHands);
+    const StrandsPlant plant(parameters, kHands);
     for (const double spin : {150.0, -150.0}) {
       const Moment last = simulate(plant, thrown({0.0, 0.0, 1.0}, spin), {0.9}).front();
       CHECK(play_spin(parameters.diabolo, last.state) ==

@@ -7,7 +7,7 @@ using namespace plant;
 
 TEST_CASE("a diabolo at rest hangs by m g / (2 cos eta) per strand") {
   PlantParameters parameters = lossless();
-  const Plant plant(parameters, still_hands({0.0, 0.35, 1.25}, {0.0, -0.35, 1.25}));
+  const StrandsPlant plant(parameters, still_hands({0.0, 0.35, 1.25}, {0.0, -0.35, 1.25}));
   Start start;
   start.spin = 0.0;
   for (const Moment& moment : simulate(plant, start, {0.0, 1.0})) {
@@ -25,7 +25,7 @@ TEST_CASE("a diabolo at rest hangs by m g / (2 cos eta) per strand") {
 TEST_CASE("friction of a spinning axle splits the tension by exp(mu beta) and leans the hang") {
   PlantParameters parameters = airless();
   const double spin = GENERATE(150.0, -150.0);
-  const Plant plant(parameters, still_hands({0.0, 0.35, 1.25}, {0.0, -0.35, 1.25}));
+  const StrandsPlant plant(parameters, still_hands({0.0, 0.35, 1.25}, {0.0, -0.35, 1.25}));
   Start start;
   start.spin = spin;
   const Moment moment = simulate(plant, start, {0.5}).front();
@@ -49,7 +49,7 @@ TEST_CASE("friction of a spinning axle splits the tension by exp(mu beta) and le
 
 TEST_CASE("friction slows the spin by the torque of the two tensions") {
   PlantParameters parameters = airless();
-  const Plant plant(parameters, still_hands({0.0, 0.05, 1.25}, {0.0, -0.05, 1.25}));
+  const StrandsPlant plant(parameters, still_hands({0.0, 0.05, 1.25}, {0.0, -0.05, 1.25}));
   Start start;
   start.spin = 150.0;
   const std::vector<Moment> moments = simulate(plant, start, {0.0, 1.0});
@@ -65,7 +65,7 @@ TEST_CASE("friction slows the spin by the torque of the two tensions") {
 TEST_CASE("a one-way bearing leaves its own drag in one sense and the whole friction in the other") {
   PlantParameters parameters = airless();
   parameters.diabolo.bearing_torque = 5e-4;
-  const Plant plant(parameters, still_hands({0.0, 0.05, 1.25}, {0.0, -0.05, 1.25}));
+  const StrandsPlant plant(parameters, still_hands({0.0, 0.05, 1.25}, {0.0, -0.05, 1.25}));
   for (const double spin : {150.0, -150.0}) {
     Start start;
     start.spin = spin;

@@ -48,7 +48,7 @@ Play lively(const Eigen::Matrix3d& rotation, bool mirrored, double left_lift, do
 std::vector<Moment> play(const Play& play, int steps_per_second = 48000) {
   PlantParameters parameters = play.parameters;
   parameters.steps_per_second = steps_per_second;
-  return simulate(Plant(parameters, play.motion), play.start, times_until(2.0, 40));
+  return simulate(StrandsPlant(parameters, play.motion), play.start, times_until(2.0, 40));
 }
 
 /// Largest distance between two plays after the second is turned by `back` [m], and of their axes.
@@ -94,7 +94,7 @@ TEST_CASE("a mirrored world with opposite spin plays mirrored") {
 TEST_CASE("the error of the step falls with its fourth power where play is smooth") {
   PlantParameters parameters;
   parameters.sticks.bending_stiffness.reset();
-  const Plant hands(parameters, still_hands({0.01, 0.35, 1.30}, {0.0, -0.3, 1.25}));
+  const StrandsPlant hands(parameters, still_hands({0.01, 0.35, 1.30}, {0.0, -0.3, 1.25}));
   Play swinging{parameters, Start{}, hands.motion()};
   swinging.start.yaw = 0.1;
   swinging.start.position = hands.begin(swinging.start).state.col(kPosition);
@@ -121,7 +121,7 @@ TEST_CASE("the step is short enough where the string slackens and tautens") {
 
 TEST_CASE("looking more often does not change what is seen") {
   const Play hopping = lively(kNone, false, 0.15, 0.14);
-  const Plant plant(hopping.parameters, hopping.motion);
+  const StrandsPlant plant(hopping.parameters, hopping.motion);
   const Moment once = simulate(plant, hopping.start, {1.0}).front();
   const Moment often = simulate(plant, hopping.start, times_until(1.0, 777)).back();
   CHECK(once.state == often.state);
@@ -136,7 +136,7 @@ TEST_CASE("play that begins later is the same play later") {
     start.spin = 0.0;  // so that nothing moves before the hands do
     std::vector<double> times = times_until(2.0, 40);
     for (double& time : times) time += pause;
-    return simulate(Plant(PlantParameters{}, motion.finish({}, 0)), start, times);
+    return simulate(StrandsPlant(PlantParameters{}, motion.finish({}, 0)), start, times);
   };
   const double distance = position_distance(play_after(0.6), play_after(1.2));
   INFO("distance " << distance);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "../../../tests/catch.hpp"
-#include "plant.hpp"
+#include "strands.hpp"
 
 namespace plant {
 
@@ -39,6 +39,17 @@ inline PlantParameters airless() {
   PlantParameters parameters;
   parameters.sticks.bending_stiffness.reset();
   parameters.air = still_air();
+  return parameters;
+}
+
+/// The same on a chain; without the string's damping, without that of its waves and kinks.
+inline PlantParameters chain(PlantParameters parameters) {
+  parameters.structure = Structure::kChain;
+  parameters.string.linear_density = 0.0022;
+  if (parameters.string.damping == 0.0) {
+    parameters.string.bending_damping = 0.0;
+    parameters.string.wave_damping = 0.0;
+  }
   return parameters;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
 
-#include "plant.hpp"
+#include "strands.hpp"
 
 namespace plant {
 
 /// All but the string's energy [J].
-double Plant::energy(const State& state) const {
+double StrandsPlant::energy(const State& state) const {
   const DiaboloParameters& diabolo = parameters_.diabolo;
   const Vec3 momentum = state.col(kAngularMomentum);
   const double along = momentum.dot(state.col(kAxis));
@@ -24,7 +24,7 @@ double Plant::energy(const State& state) const {
   return energy;
 }
 
-Reading Plant::read(const Moment& moment) const {
+Reading StrandsPlant::read(const Moment& moment) const {
   const StringParameters& string = parameters_.string;
   const Pair<Stick> sticks = motion_.at(moment.time);
   Reading reading;

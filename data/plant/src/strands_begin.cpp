@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plant.hpp"
+#include "strands.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace plant {
 
 /// Newton's method on the forces at rest: hanging position and bends of the sticks.
-void Plant::hang(Moment& moment) const {
+void StrandsPlant::hang(Moment& moment) const {
   constexpr double kDifference = 1e-7;     // of the Jacobian [m]
   constexpr double kLongestChange = 0.02;  // of an iteration [m]
   constexpr double kSmallestForce = 1e-8;  // [m/s^2], all accelerations together
@@ -66,7 +66,7 @@ void Plant::hang(Moment& moment) const {
       "motion: the diabolo finds no place to hang at rest between the tips' first positions");
 }
 
-Moment Plant::begin(const Start& start) const {
+Moment StrandsPlant::begin(const Start& start) const {
   const Pair<Stick> sticks = motion_.at(0.0);
   const Vec3 axis = direction_from_angles(start.yaw, start.pitch);
   Moment moment;

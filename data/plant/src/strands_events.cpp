@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plant.hpp"
+#include "strands.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -15,24 +15,17 @@ constexpr double kCatchMargin = 0.01;      // of the cups that a catch must leav
 
 }  // namespace
 
-bool Plant::is_taut(const StringShape& shape) const {
+bool StrandsPlant::is_taut(const StringShape& shape) const {
   return shape.length > parameters_.string.length && shape.wrap > 0.0 &&
          string_tensions(parameters_.string, shape).left > 0.0;
 }
 
-Vec3 Plant::up() const {
-  const double strength = parameters_.gravity.norm();
-  return strength > 0.0 ? Vec3(-parameters_.gravity / strength) : Vec3(Vec3::UnitZ());
-}
-
-double Plant::height_above_chord(const Moment& moment) const {
-  const Pair<Vec3> ends = tips(moment.state, motion_.at(moment.time));
-  const Vec3 chord = (ends[1] - ends[0]).normalized();
-  return perpendicular_part(up(), chord).normalized().dot(moment.state.col(kPosition) - ends[0]);
+double StrandsPlant::height_above_chord(const Moment& moment) const {
+  return height_above(tips(moment.state, motion_.at(moment.time)), moment.state.col(kPosition));
 }
 
 /// Whether the moment's mode still describes it.
-bool Plant::stays(const Moment& moment) const {
+bool StrandsPlant::stays(const Moment& moment) const {
   if (moment.mode == Mode::kFlying) return height_above_chord(moment) > 0.0;
   const StringShape now = shape(moment, moment.state, motion_.at(moment.time));
   const bool taut = is_taut(now);
@@ -43,7 +36,7 @@ bool Plant::stays(const Moment& moment) const {
   return now.wrap > 0.0 ? height <= kReleaseHeight : height <= 0.0 && height >= -kSlipDepth;
 }
 
-void Plant::switch_mode(Moment& moment) const {
+void StrandsPlant::switch_mode(Moment& moment) const {
   switch (moment.mode) {
     case Mode::kOnString:
       moment.mode = Mode::kLoose;
@@ -64,7 +57,7 @@ void Plant::switch_mode(Moment& moment) const {
 
 /// The centre has come down to the line between the tips: the string catches it when it passes between the
 /// cups.
-void Plant::land(Moment& moment) const {
+void StrandsPlant::land(Moment& moment) const {
   const DiaboloParameters& diabolo = parameters_.diabolo;
   const Pair<Vec3> ends = tips(moment.state, motion_.at(moment.time));
   const Vec3 centre = moment.state.col(kPosition);
@@ -84,7 +77,7 @@ void Plant::land(Moment& moment) const {
   }
 }
 
-Moment Plant::advanced(Moment moment, double step) const {
+Moment StrandsPlant::advanced(Moment moment, double step) const {
   double left = step;
   int events = 0;
   while (!moment.missed) {
