@@ -4,6 +4,7 @@
 #include <cassert>
 #include <stdexcept>
 
+#include "diabolo/advance_in_flight.hpp"
 #include "diabolo/effects/effect.hpp"
 #include "diabolo/hold_between_tips.hpp"
 #include "diabolo/pull_velocity.hpp"
@@ -56,6 +57,8 @@ class Predictor {
   }
 
  private:
+  static constexpr bool kMayStretch = sizeof...(Effects) > 0;
+
   [[gnu::noinline]] StepStatus<Scalar> step_with_shifted_tips(State<Scalar>& state, Tips<Scalar> begin,
                                                               Tips<Scalar> end, const Scalar& dt) const {
     const TipShift<Scalar> shift = effects_.tip_shift(state, begin, parameters_);
@@ -127,7 +130,8 @@ class Predictor {
                                   plane_};
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
     const StringStepResult<Scalar> result =
-        any(flying) ? advance_in_flight(state, step, status.caught) : advance(step, !flying);
+        any(flying) ? advance_in_flight<kMayStretch>(state, step, parameters_, status.caught)
+                    : advance_captured<kMayStretch>(step, !flying);
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     take_over(state, step, result);
     if (!all(result.taut))
@@ -247,17 +251,12 @@ class Predictor {
   }
 
   static bool elastic(const StringNow<Scalar>& string) {
-    return sizeof...(Effects) > 0 && !is_constant_zero(string.compliance);
+    return kMayStretch && !is_constant_zero(string.compliance);
   }
   /// On a straight string; an elastic one is longer.
   Mask<Scalar> hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
                     const Mask<Scalar>& where, const StringNow<Scalar>& string) const {
     return hold_between_tips<Scalar>(state, tips, dt, where && (string.compliance == Scalar(0)), plane_);
-  }
-
-  StringStepResult<Scalar> advance(const StringStep<Scalar>& step, const Mask<Scalar>& captured) const {
-    const bool elastic = sizeof...(Effects) > 0 && !is_constant_zero(step.compliance);
-    return elastic ? advance_on_string<true>(step, captured) : advance_on_string<false>(step, captured);
   }
 
   Scalar dissipation(const Scalar& dt, const Mask<Scalar>& where) const {
@@ -268,54 +267,6 @@ class Predictor {
 
   Vector3<Scalar> normal_at(const Spheroid<Scalar>& s, const Vector3<Scalar>& point) const {
     return parameters_.normal_rule == NormalRule::kPublished ? s.published_normal(point) : s.normal(point);
-  }
-
-  /// A step in which some lane is in flight. A diabolo that falls through the plane of the tips is caught
-  /// there if the string is tight under it; the rest of the step is on the loose string.
-  [[gnu::noinline]] StringStepResult<Scalar> advance_in_flight(State<Scalar>& state,
-                                                               const StringStep<Scalar>& step,
-                                                               Mask<Scalar>& caught) const {
-    const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
-    const auto height = [&](const Scalar& fraction) {
-      const Tips<Scalar> tips = step.tips_at(fraction);
-      return height_above_tips<Scalar>(step.free_position(fraction * step.dt), tips.left, tips.right);
-    };
-    Scalar low{0}, high{1};
-    Scalar high_height = height(Scalar(1)), low_height = height(Scalar(0));
-    const Mask<Scalar> falls = flying && (low_height > Scalar(0)) && (high_height <= Scalar(0));
-    if (!any(falls)) return advance(step, !flying);
-    for (int i = 0; i < 4; ++i) {  // secant steps on a function that is all but linear
-      const Scalar middle = low + (high - low) * low_height / (low_height - high_height + tiny<Scalar>());
-      const Scalar middle_height = height(middle);
-      const Mask<Scalar> above = middle_height > Scalar(0);
-      low = select(above, middle, low);
-      low_height = select(above, middle_height, low_height);
-      high = select(above, high, middle);
-      high_height = select(above, high_height, middle_height);
-    }
-    const Tips<Scalar> there = step.tips_at(high);
-    const Vector3<Scalar> crossing = step.free_position(high * step.dt);
-    const Spheroid<Scalar> spheroid(there.left, there.right, step.string_length);
-    caught = falls && taut_catch(crossing, spheroid, parameters_) && spheroid.contains(crossing);
-    const Scalar fraction = select(caught, minimum(high, Scalar(1.0 - 1e-6)), Scalar(0));
-    const Scalar t = fraction * step.dt;
-    const Tips<Scalar> tips = step.tips_at(fraction);
-    const Vector3<Scalar> position = step.free_position(t), velocity = step.free_velocity(t);
-    const StringStep<Scalar> rest{position,
-                                  velocity,
-                                  step.acceleration,
-                                  tips,
-                                  step.end,
-                                  step.dt - t,
-                                  step.string_length,
-                                  step.string_acceleration,
-                                  step.compliance,
-                                  step.damping_time,
-                                  plane_};
-    assign_where(caught, state.string_state, StringState::kLoose);
-    StringStepResult<Scalar> result = advance(rest, !is(state.string_state, StringState::kFlying));
-    result.string_acceleration = result.string_acceleration * Scalar(rest.dt / step.dt);
-    return result;
   }
 
   Parameters<Scalar> parameters_;

@@ -9,6 +9,10 @@
 
 namespace diabolo {
 
+/// Explanations predict the same where the squares of what they leave differ by less than this share, beside
+/// three standard deviations' worth: the model itself is no better.
+inline constexpr double kSameResidual = 0.01;
+
 /// Another explanation, which takes the place of the first in a fit of its own.
 struct Alternative {
   std::string_view name;
@@ -35,8 +39,8 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
 
 /// What else may explain what is claimed under this name. A pure delay, a low pass and a lagging servo differ
 /// in the second order of the delay only; a wrong rate of the frames looks like a wrong scale on a string of
-/// another length; wind in a drag like a tilt; the give of string and sticks by the sticks' directions; the laws of
-/// drag by the speeds; friction slows the spin as a bearing does.
+/// another length; wind in a drag like a tilt; the give of string and sticks by the sticks' directions; the
+/// laws of drag by the speeds; friction slows the spin as a bearing does.
 inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit& fit, const ActiveSet& set) {
   constexpr double kUsualSpeed = 2.0;  // [m/s]
   std::vector<Alternative> others;
@@ -49,8 +53,10 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
     rate[index_of(Unknown::kLengthScale)] = false;
     rate[index_of(Unknown::kGravity)] = true;
     others.push_back({"frame_rate", fit.delay, rate, fit.at});
-  } else if (name == "gravity_tilt" && absent("wind") && !(absent("air_drag_linear") && absent("air_drag_quadratic"))) {
-    Alternative wind{"wind", fit.delay, with(with(set, candidate_of("wind")), candidate_of(name), false), fit.at};
+  } else if (name == "gravity_tilt" && absent("wind") &&
+             !(absent("air_drag_linear") && absent("air_drag_quadratic"))) {
+    Alternative wind{"wind", fit.delay, with(with(set, candidate_of("wind")), candidate_of(name), false),
+                     fit.at};
     others.push_back(wind);
   } else if ((name == "axle_drag" || name == "spin_drag") && absent("string_friction")) {
     others.push_back(exchanged(fit, set, name, "string_friction", 0.0));
@@ -99,11 +105,14 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       costs.emplace_back(trial.cost, other.name);
       if (trial.cost < best.cost) best = std::move(trial), best_set = other.set;
     }
+    // A fault stays what it is where nothing else is better: the others are rarer.
+    const double least = best.cost, worse = 9.0 * dispersion + kSameResidual * least;
+    const bool stays = finding.candidate->kind == CandidateKind::kMeasurement && same.cost - least < worse;
+    if (stays) best = std::move(same), best_set = set;
     std::ranges::sort(costs);
-    Exchange exchange{costs.front().second, {}};
+    Exchange exchange{stays ? finding.candidate->name : costs.front().second, {}};
     for (const auto& [cost, name] : costs)
-      if (name != exchange.name && cost - costs.front().first < 9.0 * dispersion)
-        exchange.tied_with.emplace_back(name);
+      if (name != exchange.name && cost - least < worse) exchange.tied_with.emplace_back(name);
     if (!alternative_to(exchange.name).empty())
       std::ranges::replace_if(
           bank, [&](const Candidate* c) { return c == finding.candidate; }, &candidate_of(exchange.name));

@@ -82,6 +82,15 @@ inline Fit prepared(const std::vector<Recording>& recordings) {
   return fit;
 }
 
+/// From starts alone.
+template <class D>
+void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
+  fit.far_window = kFarWindowAtFirst;
+  refine<D>(fit, physics, set, 5, threads, watch);
+  fit.far_window = kFarWindow;
+  refine<D>(fit, physics, set, 5, threads, watch);
+}
+
 /// With every body under its name, unless friction would have to give energy: then `backwards`.
 template <class D>
 Diagnosis diagnose_named(const std::vector<Recording>& recordings, const DiagnosisOptions& options,
@@ -118,7 +127,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   ActiveSet set = nuisances();
   for (const Candidate* candidate : bank) set = with(set, *candidate);
   const Fit start = fit;
-  refine<D>(fit, physics, set, 8, options.threads, step("fitting everything", 0.15));
+  fit_everything<D>(fit, physics, set, options.threads, step("fitting everything", 0.15));
   // A soft string rings: from a stiff one the way there is long, so that it is tried from the other end, too.
   const Standing all = standing(Evidence(fit), set);
   for (const Unknown u : {Unknown::kCompliance, Unknown::kStickCompliance}) {
@@ -129,7 +138,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
       continue;
     Fit soft = start;
     soft.at[index_of(u)] = 1e-3;
-    refine<D>(soft, physics, set, 8, options.threads, step("fitting everything, with a soft string", 0.35));
+    fit_everything<D>(soft, physics, set, options.threads,
+                      step("fitting everything, with a soft string", 0.35));
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   const Candidate& friction = candidate_of("string_friction");

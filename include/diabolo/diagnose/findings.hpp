@@ -73,6 +73,7 @@ struct Diagnosis {
   UnknownVector deviation = UnknownVector::Zero();
   Model model;
   HeldOut heldout;
+  double unexplained = 0.0;         ///< share of the windows that are far off after all
   std::optional<double> numerical;  ///< share of the base's error that its numerical rules make
 };
 
@@ -115,11 +116,28 @@ inline bool is_tied(const Evidence& evidence, const ActiveSet& set, const Candid
   return evidence.cost(exchanged) - evidence.cost(set) < 9.0 * evidence.dispersion();
 }
 
+/// Windows that leave so many times more than the middle one are not explained; from this share on, that is
+/// said.
+inline constexpr double kUnexplainedWindow = 5.0, kUnexplainedShare = 0.2;
+
+/// The share of the windows whose residual is far beyond the middle one's.
+inline double unexplained_share(const std::vector<WindowFinding>& windows) {
+  std::vector<double> residuals;
+  for (const WindowFinding& w : windows)
+    if (std::isfinite(w.residual_after)) residuals.push_back(w.residual_after);
+  if (residuals.empty()) return 0.0;
+  std::ranges::sort(residuals);
+  const double far = kUnexplainedWindow * quantile(residuals, 0.5);
+  const auto count = std::ranges::count_if(residuals, [&](double r) { return r > far; });
+  return static_cast<double>(count) / static_cast<double>(residuals.size());
+}
+
 /// Judges every candidate at the final fit.
 inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const Bank& bank,
                  const ActiveSet& set) {
   std::size_t i = 0;
   for (WindowFinding& window : result.windows) window.residual_after = fit.systems[i++].position_residual();
+  result.unexplained = unexplained_share(result.windows);
   const Standing final_standing = standing(evidence, set);
   for (int u = 0; u < kUnknowns; ++u)
     if (set[u]) result.deviation[u] = final_standing.deviation(u);
@@ -228,12 +246,10 @@ inline std::string tied_plainly(const Finding& finding) {
 /// Headline and sentence.
 inline void conclude(Diagnosis& d) {
   std::vector<const Finding*> physics, faults;
-  bool tied = false;
-  for (const Finding& f : d.findings) {
-    if (!f.claimed) continue;
-    (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
-    tied = tied || !f.tied_with.empty();
-  }
+  for (const Finding& f : d.findings)
+    if (f.claimed) (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
+  const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
+  const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -243,12 +259,11 @@ inline void conclude(Diagnosis& d) {
   if (!d.reason.empty()) {
     d.headline = Headline::kInsufficientData;
     d.sentence = "Nothing can be concluded: " + d.reason + ".";
-  } else if (tied) {
+  } else if (tied != leading.end()) {
     d.headline = Headline::kTie;
-    const auto first = std::ranges::find_if(physics, [](const Finding* f) { return !f->tied_with.empty(); });
-    d.sentence = "Something is missing: " + names(physics) + " would explain it, and so would " +
-                 tied_plainly(**first) + " in place of " + std::string((*first)->candidate->plain) +
-                 "; these recordings cannot tell.";
+    d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
+                 names(leading) + " would explain it, and so would " + tied_plainly(**tied) +
+                 " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell.";
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
     d.sentence = "The simulator leaves out " + names(physics) +
@@ -259,6 +274,10 @@ inline void conclude(Diagnosis& d) {
   } else if (d.numerical && *d.numerical > 0.1) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
+  } else if (d.unexplained > kUnexplainedShare) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence = "Something without a name is left: " + std::to_string(std::lround(100.0 * d.unexplained)) +
+                 " % of the windows are off by more than five times what the others are.";
   } else if (!d.leftovers.empty()) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence =

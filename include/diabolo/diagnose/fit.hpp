@@ -15,8 +15,9 @@
 namespace diabolo {
 
 /// Windows whose residuals are so many times those of the middle one count less and less: a mistimed catch
-/// says nothing of the forces.
-inline constexpr double kFarWindow = 2.0;
+/// says nothing of the forces. A first fit is more patient, lest it settle for what explains the most windows
+/// well and the others not at all.
+inline constexpr double kFarWindow = 2.0, kFarWindowAtFirst = 10.0;
 
 /// Which unknowns are free.
 using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
@@ -58,6 +59,7 @@ struct Fit {
   UnknownVector centre = UnknownVector::Zero();  ///< what is expected of them
   ActiveSet active = ActiveSet::Constant(false);
   Delay delay = Delay::kClock;
+  double far_window = kFarWindow;
   bool noise_is_known = false;        ///< else it is estimated again in the first iterations
   std::vector<Stage> stages;          ///< with the fitted starts
   std::vector<CameraNoise> noise;     ///< of each stage
@@ -98,7 +100,7 @@ inline void weigh(Fit& fit) {
   fit.cost = 0.0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     WindowScore& score = fit.scores[i];
-    const double off = sizes[i] / std::max(kFarWindow * usual, 1e-12), square = off * off;
+    const double off = sizes[i] / std::max(fit.far_window * usual, 1e-12), square = off * off;
     score.weight = fit.systems[i].failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
     if (!fit.systems[i].failed)
       fit.cost += off > 1.0 ? score.chi_square / square * (2.0 - 1.0 / square) : score.chi_square;

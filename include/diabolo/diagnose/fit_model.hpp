@@ -113,7 +113,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
 /// The tips with their derivatives by time offset and tip offsets.
 inline Tips<FitDual> fit_tips(const StageTips& s) {
   const auto with = [](const Vector3<double>& value, const Vector3<double>& by_time,
-                        const Eigen::Matrix3d& by_offset, Unknown first) {
+                       const Eigen::Matrix3d& by_offset, Unknown first) {
     Vector3<FitDual> result;
     for (int k = 0; k < 3; ++k) {
       result[k] = FitDual(value[k]);
