@@ -12,9 +12,10 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
-from . import arms, batch, files, plant, tools
+from . import arms, batch, files, plant
 
 SCHEMA = "diabolo.concealed_batch/1"
+TOOL = ("include", "batch", "python")
 GUARDED = ("include", "batch", "python", "data/plant", "benchmarks/concealed/*.py")
 
 
@@ -38,6 +39,17 @@ def commit_of_clean_tree() -> str:
     return _git("rev-parse", "HEAD")
 
 
+def check_tool(commit: str) -> None:
+    """Raises ValueError where the tool's sources are no longer those that a batch was sealed with."""
+    changed = _git("diff", "--name-only", commit, "--", *TOOL).splitlines()
+    changed += _git("ls-files", "--others", "--exclude-standard", "--", *TOOL).splitlines()
+    if changed:
+        raise ValueError(
+            f"{changed[0]} is not as it was when the batch was sealed ({len(changed)} files are not); "
+            "seal a fresh one"
+        )
+
+
 def seed_of(commit: str) -> int:
     """The seed that a commit gives."""
     return int(hashlib.sha256(f"concealed {commit}".encode()).hexdigest()[:12], 16)
@@ -59,7 +71,6 @@ def describe(
     return {
         "schema": SCHEMA,
         "commit": commit,
-        "tool": tools.digest(),
         "plant": plant_digest,
         "seed": seed,
         "cases": len(cases),

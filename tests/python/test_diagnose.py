@@ -66,6 +66,38 @@ def test_progress_names_the_steps(played: Recording) -> None:
     assert steps
 
 
+def test_a_bank_restricts_what_is_claimed(plant: list[Recording]) -> None:
+    answer = diagnose(plant, bank=["string_elasticity", "gravity_tilt"])
+    assert {effect["name"] for effect in answer.effects} <= {
+        "string_elasticity",
+        "stick_flex",
+        "gravity_tilt",
+    }
+    assert {rung["name"] for rung in answer.result["ladder"]} == {"string_elasticity", "gravity_tilt"}
+    with pytest.raises(ValueError, match='bank: "string_frictions"; expected of string_elasticity, '):
+        diagnose(plant, bank=["string_frictions"])
+
+
+def test_exchanged_bodies_are_claimed_and_do_no_harm(plant: list[Recording], tmp_path: Path) -> None:
+    swing = next(recording for recording in plant if recording.name == "swing")
+    swing.save(tmp_path / "swapped.csv")
+    lines = (tmp_path / "swapped.csv").read_text().splitlines()
+    names = lines[0].split(",")
+    left, right = ([names.index(f"{side}_{axis}") for axis in "xyz"] for side in ("left", "right"))
+    for row in range(300, 360):
+        cells = lines[row].split(",")
+        for a, b in zip(left, right, strict=True):
+            cells[a], cells[b] = cells[b], cells[a]
+        lines[row] = ",".join(cells)
+    (tmp_path / "swapped.csv").write_text("\n".join(lines) + "\n")
+    answer = diagnose(load_recording(tmp_path / "swapped.csv"))
+    claimed = {effect["name"]: effect for effect in answer.effects}
+    assert claimed["body_swap"]["kind"] == "measurement"
+    assert claimed["body_swap"]["parameters"][0]["value"] == pytest.approx(60, abs=3)
+    assert "string_friction" in claimed
+    assert answer.result["fit"]["augmented_error_m"][2] < answer.result["fit"]["base_error_m"][2]
+
+
 def test_too_little_is_an_answer(played: Recording) -> None:
     short = played.cut(0, 60)
     answer = diagnose(short)

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/swapped_bodies.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+/// Hands that beat and a diabolo below them, ten seconds at 120 Hz.
+Recording played() {
+  Recording r;
+  const Eigen::Index size = 1200;
+  r.name = "played";
+  r.rate = 120.0;
+  r.time = Eigen::VectorXd::LinSpaced(size, 0.0, static_cast<double>(size - 1) / r.rate);
+  for (Track* track : {&r.left, &r.right, &r.diabolo}) {
+    track->position.resize(3, size);
+    track->valid = Marks::Constant(size, true);
+  }
+  r.diabolo_orientation = OrientationTrack::missing(size);
+  r.left_orientation = r.right_orientation = OrientationTrack::missing(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double beat = 0.1 * std::sin(9.0 * r.time[i]);
+    r.left.position.col(i) << 0.0, 0.3, 1.2 + beat;
+    r.right.position.col(i) << 0.0, -0.3, 1.2 - beat;
+    r.diabolo.position.col(i) << 0.02 * std::cos(5.0 * r.time[i]), beat, 0.6;
+    r.diabolo_orientation.valid[i] = true;
+    r.diabolo_orientation.quaternion.col(i) << 1.0, 0.0, 0.0, 0.0;
+    r.left_orientation.valid[i] = r.right_orientation.valid[i] = true;
+    r.left_orientation.quaternion.col(i) << 0.0, 1.0, 0.0, 0.0;
+    r.right_orientation.quaternion.col(i) << 0.0, 0.0, 1.0, 0.0;
+  }
+  return r;
+}
+
+bool same(const Recording& a, const Recording& b) {
+  return a.left.position == b.left.position && a.right.position == b.right.position &&
+         a.diabolo.position == b.diabolo.position &&
+         a.left_orientation.quaternion == b.left_orientation.quaternion &&
+         a.diabolo_orientation.quaternion == b.diabolo_orientation.quaternion;
+}
+
+void exchange(Track& a, Track& b, OrientationTrack& p, OrientationTrack& q, Eigen::Index first,
+              Eigen::Index last) {
+  for (Eigen::Index i = first; i <= last; ++i) {
+    a.position.col(i).swap(b.position.col(i));
+    std::swap(a.valid[i], b.valid[i]);
+    p.quaternion.col(i).swap(q.quaternion.col(i));
+    std::swap(p.valid[i], q.valid[i]);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("bodies under their own names stay") {
+  const Recording given = played();
+  Recording r = given;
+  CHECK(unswap(r).count == 0);
+  CHECK(same(r, given));
+}
+
+TEST_CASE("bodies that were recorded under each other's names for a while get them back") {
+  const Recording given = played();
+  Recording r = given;
+  exchange(r.left, r.diabolo, r.left_orientation, r.diabolo_orientation, 200, 260);
+  exchange(r.left, r.right, r.left_orientation, r.right_orientation, 700, 1000);
+  CHECK_FALSE(same(r, given));
+  const Swaps swaps = unswap(r);
+  CHECK(same(r, given));
+  CHECK(swaps.count == 61 + 301);
+  REQUIRE(swaps.rows.size() == 2);
+  CHECK(swaps.rows[0] == std::pair<Eigen::Index, Eigen::Index>(200, 260));
+  CHECK(swaps.rows[1] == std::pair<Eigen::Index, Eigen::Index>(700, 1000));
+}
+
+TEST_CASE("a jump of one body alone is no exchange") {
+  Recording r = played();
+  for (Eigen::Index i = 400; i < 420; ++i) r.diabolo.position(2, i) += 1.0;
+  const Recording jumped = r;
+  CHECK(unswap(r).count == 0);
+  CHECK(same(r, jumped));
+}
+
+TEST_CASE("an exchange across a dropout is found as soon as two bodies are seen again") {
+  const Recording given = played();
+  Recording r = given;
+  exchange(r.left, r.diabolo, r.left_orientation, r.diabolo_orientation, 303, 360);
+  for (Eigen::Index i = 300; i < 303; ++i) r.left.valid[i] = r.diabolo.valid[i] = false;
+  CHECK(unswap(r).count == 58);
+  CHECK(r.left.position.col(330) == given.left.position.col(330));
+}
