@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StringElasticity', 'StringFriction', 'TipMotion', 'baseline', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -363,8 +363,9 @@ class StringFriction:
     """
     A string that rubs on the axle: Euler's and Eytelwein's capstan law.
     
-    While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). Its torque on the
-    spin is that of Parameters.spin_coupling.
+    While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). The difference turns
+    the axle, too: dw/dt = spin_gain (T_right - T_left) / mass; at zero the spin is left to
+    Parameters.spin_coupling.
     """
     __hash__: typing.ClassVar[None] = None
     @staticmethod
@@ -397,6 +398,14 @@ class StringFriction:
         """
     @coefficient.setter
     def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def spin_gain(self) -> float:
+        """
+        mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]
+        """
+    @spin_gain.setter
+    def spin_gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
 class Air:
     """
@@ -618,6 +627,86 @@ class FiniteAxle:
     @radius.setter
     def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
+class StickFlex:
+    """
+    Sticks that bend: each tip gives by compliance times the string's pull, square to its stick.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> StickFlex:
+        ...
+    def __deepcopy__(self, memo: dict) -> StickFlex:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def compliance(self) -> float:
+        """
+        of one tip, square to its stick [m/N]; within [0.0, 1.0]
+        """
+    @compliance.setter
+    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def damping(self) -> float:
+        """
+        of one tip [N s/m]; within [0.0, 10000.0]
+        """
+    @damping.setter
+    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class StringMass:
+    """
+    A string that weighs something: while it is loose, half of it hangs on the diabolo.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> StringMass:
+        ...
+    def __deepcopy__(self, memo: dict) -> StringMass:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def linear_density(self) -> float:
+        """
+        of the string [kg/m]; within [0.0, 0.1]
+        """
+    @linear_density.setter
+    def linear_density(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
 class Model:
     """
     Everything that decides a prediction.
@@ -641,8 +730,10 @@ class Model:
     own_mass: bool
     parameters: Parameters
     spin_loss: SpinLoss
+    stick_flex: StickFlex
     string_elasticity: StringElasticity
     string_friction: StringFriction
+    string_mass: StringMass
     @staticmethod
     def consistent() -> Model:
         """
@@ -1354,7 +1445,7 @@ def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """
     The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
     """
-def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
+def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
     """
     See diabolo.diagnose.
     """
