@@ -79,16 +79,20 @@ template <class D = detail::FitDual>
 std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
                                       const Model& base, int threads, const Watch& watch) {
   std::vector<Exchange> result;
+  const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
+    return f.claimed && !alternatives_to(f.candidate->name, fit, set).empty();
+  });
+  if (any) {  // the noise stays from here on, so that costs can be compared
+    fit.noise_is_known = true;
+    refine<D>(fit, base, set, 2, threads, watch);
+  }
   for (const Finding& finding : draft.findings) {
     if (!finding.claimed) continue;
     const std::vector<Alternative> others = alternatives_to(finding.candidate->name, fit, set);
     if (others.empty()) continue;
-    Fit same = fit;
-    same.noise_is_known = true;
-    refine<D>(same, base, set, 2, threads, watch);
-    std::vector<std::pair<double, std::string_view>> costs{{same.cost, finding.candidate->name}};
-    const double dispersion = Evidence(same).dispersion();
-    Fit best = same;
+    std::vector<std::pair<double, std::string_view>> costs{{fit.cost, finding.candidate->name}};
+    const double dispersion = Evidence(fit).dispersion();
+    Fit best = fit;
     ActiveSet best_set = set;
     for (const Alternative& other : others) {
       const bool known = std::ranges::any_of(bank, [&](const Candidate* c) {
@@ -101,14 +105,14 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       trial.at = other.at;
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
-      refine<D>(trial, base, other.set, 6, threads, watch);
+      refine<D>(trial, base, other.set, 4, threads, watch);
       costs.emplace_back(trial.cost, other.name);
       if (trial.cost < best.cost) best = std::move(trial), best_set = other.set;
     }
     // A fault stays what it is where nothing else is better: the others are rarer.
     const double least = best.cost, worse = 9.0 * dispersion + kSameResidual * least;
-    const bool stays = finding.candidate->kind == CandidateKind::kMeasurement && same.cost - least < worse;
-    if (stays) best = std::move(same), best_set = set;
+    const bool stays = finding.candidate->kind == CandidateKind::kMeasurement && fit.cost - least < worse;
+    if (stays) best = fit, best_set = set;
     std::ranges::sort(costs);
     Exchange exchange{stays ? finding.candidate->name : costs.front().second, {}};
     for (const auto& [cost, name] : costs)
@@ -117,7 +121,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       std::ranges::replace_if(
           bank, [&](const Candidate* c) { return c == finding.candidate; }, &candidate_of(exchange.name));
     fit = std::move(best);
-    fit.noise_is_known = false;
+    fit.noise_is_known = true;
     set = best_set;
     result.push_back(std::move(exchange));
   }

@@ -148,7 +148,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   for (int round = 0;; ++round) {
     for (int u = 0; u < kUnknowns; ++u)
       if (!set[u]) fit.at[u] = fit.centre[u];
-    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
+    refine<D>(fit, physics, set, 4, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
     const Evidence evidence(fit);
     ActiveSet next = eliminate(evidence, bank, set);
     if (const Candidate* candidate = strongest_left_out(evidence, bank, next)) next = with(next, *candidate);
