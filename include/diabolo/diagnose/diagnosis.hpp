@@ -162,6 +162,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   const Evidence evidence(fit);
   result.at = fit.at;
   result.model = augmented_model(physics, fit.at, "diagnosed");
+  if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
+    result.model.parameters.gravity = physics.parameters.gravity;
   find(result, fit, evidence, bank, set);
   for (const Exchange& exchange : exchanged)
     for (Finding& f : result.findings)
