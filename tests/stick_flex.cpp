@@ -26,7 +26,7 @@ Tips<double> pointing(const Vector& left, const Vector& right) {
 /// After a minute with some damping.
 State<double> rested(const Full& model, const Tips<double>& tips) {
   State<double> state;
-  state.position = Vector(0.0, 0.02, 0.55);
+  state.position = Vector(0.0, 0.02, 0.6);
   Numbers numbers = model.parameters();
   numbers.dissipation_rate = 2.0;
   const Full damped(numbers, model.effects());
@@ -109,15 +109,18 @@ TEST_CASE("sticks that bend keep the energy of a swing, and lose it by their dam
   const auto lost = [&](double damping) {
     const Full model = bending(compliance, damping);
     State<double> state;
-    state.position = Vector(0.0, 0.2, 0.55);
-    state.string_state = StringState::kOnString;
-    for (int k = 0; k < 4000; ++k) model.step(state, tips, tips, 2.5e-4);
+    state.position = Vector(0.0, 0.1, 0.58);  // just slack: the fall makes the sticks swing
+    const auto taut = [&] {
+      return StringPath<double>(state.position, tips).length() > Numbers().string_length;
+    };
+    while (!taut()) model.step(state, tips, tips, 1e-4);
     const double before = energy(state);
-    for (int k = 0; k < 4000; ++k) model.step(state, tips, tips, 2.5e-4);
+    for (int k = 0; k < 10000 || !taut(); ++k) model.step(state, tips, tips, 1e-4);
     return before - energy(state);
   };
-  CHECK(std::abs(lost(0.0)) < 1e-3);
-  CHECK(lost(2.0) > 1e-3);
+  CAPTURE(lost(0.0), lost(2.0));
+  CHECK(std::abs(lost(0.0)) < 2e-3);
+  CHECK(lost(2.0) > 2e-2);
 }
 
 TEST_CASE("mirrored with their sticks, bending tips act as before") {

@@ -17,7 +17,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr int kFields = 13;
+constexpr int kFields = 17;
 using D = Dual<double, kFields>;
 using Outputs = Eigen::Matrix<double, 7, 1>;  ///< position, velocity, spin
 
@@ -66,6 +66,10 @@ std::array<double, kFields> at_work() {
   set("gravity_tilt.x", 0.02);
   set("gravity_tilt.y", -0.03);
   set("finite_axle.radius", 0.007);
+  set("string_friction.spin_gain", 4.0);
+  set("stick_flex.compliance", 1.0 / 500.0);
+  set("stick_flex.damping", 1.0);
+  set("string_mass.linear_density", 2e-2);
   return x;
 }
 
@@ -137,6 +141,9 @@ bool has_kink(const Play& play, const std::array<double, kFields>& x, int k, dou
   return (coarse - fine).norm() > 1e-3 * (1.0 + fine.norm());
 }
 
+/// Acts while the string is loose only: a millimetre's fall does not show it. See string_mass.cpp.
+bool of_loose_string(int k) { return field_names()[static_cast<std::size_t>(k)].starts_with("string_mass"); }
+
 Play hanging_play(Random& random) {
   Play play;
   play.player = SmoothTips::random(random, random.uniform(0.3, 0.7), 0.06, 6.0);
@@ -172,7 +179,7 @@ TEST_CASE("derivatives by every field, all effects at work, on the string") {
     const auto jacobian = dual(play, x);
     for (int k = 0; k < kFields; ++k) {
       const double h = 1e-4 * std::abs(x[static_cast<std::size_t>(k)]);
-      if (has_kink(play, x, k, h)) continue;
+      if (of_loose_string(k) || has_kink(play, x, k, h)) continue;
       ++compared;
       const Outputs difference = central(play, x, k, h);
       CAPTURE(episode, field_names()[static_cast<std::size_t>(k)], difference.transpose(),
@@ -183,7 +190,7 @@ TEST_CASE("derivatives by every field, all effects at work, on the string") {
       CHECK(jacobian.col(k).norm() > 10.0 * off);
     }
   }
-  CHECK(compared > 70);  // of 78
+  CHECK(compared > 86);  // of 96
 }
 
 TEST_CASE("derivatives by every field, all effects at work, in flight") {
@@ -202,7 +209,8 @@ TEST_CASE("derivatives by every field, all effects at work, in flight") {
       const Outputs difference = central(play, x, k, 1e-3 * std::abs(x[static_cast<std::size_t>(k)]));
       CAPTURE(episode, name);
       CHECK((jacobian.col(k) - difference).norm() < 1e-6 * difference.norm() + 1e-8);
-      const bool of_string = name.starts_with("string_") || name.starts_with("finite_axle");
+      const bool of_string =
+          name.starts_with("string_") || name.starts_with("finite_axle") || name.starts_with("stick_flex");
       CHECK((jacobian.col(k).norm() == 0.0) == of_string);
     }
   }
@@ -228,11 +236,12 @@ TEST_CASE("derivatives by every field where all amplitudes are zero") {
     for (int k = 0; k < kFields; ++k) {
       const std::string name = field_names()[static_cast<std::size_t>(k)];
       CAPTURE(episode, name);
-      if (name == "string_elasticity.damping" || name.starts_with("air.wind")) {
-        CHECK(jacobian.col(k).norm() == 0.0);  // of no spring, of no drag: nothing
+      if (of_loose_string(k)) continue;
+      if (name.ends_with(".damping") || name.starts_with("air.wind") || name.ends_with(".spin_gain")) {
+        CHECK(jacobian.col(k).norm() == 0.0);  // of no spring, no drag, no friction: nothing
         continue;
       }
-      if (name == "string_elasticity.compliance") {
+      if (name.ends_with(".compliance")) {
         // On one side only, and stiff: elastic_derivatives.cpp looks at it more closely.
         std::array<double, kFields> x{};
         x[static_cast<std::size_t>(k)] = 1e-8;
