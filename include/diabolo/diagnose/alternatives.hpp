@@ -82,10 +82,10 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
   const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
     return f.claimed && !alternatives_to(f.candidate->name, fit, set).empty();
   });
-  if (any) {  // the noise stays from here on, so that costs can be compared
-    fit.noise_is_known = true;
-    refine<D>(fit, base, set, 2, threads, watch);
-  }
+  constexpr int kIterations = 4;  // as many for the claim as for what may replace it
+  fit.noise_is_known = true;      // from here on, so that costs can be compared
+  Fit before = fit;
+  if (any) refine<D>(fit, base, set, kIterations, threads, watch);
   for (const Finding& finding : draft.findings) {
     if (!finding.claimed) continue;
     const std::vector<Alternative> others = alternatives_to(finding.candidate->name, fit, set);
@@ -99,13 +99,12 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
         return c->name == other.name || c->name == alternative_to(other.name);
       });
       if (!known) continue;
-      Fit trial = fit;
-      trial.noise_is_known = true;
+      Fit trial = before;
       trial.delay = other.delay;
       trial.at = other.at;
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
-      refine<D>(trial, base, other.set, 4, threads, watch);
+      refine<D>(trial, base, other.set, kIterations, threads, watch);
       costs.emplace_back(trial.cost, other.name);
       if (trial.cost < best.cost) best = std::move(trial), best_set = other.set;
     }
@@ -120,8 +119,8 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
     if (!alternative_to(exchange.name).empty())
       std::ranges::replace_if(
           bank, [&](const Candidate* c) { return c == finding.candidate; }, &candidate_of(exchange.name));
+    if (exchange.name != finding.candidate->name) before = best;
     fit = std::move(best);
-    fit.noise_is_known = true;
     set = best_set;
     result.push_back(std::move(exchange));
   }
