@@ -10,13 +10,19 @@ import numpy as np
 
 from . import arms, base, sizes
 
+# What the chain of nodes has no law for.
+SPRINGS_ALONE = {
+    "string": ("wraps", "stiffening_stretch", "friction_rise", "stribeck_speed"),
+    "diabolo": ("bearing_torque", "flank_friction", "flank_radius"),
+}
 CALM = 12  # the attempt from which nothing is thrown any more
 KEY_SCHEMA = "diabolo.concealed_key/1"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Which arm and which plant a case has; the rest follows from the seed and its number."""
+    """Which arm and which plant a case has (the springs where the chain has no law for what is at work); the
+    rest follows from the seed and its number."""
 
     seed: int
     number: int
@@ -38,6 +44,7 @@ class Drawn:
     plan: Plan
     content: arms.Content
     scenario: dict[str, Any]
+    structure: str
 
     def key(self, parameters: dict[str, Any]) -> dict[str, Any]:
         """The truth; `parameters` by the plant's own account."""
@@ -45,7 +52,7 @@ class Drawn:
             "schema": KEY_SCHEMA,
             "case": self.plan.name,
             "arm": self.plan.arm,
-            "structure": self.plan.structure,
+            "structure": self.structure,
             "names": self.content.names,
             "tie": self.content.tie,
             "outside": self.content.outside,
@@ -72,10 +79,14 @@ def plans(seed: int, cases: int, with_chain: bool = True) -> list[Plan]:
 def draw(plan: Plan, attempt: int = 0) -> Drawn:
     """A case. Another attempt has another motion, since a diabolo may be missed, and all else the same."""
     content = arms.content_of(plan.arm, plan.generator(0))
-    scenario = base.body_and_camera(plan.generator(1), plan.structure)
+    chain = not any(
+        field in content.departure.get(part, {}) for part, fields in SPRINGS_ALONE.items() for field in fields
+    )
+    structure = plan.structure if chain else "springs"
+    scenario = base.body_and_camera(plan.generator(1), structure)
     scenario = sizes.merged(scenario, base.play(plan.generator(2, attempt), content.motion, attempt < CALM))
     scenario = sizes.merged(scenario, content.departure)
     for step in content.steps:
         if step["step"] == "frame_rate":  # filmed at another rate than the file will say
             scenario["camera"]["rate"] *= step["factor"]
-    return Drawn(plan, content, scenario)
+    return Drawn(plan, content, scenario, structure)
