@@ -53,8 +53,8 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
     rate[index_of(Unknown::kLengthScale)] = false;
     rate[index_of(Unknown::kGravity)] = true;
     others.push_back({"frame_rate", fit.delay, rate, fit.at});
-  } else if (name == "gravity_tilt" && absent("wind") &&
-             !(absent("air_drag_linear") && absent("air_drag_quadratic"))) {
+  } else if (name == "gravity_tilt" && absent("wind") && !absent("air_drag_quadratic")) {
+    // (In a drag that is linear it is exactly that tilt: nothing could tell, and a tilt is the likelier one.)
     Alternative wind{"wind", fit.delay, with(with(set, candidate_of("wind")), candidate_of(name), false),
                      fit.at};
     others.push_back(wind);

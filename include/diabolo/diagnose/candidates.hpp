@@ -121,7 +121,7 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
       std::string known;
       for (const Candidate& candidate : candidates())
         known.append(known.empty() ? "" : ", ").append(candidate.name);
-      throw std::invalid_argument("bank: \"" + name + "\"; expected of " + known);
+      throw std::invalid_argument(std::string("bank: \"").append(name).append("\"; expected of ") + known);
     }
   return bank;
 }
