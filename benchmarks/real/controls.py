@@ -46,7 +46,8 @@ def main() -> int:
         answer = diagnose(takes, base)
         hit = name in [effect["name"] for effect in answer.effects]
         found += hit
-        print(f"| {what} | {name or '-'} | {('yes' if hit else 'no') if name else '-'} | {shown(answer)} |", flush=True)
+        verdict = ("yes" if hit else "no") if name else "-"
+        print(f"| {what} | {name or '-'} | {verdict} | {shown(answer)} |", flush=True)
     return 0 if found == len(controls) - 1 else 1
 
 
