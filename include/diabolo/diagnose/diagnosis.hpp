@@ -95,7 +95,14 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
 template <class D>
 Diagnosis diagnose_named(const std::vector<Recording>& recordings, const DiagnosisOptions& options,
                          const DiagnosisWatch& watch, bool& backwards) {
-  Bank bank = bank_for(options.base.parameters, options.bank);
+  // The published rules are numerical: physics is looked for on the string that obeys its constraint.
+  const bool numerical = options.base.parameters.string_law != StringLaw::kInextensible;
+  Model physics = options.base;
+  if (numerical) {
+    physics = consistent_model();
+    physics.effects = options.base.effects;
+  }
+  Bank bank = bank_for(physics.parameters, options.bank);
   const auto step = [&](const std::string& name, double done) {
     if (watch.progress) watch.progress(name, done);
     return Watch{{}, watch.cancelled};
@@ -106,21 +113,14 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   };
   Diagnosis result;
   result.base = options.base.name;
-  result.base_gravity = options.base.parameters.gravity;
-  result.base_string_length = parameters_for(options.base, recordings.front()).string_length;
+  result.base_gravity = physics.parameters.gravity;
+  result.base_string_length = parameters_for(physics, recordings.front()).string_length;
   step("reading the motion", 0.0);
   Fit fit = detail::prepared(recordings);
   result.reason = detail::insufficient(fit.stages);
   if (!result.reason.empty()) {
     conclude(result);
     return result;
-  }
-  // The published rules are numerical: physics is looked for on the string that obeys its constraint.
-  const bool numerical = options.base.parameters.string_law != StringLaw::kInextensible;
-  Model physics = options.base;
-  if (numerical) {
-    physics = consistent_model();
-    physics.effects = options.base.effects;
   }
   refine<D>(fit, physics, ActiveSet::Constant(false), 2, options.threads, step("fitting starts", 0.05));
   remember_before(result, fit);
@@ -228,7 +228,8 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
       swapped += frames;
     }
   }
-  if (swapped > 0 && result.reason.empty())
+  const bool asked = options.bank.empty() || std::ranges::count(options.bank, "body_swap") > 0;
+  if (swapped > 0 && asked && result.reason.empty())
     detail::claim_swap(result, swapped,
                        swapped >= frames ? "friction would give energy unless the sticks are exchanged"
                                          : "bodies jump to each other's places and back");
