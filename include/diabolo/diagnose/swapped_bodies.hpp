@@ -48,6 +48,7 @@ inline Swaps unswap(Recording& r) {
   const std::array<Track*, 3> from = detail::tracks_of(source);
   std::vector<std::size_t> chosen(static_cast<std::size_t>(size), 0);
   std::array<Eigen::Vector3d, 3> last;
+  last.fill(Eigen::Vector3d::Zero());
   std::array<Eigen::Index, 3> seen{-1, -1, -1};
   std::array<std::size_t, 6> votes{};
   std::size_t now = 0;
