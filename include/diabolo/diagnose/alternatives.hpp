@@ -34,6 +34,11 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
   Alternative result{to, fit.delay, with(with(set, old, false), young), fit.at};
   result.at[index_of(first_of(young))] =
       std::min(info_of(first_of(young)).maximum, share * fit.at[index_of(first_of(old))]);
+  // Two sticks are two springs in a row with their dashpots.
+  if (to == "stick_flex")
+    result.at[index_of(Unknown::kStickDamping)] = 2.0 * fit.at[index_of(Unknown::kDamping)];
+  if (to == "string_elasticity")
+    result.at[index_of(Unknown::kDamping)] = 0.5 * fit.at[index_of(Unknown::kStickDamping)];
   return result;
 }
 
@@ -82,7 +87,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
   const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
     return f.claimed && !alternatives_to(f.candidate->name, fit, set).empty();
   });
-  constexpr int kIterations = 4;  // as many for the claim as for what may replace it
+  constexpr int kIterations = 8;  // as many for the claim as for what may replace it
   fit.noise_is_known = true;      // from here on, so that costs can be compared
   Fit before = fit;
   if (any) refine<D>(fit, base, set, kIterations, threads, watch);

@@ -43,7 +43,12 @@ inline const std::vector<Candidate>& candidates() {
       {"string_mass", "the weight of the loose string", kPhysics, {kStringMass}, 0.0, true},
       {"spin_drag", "the air that slows the spin", kPhysics, {kSpinAir}, 0.0, true},
       {"axle_drag", "a bearing that slows the spin", kPhysics, {kSpinAxle}, 0.0, true},
-      {"spin_coupling", "the string's drive of the spin", kPhysics, {kSpinCoupling}, 0.0, true},
+      {"spin_coupling",
+       "the string's drive of the spin",
+       kPhysics,
+       {kSpinCoupling, kSpinGain},  // by the base's rule, or by friction's torque
+       0.0,
+       true},
       {"gravity_magnitude", "the strength of gravity", kPhysics, {kGravity}, 0.05 * kStandardGravity, false},
       {"frame_rate", "the rate of the frames", kMeasurement, {kGravity}, 0.01 * kStandardGravity, false},
       {"gravity_tilt", "a tilted frame", kMeasurement, {kTiltX, kTiltY}, 0.3 * kDegree, false},

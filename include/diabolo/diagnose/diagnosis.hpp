@@ -39,6 +39,9 @@ struct DiagnosisWatch {
 /// Fewest windows from which anything is concluded.
 inline constexpr std::size_t kFewestWindows = 8;
 
+/// The give of a soft string to begin with [m/N].
+inline constexpr double kSoftStart = 3e-3;
+
 namespace detail {
 
 /// Why nothing can be concluded; empty where something can.
@@ -82,13 +85,24 @@ inline Fit prepared(const std::vector<Recording>& recordings) {
   return fit;
 }
 
-/// From starts alone.
+/// From starts alone, with all of `set` free. A soft string rings, and from a stiff one the way there is long and
+/// uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone on with.
 template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
   fit.far_window = kFarWindowAtFirst;
-  refine<D>(fit, physics, set, 5, threads, watch);
+  ActiveSet first = set;  // a scale acts as gravity does, and is better known than a gravity that is asked about
+  if (set[index_of(Unknown::kGravity)])
+    first[index_of(Unknown::kLengthScale)] = first[index_of(Unknown::kStringLength)] = false;
+  Fit soft = fit;
+  refine<D>(fit, physics, first, 5, threads, watch);
+  const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
+  if (set[index_of(give)]) {
+    soft.at[index_of(give)] = kSoftStart;
+    refine<D>(soft, physics, first, 5, threads, watch);
+    if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
+  }
   fit.far_window = kFarWindow;
-  refine<D>(fit, physics, set, 5, threads, watch);
+  refine<D>(fit, physics, set, 6, threads, watch);
 }
 
 /// With every body under its name, unless friction would have to give energy: then `backwards`.
@@ -126,29 +140,14 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   remember_before(result, fit);
   ActiveSet set = nuisances();
   for (const Candidate* candidate : bank) set = with(set, *candidate);
-  const Fit start = fit;
   fit_everything<D>(fit, physics, set, options.threads, step("fitting everything", 0.15));
-  // A soft string rings: from a stiff one the way there is long, so that it is tried from the other end, too.
-  const Standing all = standing(Evidence(fit), set);
-  for (const Unknown u : {Unknown::kCompliance, Unknown::kStickCompliance}) {
-    const double deviation = all.deviation(index_of(u));
-    const double give =
-        fit.at[index_of(Unknown::kCompliance)] + 2.0 * fit.at[index_of(Unknown::kStickCompliance)];
-    if (!set[index_of(u)] || give > 1e-3 || !(std::abs(all.estimate[index_of(u)]) > 2.0 * deviation))
-      continue;
-    Fit soft = start;
-    soft.at[index_of(u)] = 1e-3;
-    fit_everything<D>(soft, physics, set, options.threads,
-                      step("fitting everything, with a soft string", 0.35));
-    if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
-  }
   const Candidate& friction = candidate_of("string_friction");
   backwards = is_in(set, friction) && significance(friction, standing(Evidence(fit), set)) < -kSignificance;
   set = eliminate(Evidence(fit), bank, set);
   for (int round = 0;; ++round) {
     for (int u = 0; u < kUnknowns; ++u)
       if (!set[u]) fit.at[u] = fit.centre[u];
-    refine<D>(fit, physics, set, 4, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
+    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
     const Evidence evidence(fit);
     ActiveSet next = eliminate(evidence, bank, set);
     if (const Candidate* candidate = strongest_left_out(evidence, bank, next)) next = with(next, *candidate);

@@ -19,18 +19,22 @@ namespace diabolo {
 /// well and the others not at all.
 inline constexpr double kFarWindow = 2.0, kFarWindowAtFirst = 10.0;
 
+/// Tries at a step, each shorter than the one before.
+inline constexpr int kMostAttempts = 5;
+
 /// Which unknowns are free.
 using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
 
 /// What a window says of the unknowns once its start has been fitted, in the scales of kUnknownInfos.
 struct WindowScore {
-  UnknownVector score;        ///< half the slope of -chi^2
-  UnknownMatrix information;  ///< half its curvature
+  UnknownVector score = UnknownVector::Zero();                           ///< half the slope of -chi^2
+  UnknownMatrix information = UnknownMatrix::Zero(kUnknowns, kUnknowns);  ///< half its curvature
   double chi_square = 0.0;    ///< with the best start
   double weight = 1.0;        ///< less than 1 where the window lies far off all others
   int numbers = 0;
-  Eigen::Matrix<double, kStartUnknowns, 1> start_step;  ///< to the best start
-  Eigen::MatrixXd start_by_unknowns;                    ///< its change by the unknowns
+  /// To the best start.
+  Eigen::Matrix<double, kStartUnknowns, 1> start_step = Eigen::Matrix<double, kStartUnknowns, 1>::Zero();
+  Eigen::MatrixXd start_by_unknowns = Eigen::MatrixXd::Zero(kStartUnknowns, kUnknowns);  ///< its change
 };
 
 /// Takes the window's start out of its system, whitened by the noise.
@@ -90,7 +94,10 @@ inline void weigh(Fit& fit) {
   fit.scores.clear();
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w)
-      fit.scores.push_back(without_start(fit.systems[fit.scores.size()], fit.noise[s]));
+      if (const WindowSystem& system = fit.systems[fit.scores.size()]; system.failed)
+        fit.scores.emplace_back();
+      else
+        fit.scores.push_back(without_start(system, fit.noise[s]));
   std::vector<double> sizes;
   for (const WindowScore& score : fit.scores)
     sizes.push_back(std::sqrt(score.chi_square / std::max(1, score.numbers)));
@@ -177,38 +184,61 @@ inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
   return normal;
 }
 
-/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is.
+/// Best scaled step within bounds, damped by Levenberg and Marquardt's rule: what would leave its bounds is held
+/// there, the worst first, and the others are solved again.
+inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& at, double damping) {
+  const Eigen::Index n = static_cast<Eigen::Index>(normal.free.size());
+  Eigen::MatrixXd information = normal.information;
+  information.diagonal() *= 1.0 + damping;
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+  std::vector<Eigen::Index> moving(static_cast<std::size_t>(n)), held;
+  for (Eigen::Index i = 0; i < n; ++i) moving[static_cast<std::size_t>(i)] = i;
+  while (!moving.empty()) {
+    const Eigen::VectorXd rest = normal.score(moving) - information(moving, held) * step(held);
+    const Eigen::MatrixXd own = information(moving, moving);
+    step(moving) = Eigen::VectorXd(own.ldlt().solve(rest));
+    Eigen::Index worst = -1;
+    double most = 0.0, bound = 0.0;
+    for (const Eigen::Index i : moving) {
+      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(normal.free[static_cast<std::size_t>(i)])];
+      const double here = at[normal.free[static_cast<std::size_t>(i)]];
+      const double wanted = here + step[i] * info.scale, nearest = std::clamp(wanted, info.minimum, info.maximum);
+      const double beyond = std::abs(wanted - nearest) / info.scale * std::sqrt(information(i, i));
+      if (beyond > most) worst = i, most = beyond, bound = (nearest - here) / info.scale;
+    }
+    if (worst < 0) break;
+    step[worst] = bound;
+    held.push_back(worst);
+    std::erase(moving, worst);
+  }
+  return step;
+}
+
+/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is, damped where a step leads
+/// uphill.
 template <class D = detail::FitDual>
 void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
             const Watch& watch = {}) {
   fit.active = active;
   look<D>(fit, base, threads, watch);
+  double damping = 0.0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     ++fit.iterations;
     const Normal normal = normal_equations(fit, active);
-    const Eigen::VectorXd step = normal.information.ldlt().solve(normal.score);
-    double share = 1.0;
     Fit best = fit;
     double largest = 0.0;
-    for (int attempt = 0; attempt < 4; ++attempt, share *= 0.3) {
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt, damping = std::max(0.1, 10.0 * damping)) {
+      const Eigen::VectorXd step = bounded_step(normal, best.at, damping);
       UnknownVector scaled_step = UnknownVector::Zero();
-      largest = 0.0;
-      for (std::size_t i = 0; i < normal.free.size(); ++i) {
-        const int u = normal.free[i];
-        const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
-        const double wanted = best.at[u] + share * step[static_cast<Eigen::Index>(i)] * info.scale;
-        fit.at[u] = std::clamp(wanted, info.minimum, info.maximum);
-        scaled_step[u] = (fit.at[u] - best.at[u]) / info.scale;
-        const double deviation =
-            1.0 / std::sqrt(normal.information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
-        largest = std::max(largest, std::abs(scaled_step[u]) / deviation);
-      }
+      scaled_step(normal.free) = step;
+      fit.at = best.at + scaled_step.cwiseProduct(scales());
+      largest = step.cwiseProduct(normal.information.diagonal().cwiseSqrt()).lpNorm<Eigen::Infinity>();
       std::size_t i = 0;
       for (std::size_t s = 0; s < fit.stages.size(); ++s)
         for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
           const WindowScore& score = best.scores[i];
           const Eigen::Matrix<double, kStartUnknowns, 1> move =
-              share * score.start_step - score.start_by_unknowns * scaled_step;
+              score.start_step / (1.0 + damping) - score.start_by_unknowns * scaled_step;
           State<double> start = best.stages[s].windows[w].start;
           for (int c = 0; c < 3; ++c) {
             start.position[c] += kStartScales[c] * std::clamp(move[c], -10.0, 10.0);
@@ -219,11 +249,12 @@ void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_itera
         }
       look<D>(fit, base, threads, watch);
       if (fit.cost <= best.cost * (1.0 + 1e-9)) break;
-      if (attempt == 3) {
+      if (attempt + 1 == kMostAttempts) {
         fit = best;
         return;
       }
     }
+    damping = damping > 0.01 ? 0.1 * damping : 0.0;
     const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
     if (iteration < 3 && !fit.noise_is_known) {
       update_noise(fit);

@@ -23,7 +23,8 @@ inline constexpr double kStartPriors[kStartUnknowns] = {5.0, 5.0, 5.0, 50.0, 50.
 
 namespace detail {
 
-using FitDual = Dual<double, kStartUnknowns + kUnknowns>;
+/// Derivatives only show the way of a fit and its spread: seven digits are enough.
+using FitDual = Dual<double, kStartUnknowns + kUnknowns, float>;
 
 template <class From, class To>
 void copy_fields(const From& from, To& to) {
@@ -37,7 +38,7 @@ void copy_fields(const From& from, To& to) {
 
 inline FitDual unknown(Unknown u, const UnknownVector& at) {
   FitDual result(at[index_of(u)]);
-  result.gradient[kStartUnknowns + index_of(u)] = info_of(u).scale;
+  result.gradient[kStartUnknowns + index_of(u)] = static_cast<float>(info_of(u).scale);
   return result;
 }
 
@@ -119,9 +120,10 @@ inline Tips<FitDual> fit_tips(const StageTips& s) {
       result[k] = FitDual(value[k]);
       auto& slope = result[k].gradient;
       slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] =
-          by_time[k] * info_of(Unknown::kTimeOffset).scale;
+          static_cast<float>(by_time[k] * info_of(Unknown::kTimeOffset).scale);
       for (int j = 0; j < 3; ++j)
-        slope[kStartUnknowns + index_of(first) + j] = -by_offset(k, j) * info_of(first).scale;
+        slope[kStartUnknowns + index_of(first) + j] =
+            static_cast<float>(-by_offset(k, j) * info_of(first).scale);
     }
     return result;
   };

@@ -40,15 +40,22 @@ inline double normal_equivalent(const Eigen::VectorXd& x, const Eigen::MatrixXd&
 }
 
 /// Significance of a candidate in a set that holds it, in standard deviations, by the covariance that makes
-/// less of it; signed where it is one number.
+/// less of it; signed where it is one number. Of physics that lies out of range only what is in range counts: a wind
+/// of 20 m/s in a drag of next to nothing is no wind.
 inline double significance(const Candidate& candidate, const Standing& standing) {
   std::vector<int> own;
-  for (const Unknown u : candidate.unknowns) own.push_back(index_of(u));
-  if (own.size() == 1) {
-    const double deviation = standing.deviation(own.front());
-    return deviation > 0.0 ? standing.estimate[own.front()] / deviation : 0.0;
+  double in_range = 1.0;
+  for (const Unknown u : candidate.unknowns) {
+    if (!(standing.deviation(index_of(u)) > 0.0)) continue;  // not free
+    own.push_back(index_of(u));
+    const double largest = std::max(-info_of(u).minimum, info_of(u).maximum);
+    const double value = std::abs(standing.estimate[index_of(u)]);
+    if (candidate.kind == CandidateKind::kPhysics && value > largest)
+      in_range = std::min(in_range, largest / value);
   }
-  const Eigen::VectorXd x = standing.estimate(own);
+  if (own.empty()) return 0.0;
+  const Eigen::VectorXd x = in_range * standing.estimate(own);
+  if (own.size() == 1) return x[0] / standing.deviation(own.front());
   return std::min(normal_equivalent(x, standing.noise(own, own)),
                   normal_equivalent(x, standing.spread(own, own)));
 }

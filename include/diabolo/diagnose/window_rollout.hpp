@@ -120,7 +120,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       if (filtered) centre = centre + (trail - state.position);
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = r.diabolo.position(c, row) - centre[c].value - shift[c];
-        line.head(n) = centre[c].gradient.matrix();
+        line.head(n) = centre[c].gradient.matrix().template cast<double>();
         for (int j = 0; j < 3; ++j) {
           const int unknown = index_of(Unknown::kMarkerX) + j;
           line[kStartUnknowns + unknown] += frame(c, j) * info_of(static_cast<Unknown>(unknown)).scale;
@@ -134,7 +134,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     if (row > window.first && stage.spin.valid[row - 1]) {
       const D mean = (spin_before + state.spin) * D(0.5);
       double residual = stage.spin.value[row - 1] - mean.value;
-      line.head(n) = mean.gradient.matrix();
+      line.head(n) = mean.gradient.matrix().template cast<double>();
       line[n] = residual;
       system.spins.selfadjointView<Eigen::Lower>().rankUpdate(line);
       system.spin_square += residual * residual;
