@@ -156,3 +156,23 @@ TEST_CASE("a dual in single precision agrees with one in double precision") {
   const Dual<double, 1> wide = sqrt(exact) * exp(-exact) / (Dual<double, 1>(1.0) + exact * exact);
   CHECK(double(single.gradient[0]) == Approx(wide.gradient[0]).epsilon(1e-5));
 }
+
+TEST_CASE("derivatives may be shorter than the value, which stays as exact as without them") {
+  using M = Dual<double, 2, float>;
+  const auto f = [](const auto& a, const auto& b) {
+    using T = std::decay_t<decltype(a)>;
+    return sqrt(a * a + b) / exp(a) + sin(b) * cos(a) - tanh(a / b) + atan2(a, b) * T(2.0);
+  };
+  const M mixed = f(M::variable(1.3, 0), M::variable(0.7, 1));
+  const D wide = f(variable(1.3, 0), variable(0.7, 1));
+  CHECK(mixed.value == wide.value);
+  for (int k = 0; k < 2; ++k)
+    CHECK(static_cast<double>(mixed.gradient[k]) == Approx(wide.gradient[k]).epsilon(1e-5));
+}
+
+TEST_CASE("a slope beyond the range of short derivatives leaves those that are zero at zero") {
+  using M = Dual<double, 2, float>;
+  const M steep = M(1.0) / M::variable(1e-60, 0);
+  CHECK(steep.gradient[1] == 0.0F);
+  CHECK(std::isfinite(steep.gradient[0]));
+}

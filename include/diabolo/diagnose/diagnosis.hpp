@@ -85,12 +85,14 @@ inline Fit prepared(const std::vector<Recording>& recordings) {
   return fit;
 }
 
-/// From starts alone, with all of `set` free. A soft string rings, and from a stiff one the way there is long and
-/// uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone on with.
+/// From starts alone, with all of `set` free. A soft string rings, and from a stiff one the way there is long
+/// and uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone
+/// on with.
 template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
   fit.far_window = kFarWindowAtFirst;
-  ActiveSet first = set;  // a scale acts as gravity does, and is better known than a gravity that is asked about
+  ActiveSet first =
+      set;  // a scale acts as gravity does, and is better known than a gravity that is asked about
   if (set[index_of(Unknown::kGravity)])
     first[index_of(Unknown::kLengthScale)] = first[index_of(Unknown::kStringLength)] = false;
   Fit soft = fit;

@@ -27,10 +27,10 @@ using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
 
 /// What a window says of the unknowns once its start has been fitted, in the scales of kUnknownInfos.
 struct WindowScore {
-  UnknownVector score = UnknownVector::Zero();                           ///< half the slope of -chi^2
+  UnknownVector score = UnknownVector::Zero();                            ///< half the slope of -chi^2
   UnknownMatrix information = UnknownMatrix::Zero(kUnknowns, kUnknowns);  ///< half its curvature
-  double chi_square = 0.0;    ///< with the best start
-  double weight = 1.0;        ///< less than 1 where the window lies far off all others
+  double chi_square = 0.0;                                                ///< with the best start
+  double weight = 1.0;  ///< less than 1 where the window lies far off all others
   int numbers = 0;
   /// To the best start.
   Eigen::Matrix<double, kStartUnknowns, 1> start_step = Eigen::Matrix<double, kStartUnknowns, 1>::Zero();
@@ -184,8 +184,8 @@ inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
   return normal;
 }
 
-/// Best scaled step within bounds, damped by Levenberg and Marquardt's rule: what would leave its bounds is held
-/// there, the worst first, and the others are solved again.
+/// Best scaled step within bounds, damped by Levenberg and Marquardt's rule: what would leave its bounds is
+/// held there, the worst first, and the others are solved again.
 inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& at, double damping) {
   const Eigen::Index n = static_cast<Eigen::Index>(normal.free.size());
   Eigen::MatrixXd information = normal.information;
@@ -200,9 +200,11 @@ inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& a
     Eigen::Index worst = -1;
     double most = 0.0, bound = 0.0;
     for (const Eigen::Index i : moving) {
-      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(normal.free[static_cast<std::size_t>(i)])];
+      const UnknownInfo& info =
+          kUnknownInfos[static_cast<std::size_t>(normal.free[static_cast<std::size_t>(i)])];
       const double here = at[normal.free[static_cast<std::size_t>(i)]];
-      const double wanted = here + step[i] * info.scale, nearest = std::clamp(wanted, info.minimum, info.maximum);
+      const double wanted = here + step[i] * info.scale,
+                   nearest = std::clamp(wanted, info.minimum, info.maximum);
       const double beyond = std::abs(wanted - nearest) / info.scale * std::sqrt(information(i, i));
       if (beyond > most) worst = i, most = beyond, bound = (nearest - here) / info.scale;
     }
@@ -214,8 +216,8 @@ inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& a
   return step;
 }
 
-/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is, damped where a step leads
-/// uphill.
+/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is, damped where a step
+/// leads uphill.
 template <class D = detail::FitDual>
 void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
             const Watch& watch = {}) {

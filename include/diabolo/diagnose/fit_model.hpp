@@ -194,13 +194,13 @@ State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const
   State<D> state;
   for (int k = 0; k < 3; ++k) {
     state.position[k] = D(window.start.position[k]);
-    state.position[k].gradient[k] = kStartScales[k];
+    state.position[k].gradient[k] = static_cast<float>(kStartScales[k]);
     state.velocity[k] = D(window.start.velocity[k]);
-    state.velocity[k].gradient[3 + k] = kStartScales[3 + k];
+    state.velocity[k].gradient[3 + k] = static_cast<float>(kStartScales[3 + k]);
     state.axis[k] = D(window.start.axis[k]);
   }
   state.spin = D(window.start.spin);
-  state.spin.gradient[6] = kStartScales[6];
+  state.spin.gradient[6] = static_cast<float>(kStartScales[6]);
   state.string_state = window.start.string_state;
   const D& length = predictor.parameters().string_length;
   const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);

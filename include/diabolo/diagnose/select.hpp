@@ -12,8 +12,9 @@
 namespace diabolo {
 
 /// An effect stays in the model above so many standard deviations: with a score of candidates about 1e-3 of
-/// recordings without any effect would show one.
-inline constexpr double kSignificance = 4.0;
+/// recordings without any effect would show one. A fault needs more: what the model does not know ends up in
+/// the nuisances.
+inline constexpr double kSignificance = 4.0, kSignificanceOfFault = 5.0;
 
 /// Estimates and their standing once a set of unknowns is free.
 struct Standing {
@@ -40,8 +41,8 @@ inline double normal_equivalent(const Eigen::VectorXd& x, const Eigen::MatrixXd&
 }
 
 /// Significance of a candidate in a set that holds it, in standard deviations, by the covariance that makes
-/// less of it; signed where it is one number. Of physics that lies out of range only what is in range counts: a wind
-/// of 20 m/s in a drag of next to nothing is no wind.
+/// less of it; signed where it is one number. Of physics that lies out of range only what is in range counts:
+/// a wind of 20 m/s in a drag of next to nothing is no wind.
 inline double significance(const Candidate& candidate, const Standing& standing) {
   std::vector<int> own;
   double in_range = 1.0;
@@ -62,7 +63,8 @@ inline double significance(const Candidate& candidate, const Standing& standing)
 
 /// Whether a standing speaks for a candidate.
 inline bool speaks_for(const Candidate& candidate, double z) {
-  return candidate.positive ? z > kSignificance : std::abs(z) > kSignificance;
+  const double least = candidate.kind == CandidateKind::kMeasurement ? kSignificanceOfFault : kSignificance;
+  return candidate.positive ? z > least : std::abs(z) > least;
 }
 
 /// From a set with everything, takes away what is least sure, one by one, until all that is left is sure, or

@@ -82,7 +82,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"tilt_x", "rad", 0.01, 1.0 * kDegree, -6.0 * kDegree, 6.0 * kDegree},
     {"tilt_y", "rad", 0.01, 1.0 * kDegree, -6.0 * kDegree, 6.0 * kDegree},
     {"length_scale", "1", 0.01, 0.015, -0.05, 0.05},
-    {"time_offset", "s", 0.01, 0.01, -0.03, 0.03},
+    {"time_offset", "s", 0.01, 0.01, -0.06, 0.06},
     {"marker_x", "m", 0.01, 0.01, -0.08, 0.08},
     {"marker_y", "m", 0.001, 0.003, -0.01, 0.01},
     {"marker_z", "m", 0.001, 0.003, -0.01, 0.01},
