@@ -105,8 +105,10 @@ inline std::string_view alternative_to(std::string_view name) {
 }
 
 /// All of them, or those of some names, as far as they can be missing in a base: a base that has a spin
-/// coupling leaves it to be fitted, and one with the Earth's gravity has it right. What is an alternative to
-/// another fault comes in by exchange_claims(). Throws std::invalid_argument about a name that is none.
+/// coupling leaves it to be fitted, and one with the Earth's gravity has it right. In another one gravity is
+/// asked about, and not the scale of lengths, which acts alike and is the better known. What is an
+/// alternative to another fault comes in by exchange_claims(). Throws std::invalid_argument about a name that
+/// is none.
 inline Bank bank_for(const Parameters<double>& base, const std::vector<std::string>& names) {
   Bank bank;
   const auto wanted = [&](const Candidate& candidate) {
@@ -118,7 +120,7 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
   for (const Candidate& candidate : candidates()) {
     if (candidate.unknowns.empty() || !alternative_to(candidate.name).empty() || !wanted(candidate)) continue;
     if (candidate.name == "spin_coupling" && base.spin_coupling > 0.0) continue;
-    if (candidate.name == "gravity_magnitude" && earth) continue;
+    if (candidate.name == (earth ? "gravity_magnitude" : "length_scale")) continue;
     bank.push_back(&candidate);
   }
   for (const std::string& name : names)

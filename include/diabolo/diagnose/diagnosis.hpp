@@ -91,16 +91,12 @@ inline Fit prepared(const std::vector<Recording>& recordings) {
 template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
   fit.far_window = kFarWindowAtFirst;
-  ActiveSet first =
-      set;  // a scale acts as gravity does, and is better known than a gravity that is asked about
-  if (set[index_of(Unknown::kGravity)])
-    first[index_of(Unknown::kLengthScale)] = first[index_of(Unknown::kStringLength)] = false;
   Fit soft = fit;
-  refine<D>(fit, physics, first, 5, threads, watch);
+  refine<D>(fit, physics, set, 5, threads, watch);
   const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
   if (set[index_of(give)]) {
     soft.at[index_of(give)] = kSoftStart;
-    refine<D>(soft, physics, first, 5, threads, watch);
+    refine<D>(soft, physics, set, 5, threads, watch);
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   fit.far_window = kFarWindow;
@@ -142,6 +138,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   remember_before(result, fit);
   ActiveSet set = nuisances();
   for (const Candidate* candidate : bank) set = with(set, *candidate);
+  if (set[index_of(Unknown::kGravity)]) set[index_of(Unknown::kLengthScale)] = false;  // see bank_for()
   fit_everything<D>(fit, physics, set, options.threads, step("fitting everything", 0.15));
   const Candidate& friction = candidate_of("string_friction");
   backwards = is_in(set, friction) && significance(friction, standing(Evidence(fit), set)) < -kSignificance;
