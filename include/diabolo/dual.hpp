@@ -11,7 +11,7 @@ namespace diabolo {
 
 /// A forward-mode dual number: a value and its derivatives with respect to N inputs, carried through every
 /// operation by the chain rule. `Base` is double, float or a `Pack`; the derivatives may be of a shorter
-/// type, float, which halves the time of long ones. Comparisons look at the value only.
+/// type, float. Comparisons look at the value only.
 ///
 ///     using D = diabolo::Dual<double, 2>;
 ///     D x = D::variable(3.0, 0), y = D::variable(4.0, 1);

@@ -117,10 +117,12 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
            });
   };
   const bool earth = std::abs(base.gravity / kStandardGravity - 1.0) < 0.01;
+  const bool asks_gravity = !earth && wanted(candidate_of("gravity_magnitude"));
   for (const Candidate& candidate : candidates()) {
     if (candidate.unknowns.empty() || !alternative_to(candidate.name).empty() || !wanted(candidate)) continue;
     if (candidate.name == "spin_coupling" && base.spin_coupling > 0.0) continue;
-    if (candidate.name == (earth ? "gravity_magnitude" : "length_scale")) continue;
+    if (candidate.name == "gravity_magnitude" && earth) continue;
+    if (candidate.name == "length_scale" && asks_gravity) continue;
     bank.push_back(&candidate);
   }
   for (const std::string& name : names)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/fit.hpp"
+#include "diabolo/recording/solve_symmetric.hpp"
 
 namespace diabolo {
 
@@ -54,11 +54,9 @@ class Evidence {
   };
   Covariances covariances(const ActiveSet& free) const {
     const std::vector<int> f = indices(free);
+    const Eigen::Index n = static_cast<Eigen::Index>(f.size());
     const Eigen::MatrixXd inverse =
-        precision(f, information_)
-            .ldlt()
-            .solve(Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(f.size()),
-                                             static_cast<Eigen::Index>(f.size())));
+        solve_symmetric(precision(f, information_), Eigen::MatrixXd::Identity(n, n));
     Covariances result{UnknownMatrix::Zero(kUnknowns, kUnknowns), UnknownMatrix::Zero(kUnknowns, kUnknowns)};
     result.noise(f, f) = dispersion_ * inverse;
     result.spread(f, f) = jackknife(f, solve(free)(f));
@@ -103,9 +101,9 @@ class Evidence {
                       const UnknownVector& slope) const {
     const std::vector<int> f = indices(free);
     const UnknownVector expected = dispersion_ * prior_.cwiseProduct(centre_);
-    const Eigen::VectorXd x = precision(f, information).ldlt().solve(slope(f) + expected(f));
+    const Eigen::VectorXd sums = slope(f) + expected(f);
     UnknownVector result = UnknownVector::Zero();
-    result(f) = x;
+    result(f) = solve_symmetric(precision(f, information), sums).col(0);
     return result;
   }
 
@@ -117,7 +115,7 @@ class Evidence {
     for (const Part& part : parts_) {
       // (A - A_w) dx = -(b_w - A_w x) from A x = b.
       const Eigen::MatrixXd own = part.information(f, f);
-      const Eigen::VectorXd move = (all - own).ldlt().solve(own * x - part.slope(f));
+      const Eigen::VectorXd rest = own * x - part.slope(f), move = solve_symmetric(all - own, rest);
       sum += move * move.transpose();
     }
     const double count = static_cast<double>(parts_.size());

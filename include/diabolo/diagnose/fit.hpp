@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "diabolo/diagnose/window_rollout.hpp"
 #include "diabolo/recording/bootstrap.hpp"
 #include "diabolo/recording/parallel.hpp"
+#include "diabolo/recording/solve_symmetric.hpp"
 
 namespace diabolo {
 
@@ -42,17 +42,15 @@ inline WindowScore without_start(const WindowSystem& system, const CameraNoise& 
   constexpr int s = kStartUnknowns, n = kUnknowns;
   const WindowMatrix m =
       system.positions / (noise.position * noise.position) + system.spins / (noise.spin * noise.spin);
-  Eigen::Matrix<double, s, s> start = m.topLeftCorner<s, s>();
+  Eigen::MatrixXd start = m.topLeftCorner(s, s);
   for (int i = 0; i < s; ++i) start(i, i) += 1.0 / (kStartPriors[i] * kStartPriors[i]);
-  const Eigen::LDLT<Eigen::Matrix<double, s, s>> solver(start);
-  const Eigen::MatrixXd cross = m.block(0, s, s, n);
-  const Eigen::Matrix<double, s, 1> slope = m.block<s, 1>(0, s + n);
+  const Eigen::MatrixXd cross = m.block(0, s, s, n), slope = m.block(0, s + n, s, 1);
   WindowScore result;
-  result.start_by_unknowns = solver.solve(cross);
-  result.start_step = solver.solve(slope);
+  result.start_by_unknowns = solve_symmetric(start, cross);
+  result.start_step = solve_symmetric(start, slope);
   result.information = m.block(s, s, n, n) - cross.transpose() * result.start_by_unknowns;
   result.score = m.block(s, s + n, n, 1) - cross.transpose() * result.start_step;
-  result.chi_square = std::max(0.0, m(s + n, s + n) - slope.dot(result.start_step));
+  result.chi_square = std::max(0.0, m(s + n, s + n) - slope.col(0).dot(result.start_step));
   result.numbers = system.numbers;
   return result;
 }
@@ -195,8 +193,7 @@ inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& a
   for (Eigen::Index i = 0; i < n; ++i) moving[static_cast<std::size_t>(i)] = i;
   while (!moving.empty()) {
     const Eigen::VectorXd rest = normal.score(moving) - information(moving, held) * step(held);
-    const Eigen::MatrixXd own = information(moving, moving);
-    step(moving) = Eigen::VectorXd(own.ldlt().solve(rest));
+    step(moving) = solve_symmetric(information(moving, moving), rest).col(0);
     Eigen::Index worst = -1;
     double most = 0.0, bound = 0.0;
     for (const Eigen::Index i : moving) {

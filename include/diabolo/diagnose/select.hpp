@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
+#include "diabolo/recording/solve_symmetric.hpp"
 
 namespace diabolo {
 
@@ -36,7 +37,8 @@ inline Standing standing(const Evidence& evidence, const ActiveSet& free) {
 /// need to be as unlikely (Wilson and Hilferty's approximation of chi squared).
 inline double normal_equivalent(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance) {
   if (!(covariance.diagonal().minCoeff() > 0.0)) return 0.0;
-  const double square = std::max(0.0, x.dot(covariance.ldlt().solve(x))), k = static_cast<double>(x.size());
+  const double square = std::max(0.0, x.dot(solve_symmetric(covariance, x).col(0))),
+               k = static_cast<double>(x.size());
   return (std::cbrt(square / k) - (1.0 - 2.0 / (9.0 * k))) / std::sqrt(2.0 / (9.0 * k));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "diabolo/recording/recording.hpp"
+#include "diabolo/recording/solve_symmetric.hpp"
 
 namespace diabolo {
 
@@ -50,7 +50,7 @@ inline Track smoothed(const Track& track, double rate) {
   const Eigen::Index size = track.valid.size();
   for (Eigen::Index i = 0; i < size; ++i) {
     if (!track.valid[i]) continue;
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero(), sums = Eigen::Matrix3d::Zero();
+    Eigen::MatrixXd normal = Eigen::Matrix3d::Zero(), sums = Eigen::Matrix3d::Zero();
     int used = 0;
     for (Eigen::Index j = std::max<Eigen::Index>(0, i - half); j <= std::min(size - 1, i + half); ++j) {
       if (!track.valid[j]) continue;
@@ -61,7 +61,7 @@ inline Track smoothed(const Track& track, double rate) {
       sums += weight * powers * track.position.col(j).transpose();
       ++used;
     }
-    if (used >= 4) result.position.col(i) = normal.ldlt().solve(sums).row(0).transpose();
+    if (used >= 4) result.position.col(i) = solve_symmetric(normal, sums).row(0).transpose();
   }
   return result;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -10,6 +9,7 @@
 #include "diabolo/recording/dropouts.hpp"
 #include "diabolo/recording/error.hpp"
 #include "diabolo/recording/motive.hpp"
+#include "diabolo/recording/solve_symmetric.hpp"
 #include "diabolo/recording/text.hpp"
 
 namespace diabolo {
@@ -58,7 +58,7 @@ inline SpinLine find_spin_line(const MotiveTake& take, const MotiveBody& body) {
   square.col(0) = line.axis.unitOrthogonal();
   square.col(1) = line.axis.cross(square.col(0));
   const Eigen::Matrix2d reduced = square.transpose() * normal * square;
-  line.point = square * reduced.ldlt().solve(square.transpose() * right_side);
+  line.point = square * solve_symmetric(reduced, square.transpose() * right_side).col(0);
   return line;
 }
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/recording.hpp"
@@ -94,11 +94,24 @@ inline VelocityFilter local_polynomial(int frames, int degree, Window window) {
     throw std::invalid_argument("local polynomial: " + std::to_string(frames) +
                                 " frames; a centred window has an odd number");
   const Eigen::Index first = window == Window::kCausal ? 1 - frames : -(frames / 2);
-  const double scale = frames;  // keeps the powers below 1
-  Eigen::MatrixXd powers(frames, degree + 1);
-  for (Eigen::Index k = 0; k < frames; ++k)
-    for (int d = 0; d <= degree; ++d) powers(k, d) = std::pow(static_cast<double>(first + k) / scale, d);
-  return {powers.completeOrthogonalDecomposition().pseudoInverse().row(1).transpose() / scale, first};
+  // Sum over d of p_d(x_k) p_d'(0) / |p_d|^2, with the polynomials orthogonal over the window (Forsythe
+  // 1957).
+  const Eigen::ArrayXd x =
+      Eigen::ArrayXd::LinSpaced(frames, static_cast<double>(first), static_cast<double>(first + frames - 1));
+  Eigen::ArrayXd before = Eigen::ArrayXd::Zero(frames), p = Eigen::ArrayXd::Constant(frames, 1.0);
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(frames);
+  double square_before = 1.0, here_before = 0.0, here = 1.0, slope_before = 0.0, slope = 0.0;
+  for (int d = 0;; ++d) {
+    const double square = p.square().sum();
+    weight += (p * (slope / square)).matrix();
+    if (d == degree) return {weight, first};
+    const double a = (x * p.square()).sum() / square, b = d == 0 ? 0.0 : square / square_before;
+    const Eigen::ArrayXd next = (x - a) * p - b * before;
+    before = std::exchange(p, next);
+    slope_before = std::exchange(slope, here - a * slope - b * slope_before);
+    here_before = std::exchange(here, -a * here - b * here_before);
+    square_before = square;
+  }
 }
 
 /// Velocities over N samples.
