@@ -104,10 +104,14 @@ inline void weigh(Fit& fit) {
   const double usual = sorted.empty() ? 1.0 : quantile(sorted, 0.5);
   fit.cost = 0.0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const WindowSystem& system = fit.systems[i];
     WindowScore& score = fit.scores[i];
-    const double off = sizes[i] / std::max(fit.far_window * usual, 1e-12), square = off * off;
-    score.weight = fit.systems[i].failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
-    if (!fit.systems[i].failed)
+    const double far = std::max(fit.far_window * usual, 1e-12), off = sizes[i] / far, square = off * off;
+    score.weight = system.failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
+    // What a window cannot tell since its prediction failed, or missed a catch, costs as much as if it were
+    // infinitely far off: a better fit never pays more for seeing more.
+    fit.cost += 2.0 * far * far * (system.failed ? system.numbers + system.lost : system.lost);
+    if (!system.failed)
       fit.cost += off > 1.0 ? score.chi_square / square * (2.0 - 1.0 / square) : score.chi_square;
   }
   const UnknownVector prior = prior_precision(), scaled = (fit.at - fit.centre).cwiseQuotient(scales());

@@ -44,6 +44,7 @@ struct WindowSystem {
   WindowMatrix positions = WindowMatrix::Zero(kWindowColumns, kWindowColumns),
                spins = WindowMatrix::Zero(kWindowColumns, kWindowColumns);
   int numbers = 0;                                  ///< residuals in it
+  int lost = 0;                                     ///< residuals after a catch that the prediction missed
   double position_square = 0.0, spin_square = 0.0;  ///< sums of squared residuals [m^2], [rad^2/s^2]
   int position_numbers = 0, spin_numbers = 0;
   UnknownVector reach = UnknownVector::Zero();       ///< displacement at the window's end per unknown [m]
@@ -101,8 +102,10 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       const Vector3<double> seen = r.diabolo.position.col(row);
       if (state.string_state == StringState::kFlying &&
           height_above_tips(seen, grid[static_cast<std::size_t>(k)].tips.left,
-                            grid[static_cast<std::size_t>(k)].tips.right) < -0.02)
+                            grid[static_cast<std::size_t>(k)].tips.right) < -0.02) {
+        system.lost = 3 * static_cast<int>(r.diabolo.valid.segment(row, window.last - row + 1).count());
         break;
+      }
       Vector3<double> shift = Vector3<double>::Zero();
       Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();
       bool known = true;
