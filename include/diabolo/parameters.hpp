@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -67,7 +68,8 @@ struct Parameters {
   Scalar gravity = Scalar(kStandardGravity);  ///< [m/s^2], along -z
   Scalar mass = Scalar(0.2845);               ///< of the diabolo [kg]; default: the paper's red one
   Scalar axle_radius = Scalar(0.0065);        ///< r [m]
-  Scalar spin_coupling = Scalar(0.15);        ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
+  Scalar wraps = Scalar(0);  ///< whole turns of the string around the axle beyond the pass under it
+  Scalar spin_coupling = Scalar(0.15);     ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
   Scalar mu_acceleration = Scalar(154.0);  ///< spin per string length, while the right strand grows [rad/m]
   Scalar mu_deceleration = Scalar(154.0);  ///< the same, while it shrinks [rad/m]
   Scalar dissipation_rate = Scalar(0.0);   ///< decay of the velocity while ON_STRING [1/s]
@@ -164,6 +166,8 @@ struct Parameters {
     visit(Info{"gravity", "m/s^2", 0.0, 100.0, "acceleration of gravity, downwards"}, self.gravity);
     visit(Info{"mass", "kg", 1e-3, 10.0, "mass of the diabolo"}, self.mass);
     visit(Info{"axle_radius", "m", 1e-4, 0.1, "radius of the axle"}, self.axle_radius);
+    visit(Info{"wraps", "1", 0.0, 5.0, "whole turns of the string around the axle beyond the pass under it"},
+          self.wraps);
     visit(Info{"spin_coupling", "1/s", 0.0, 1e3, "rate at which slip on the axle is worn off"},
           self.spin_coupling);
     visit(Info{"mu_acceleration", "rad/m", 0.0, 1e4, "paper: spin per growth of the right strand"},
@@ -207,5 +211,11 @@ struct Parameters {
  private:
   static constexpr double kPublishedDissipationRate = 0.10000500033334732;  // -ln(0.9999) per 1 ms
 };
+
+/// That the string's wraps add to its contact angle [rad].
+template <class Scalar>
+Scalar wrapped_angle(const Parameters<Scalar>& parameters) {
+  return Scalar(2.0 * std::numbers::pi) * parameters.wraps;
+}
 
 }  // namespace diabolo

@@ -91,7 +91,8 @@ StringStateOf<Scalar> paper_string_state(StringStateOf<Scalar> state, const Vect
 
 /// Ours, for the inextensible string: as the paper's, with the distance inside the spheroid taken to first
 /// order from the slack, s = (L - path length) / |gradient| (no root search; exact for a string that is
-/// nearly taut), and leaving only between the tips, where the slack string falls off the axle.
+/// nearly taut), and leaving only between the tips, where the slack string falls off the axle. One that is
+/// wrapped around the axle does not.
 template <class Scalar>
 StringStateOf<Scalar> slack_string_state(StringStateOf<Scalar> state, const Vector3<Scalar>& point,
                                          const Scalar& slack, const Scalar& gradient_squared,
@@ -99,9 +100,9 @@ StringStateOf<Scalar> slack_string_state(StringStateOf<Scalar> state, const Vect
                                          const Parameters<Scalar>& parameters) {
   const Scalar gradient = positive_sqrt<Scalar>(gradient_squared);
   const Mask<Scalar> flying = is(state, StringState::kFlying);
-  const Mask<Scalar> leaves = !flying && (slack > parameters.flying_distance * gradient) &&
-                              (height_above_tips(point, left, right) > Scalar(0)) &&
-                              between_tips(point, left, right);
+  const Mask<Scalar> leaves =
+      !flying && (slack > parameters.flying_distance * gradient) && (parameters.wraps < Scalar(0.5)) &&
+      (height_above_tips(point, left, right) > Scalar(0)) && between_tips(point, left, right);
   const Mask<Scalar> loosens =
       is(state, StringState::kOnString) && (slack > parameters.loose_distance * gradient);
   assign_where(loosens, state, StringState::kLoose);

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -25,6 +31,7 @@ struct Alternative {
 struct Exchange {
   std::string_view name;               ///< of the best
   std::vector<std::string> tied_with;  ///< others that do as well
+  double z = 0.0;  ///< by how much the claim that it replaced is worse [standard deviations]
 };
 
 /// `fit` with one unknown's part taken by another.
@@ -42,12 +49,20 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
   return result;
 }
 
+/// Whether wraps of the string are worth a trial: it seems shorter, or to rub harder, than it should, on a
+/// spin that was seen.
+inline bool may_be_wrapped(const Fit& fit) {
+  return fit.at[index_of(Unknown::kWraps)] == 0.0 && std::ranges::all_of(fit.stages, &Stage::has_spin) &&
+         (fit.at[index_of(Unknown::kFriction)] > 0.35 || fit.at[index_of(Unknown::kStringLength)] < -0.02);
+}
+
 /// What else may explain what is claimed under this name. A pure delay, a low pass and a lagging servo differ
 /// in the second order of the delay only; a wrong rate of the frames looks like a wrong scale on a string of
-/// another length; wind in a drag like a tilt; the give of string and sticks by the sticks' directions; the
-/// laws of drag by the speeds; friction slows the spin as a bearing does.
+/// another length; wind in a drag like a tilt; a string wrapped around the axle like one that is shorter by
+/// the axle's circumference and rubs more; the give of string and sticks by the sticks' directions; the laws
+/// of drag by the speeds; friction slows the spin as a bearing does.
 inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit& fit, const ActiveSet& set) {
-  constexpr double kUsualSpeed = 2.0;  // [m/s]
+  constexpr double kUsualSpeed = 2.0, kUsualContact = 2.6;  // [m/s], [rad]
   std::vector<Alternative> others;
   const auto absent = [&](std::string_view other) { return !is_in(set, candidate_of(other)); };
   if (name == "time_offset" && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
@@ -63,6 +78,15 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
     Alternative wind{"wind", fit.delay, with(with(set, candidate_of("wind")), candidate_of(name), false),
                      fit.at};
     others.push_back(wind);
+  } else if (name == "wind") {
+    others.push_back({"gravity_tilt", fit.delay, with(set, candidate_of(name), false), fit.at});
+  } else if (name == "string_friction" && may_be_wrapped(fit)) {
+    const double circumference = 2.0 * std::numbers::pi * fit.at[index_of(Unknown::kAxleRadius)];
+    Alternative wrap{"string_wrap", fit.delay, set, fit.at};
+    wrap.at[index_of(Unknown::kWraps)] = 1.0;
+    wrap.at[index_of(Unknown::kFriction)] *= kUsualContact / (kUsualContact + 2.0 * std::numbers::pi);
+    wrap.at[index_of(Unknown::kStringLength)] += circumference;
+    others.push_back(wrap);
   } else if ((name == "axle_drag" || name == "spin_drag") && absent("string_friction")) {
     others.push_back(exchanged(fit, set, name, "string_friction", 0.0));
     others.back().at[index_of(Unknown::kFriction)] = 0.1;
@@ -78,11 +102,35 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   return others;
 }
 
-/// Refits with each alternative to a claim and keeps the best. `draft` holds what is claimed before; `fit`,
-/// `bank` and `set` are moved to what is best.
+/// The bank in which one explanation has taken another's place.
+inline Bank exchanged(Bank bank, std::string_view from, std::string_view to) {
+  if (alternative_to(to) == from && to != "string_wrap")  // a wrap comes beside friction
+    std::ranges::replace(bank, &candidate_of(from), &candidate_of(to));
+  return bank;
+}
+
+/// How many explanations a fit is sure of.
+inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, const Bank& bank) {
+  Diagnosis draft;
+  draft.windows.resize(fit.systems.size());
+  find(draft, fit, Evidence(fit), bank, set);
+  const auto needed = [&](const Finding& f) { return f.sure && is_in(set, *f.candidate); };
+  return std::ranges::count_if(draft.findings, needed) + (fit.at[index_of(Unknown::kWraps)] > 0.0 ? 1 : 0);
+}
+
+/// Refits with each alternative to a claim and keeps the best: of those that explain it as well as any, the
+/// one that needs the fewest; then a fault stays what it is, the others being rarer, and physics is
+/// what leaves least. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to what is
+/// best.
 template <class D = detail::FitDual>
 std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
                                       const Model& base, int threads, const Watch& watch) {
+  struct Option {
+    std::string_view name;
+    Fit fit;
+    ActiveSet set;
+    std::ptrdiff_t explanations;
+  };
   std::vector<Exchange> result;
   const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
     return f.claimed && !alternatives_to(f.candidate->name, fit, set).empty();
@@ -93,12 +141,10 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
   if (any) refine<D>(fit, base, set, kIterations, threads, watch);
   for (const Finding& finding : draft.findings) {
     if (!finding.claimed) continue;
-    const std::vector<Alternative> others = alternatives_to(finding.candidate->name, fit, set);
+    const std::string_view name = finding.candidate->name;
+    const std::vector<Alternative> others = alternatives_to(name, fit, set);
     if (others.empty()) continue;
-    std::vector<std::pair<double, std::string_view>> costs{{fit.cost, finding.candidate->name}};
-    const double dispersion = Evidence(fit).dispersion();
-    Fit best = fit;
-    ActiveSet best_set = set;
+    std::vector<Option> options{{name, fit, set, explanations_of(fit, set, bank)}};
     for (const Alternative& other : others) {
       const bool known = std::ranges::any_of(bank, [&](const Candidate* c) {
         return c->name == other.name || c->name == alternative_to(other.name);
@@ -107,26 +153,30 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       Fit trial = before;
       trial.delay = other.delay;
       trial.at = other.at;
+      trial.centre[index_of(Unknown::kWraps)] = other.at[index_of(Unknown::kWraps)];
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
       refine<D>(trial, base, other.set, kIterations, threads, watch);
-      costs.emplace_back(trial.cost, other.name);
-      if (trial.cost < best.cost) best = std::move(trial), best_set = other.set;
+      const std::ptrdiff_t explanations =
+          explanations_of(trial, other.set, exchanged(bank, name, other.name));
+      options.push_back({other.name, std::move(trial), other.set, explanations});
     }
-    // A fault stays what it is where nothing else is better: the others are rarer.
-    const double least = best.cost, worse = 9.0 * dispersion + kSameResidual * least;
-    const bool stays = finding.candidate->kind == CandidateKind::kMeasurement && fit.cost - least < worse;
-    if (stays) best = fit, best_set = set;
-    std::ranges::sort(costs);
-    Exchange exchange{stays ? finding.candidate->name : costs.front().second, {}};
-    for (const auto& [cost, name] : costs)
-      if (name != exchange.name && cost - least < worse) exchange.tied_with.emplace_back(name);
-    if (!alternative_to(exchange.name).empty())
-      std::ranges::replace_if(
-          bank, [&](const Candidate* c) { return c == finding.candidate; }, &candidate_of(exchange.name));
-    if (exchange.name != finding.candidate->name) before = best;
-    fit = std::move(best);
-    set = best_set;
+    const auto cost = [](const Option& option) { return option.fit.cost; };
+    const double least = std::ranges::min(options, {}, cost).fit.cost, before_cost = fit.cost;
+    const double worse = 9.0 * fit.dispersion + kSameResidual * least;
+    std::erase_if(options, [&](const Option& option) { return option.fit.cost - least >= worse; });
+    const bool fault = finding.candidate->kind == CandidateKind::kMeasurement;
+    const Option best = std::ranges::min(options, {}, [&](const Option& option) {
+      const bool rarer = fault || option.fit.at[index_of(Unknown::kWraps)] > 0.0;
+      return std::tuple(option.explanations, rarer && option.name != name, option.fit.cost);
+    });
+    Exchange exchange{best.name, {}, std::sqrt(std::max(0.0, before_cost - best.fit.cost) / fit.dispersion)};
+    for (const Option& option : options)
+      if (option.name != best.name) exchange.tied_with.emplace_back(option.name);
+    bank = exchanged(std::move(bank), name, best.name);
+    if (best.name != name) before = best.fit;
+    fit = best.fit;
+    set = best.set;
     result.push_back(std::move(exchange));
   }
   return result;

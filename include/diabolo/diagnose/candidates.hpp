@@ -36,6 +36,8 @@ inline const std::vector<Candidate>& candidates() {
       {"string_elasticity", "the string's stretch", kPhysics, {kCompliance}, 0.0, true},
       {"stick_flex", "the bending of the sticks", kPhysics, {kStickCompliance}, 0.0, true},
       {"string_friction", "friction of the string on the axle", kPhysics, {kFriction}, 0.0, true},
+      {"string_wrap", "a string that is wrapped around the axle", kPhysics, {kWraps}, 0.0, true},
+      {"landing_restitution", "the bounce of a catch", kPhysics, {kRestitution}, 0.0, true},
       {"air_drag_linear", "a drag that grows with speed", kPhysics, {kLinearDrag}, 0.0, true},
       {"air_drag_quadratic", "the drag of the air", kPhysics, {kQuadraticDrag}, 0.0, true},
       {"wind", "wind", kPhysics, {kWindX, kWindY}, 0.0, false},
@@ -98,9 +100,10 @@ inline const Candidate& candidate_of(std::string_view name) {
   return *std::ranges::find(candidates(), name, &Candidate::name);
 }
 
-/// The fault that this one is looked for in place of (see exchange_claims()); empty for most.
+/// What this one is looked for in place of (see exchange_claims()); empty for most.
 inline std::string_view alternative_to(std::string_view name) {
   if (name == "filter_lag" || name == "robot_servo_lag") return "time_offset";
+  if (name == "string_wrap") return "string_friction";
   return name == "frame_rate" ? "length_scale" : "";
 }
 

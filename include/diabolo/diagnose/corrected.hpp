@@ -19,6 +19,7 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   model.parameters.gravity += x(Unknown::kGravity);
   if (model.own_string_length) model.parameters.string_length += x(Unknown::kStringLength);
   model.parameters.spin_coupling = std::max(0.0, model.parameters.spin_coupling + x(Unknown::kSpinCoupling));
+  model.parameters.wraps += x(Unknown::kWraps);
   auto& tilt = model.effects.get<GravityTilt>();
   tilt.x += x(Unknown::kTiltX);
   tilt.y += x(Unknown::kTiltY);
@@ -38,6 +39,7 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   air.wind_y += x(Unknown::kWindY);
   model.effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
   model.effects.get<StringMass>().linear_density += std::max(0.0, x(Unknown::kStringMass));
+  model.effects.get<LandingRestitution>().coefficient += std::max(0.0, x(Unknown::kRestitution));
   auto& loss = model.effects.get<SpinLoss>();
   loss.air += std::max(0.0, x(Unknown::kSpinAir));
   loss.axle += std::max(0.0, x(Unknown::kSpinAxle));

@@ -17,20 +17,17 @@ namespace diabolo {
 /// what it would predict where it was not fitted are then algebra, without another simulation.
 class Evidence {
  public:
-  explicit Evidence(const Fit& fit) : prior_(prior_precision()), centre_(fit.centre.cwiseQuotient(scales())) {
+  explicit Evidence(const Fit& fit)
+      : prior_(prior_precision()), centre_(fit.centre.cwiseQuotient(scales())), dispersion_(fit.dispersion) {
     const UnknownVector at = fit.at.cwiseQuotient(scales());
-    double chi_square = 0.0, numbers = 0.0;
     for (const WindowScore& score : fit.scores) {
       Part part;
       part.information = score.weight * score.information;
       part.slope = part.information * at + score.weight * score.score;
       information_ += part.information;
       slope_ += part.slope;
-      chi_square += score.weight * score.chi_square;
-      numbers += score.weight * std::max(0, score.numbers - kStartUnknowns);
       parts_.push_back(std::move(part));
     }
-    dispersion_ = std::max(1.0, chi_square / std::max(1.0, numbers));
   }
 
   /// How much wider the residuals are than the noise says.
@@ -123,9 +120,9 @@ class Evidence {
   }
 
   UnknownVector prior_, centre_;  ///< scaled
+  double dispersion_;
   UnknownMatrix information_ = UnknownMatrix::Zero(kUnknowns, kUnknowns);
   UnknownVector slope_ = UnknownVector::Zero();
-  double dispersion_ = 1.0;
   std::vector<Part> parts_;
 };
 

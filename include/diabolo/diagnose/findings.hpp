@@ -25,8 +25,9 @@ struct Finding {
   double z = 0.0;                                   ///< significance in standard deviations
   double p_value = 1.0;                             ///< over all candidates
   double size = 0.0;                                ///< see size_of()
-  bool claimed = false;
-  bool material = false;
+  bool sure = false;                                ///< by its significance
+  bool material = false;                            ///< by its size
+  bool claimed = false;                             ///< both, and part of the model
   double confidence = 0.0;
   long swapped = 0;  ///< frames, of body_swap
   std::vector<std::string> tied_with;
@@ -154,7 +155,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     const double smallest = is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach;
     for (std::size_t w = 0; w < fit.systems.size(); ++w)
       if (size_of(candidate, f.estimate, {fit.systems[w]}) > smallest) f.windows.push_back(w);
-    const bool sure = speaks_for(candidate, f.z);
+    f.sure = speaks_for(candidate, f.z);
     if (candidate.kind == CandidateKind::kPhysics && candidate.floor == 0.0) {
       f.material = f.size > smallest;
     } else {
@@ -163,9 +164,9 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
         f.material = f.material || value - 2.0 * f.deviation[index_of(u)] > candidate.floor;
       }
     }
-    f.claimed = sure && f.material && is_in(set, candidate);
-    f.reason = !sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"
-                                                                   : "too small to be told from nothing")
+    f.claimed = f.sure && f.material && is_in(set, candidate);
+    f.reason = !f.sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"
+                                                                     : "too small to be told from nothing")
                : !f.material ? "there, but too small to matter"
                              : "sure, and large enough to matter";
     if (f.claimed && candidate.kind == CandidateKind::kPhysics)

@@ -68,6 +68,8 @@ struct Fit {
   std::vector<WindowSystem> systems;  ///< of all windows, stage after stage
   std::vector<WindowScore> scores;
   double cost = 0.0;  ///< weighted chi^2 and priors
+  double dispersion =
+      1.0;  ///< how much wider the residuals are than the noise says; priors count as much more
   int iterations = 0;
 };
 
@@ -103,6 +105,7 @@ inline void weigh(Fit& fit) {
   std::ranges::sort(sorted);
   const double usual = sorted.empty() ? 1.0 : quantile(sorted, 0.5);
   fit.cost = 0.0;
+  double chi_square = 0.0, numbers = 0.0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const WindowSystem& system = fit.systems[i];
     WindowScore& score = fit.scores[i];
@@ -113,9 +116,12 @@ inline void weigh(Fit& fit) {
     fit.cost += 2.0 * far * far * (system.failed ? system.numbers + system.lost : system.lost);
     if (!system.failed)
       fit.cost += off > 1.0 ? score.chi_square / square * (2.0 - 1.0 / square) : score.chi_square;
+    chi_square += score.weight * score.chi_square;
+    numbers += score.weight * std::max(0, score.numbers - kStartUnknowns);
   }
+  fit.dispersion = std::max(1.0, chi_square / std::max(1.0, numbers));
   const UnknownVector prior = prior_precision(), scaled = (fit.at - fit.centre).cwiseQuotient(scales());
-  fit.cost += scaled.dot(prior.cwiseProduct(scaled));
+  fit.cost += fit.dispersion * scaled.dot(prior.cwiseProduct(scaled));
 }
 
 /// Predicts all windows at `fit.at`: systems and scores.
@@ -177,7 +183,7 @@ inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
     information += window.weight * window.information;
     score += window.weight * window.score;
   }
-  const UnknownVector prior = prior_precision();
+  const UnknownVector prior = fit.dispersion * prior_precision();
   information.diagonal() += prior;
   score -= prior.cwiseProduct((fit.at - fit.centre).cwiseQuotient(scales()));
   normal.information = information(normal.free, normal.free);

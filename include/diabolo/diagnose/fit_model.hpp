@@ -49,8 +49,9 @@ inline bool dynamic_spring(const UnknownVector& at) {
   return at[index_of(Unknown::kCompliance)] + 2.0 * at[index_of(Unknown::kStickCompliance)] > kSoftString;
 }
 
-using FitPredictor = Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                               GravityTilt, FiniteAxle, StickFlex, StringMass, LatentForce>;
+using FitPredictor =
+    Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
+              StickFlex, StringMass, LandingRestitution, LatentForce>;
 
 /// The base with everything that may be missing, which carries its derivatives.
 struct FitModel {
@@ -70,6 +71,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   p.gravity = (p.gravity + x(Unknown::kGravity)) * scale;
   p.axle_radius = p.axle_radius * scale;
   p.spin_coupling = p.spin_coupling + x(Unknown::kSpinCoupling);
+  p.wraps = p.wraps + D(at[index_of(Unknown::kWraps)]);
   FitPredictor::Set effects;
   const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
     (copy_fields(std::get<I>(base.effects.members), std::get<I>(effects.members)), ...);
@@ -96,6 +98,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   air.wind_y += x(Unknown::kWindY);
   effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
   effects.get<StringMass>().linear_density += x(Unknown::kStringMass);
+  effects.get<LandingRestitution>().coefficient += x(Unknown::kRestitution);
   auto& loss = effects.get<SpinLoss>();
   loss.air += x(Unknown::kSpinAir);
   loss.axle += x(Unknown::kSpinAxle);

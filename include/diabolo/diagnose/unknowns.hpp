@@ -35,6 +35,8 @@ enum class Unknown : int {
   kStickDamping,     ///< of one stick's tip [N s/m]; counts where there is compliance
   kFriction,         ///< capstan coefficient
   kSpinGain,         ///< mass times axle radius over moment of inertia [1/m]; counts where there is friction
+  kWraps,            ///< of the string around the axle; a whole number, tried and never free
+  kRestitution,      ///< of a catch
   kLinearDrag,       ///< [1/s]
   kQuadraticDrag,    ///< [1/m]
   kWindX,            ///< [m/s]; counts where there is drag
@@ -102,6 +104,8 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"stick_damping", "N s/m", 1.0, 2.0, 0.0, 1e3},
     {"friction", "1", 0.1, 0.3, 0.0, 0.6},
     {"spin_gain", "1/m", 1.0, 5.0, 0.0, 100.0},
+    {"wraps", "1", 1.0, 0.0, 0.0, 5.0},
+    {"restitution", "1", 0.1, 0.2, 0.0, 1.0},
     {"linear_drag", "1/s", 0.1, 0.3, 0.0, 1.0},
     {"quadratic_drag", "1/m", 0.1, 0.15, 0.0, 0.5},
     {"wind_x", "m/s", 1.0, 3.0, -6.0, 6.0},

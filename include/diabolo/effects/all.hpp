@@ -4,6 +4,7 @@
 #include "diabolo/effects/air.hpp"
 #include "diabolo/effects/finite_axle.hpp"
 #include "diabolo/effects/gravity_tilt.hpp"
+#include "diabolo/effects/landing_restitution.hpp"
 #include "diabolo/effects/magnus_lift.hpp"
 #include "diabolo/effects/spin_loss.hpp"
 #include "diabolo/effects/stick_flex.hpp"
@@ -17,12 +18,12 @@ namespace diabolo {
 /// Every effect of the library.
 template <class Scalar>
 using AllEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt,
-                             FiniteAxle, StickFlex, StringMass>;
+                             FiniteAxle, StickFlex, StringMass, LandingRestitution>;
 
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
 using FullPredictor = Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                                GravityTilt, FiniteAxle, StickFlex, StringMass>;
+                                GravityTilt, FiniteAxle, StickFlex, StringMass, LandingRestitution>;
 
 }  // namespace diabolo

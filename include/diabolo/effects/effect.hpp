@@ -64,7 +64,9 @@ struct NeutralEffect {
     return {};
   }
   /// String that is not in the strands [m], at the beginning of a step; `tips` are shifted.
-  Scalar bound_length(const State<Scalar>&, const Tips<Scalar>&) const { return Scalar(0); }
+  Scalar bound_length(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
+    return Scalar(0);
+  }
   /// Addition to the string's length [m].
   Scalar added_length(const Parameters<Scalar>&) const { return Scalar(0); }
   /// Wherever the diabolo is.
@@ -122,9 +124,10 @@ struct EffectSet {
     });
     return sum;
   }
-  Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted) const {
+  Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted,
+                      const Parameters<Scalar>& parameters) const {
     Scalar sum{0};
-    each([&](const auto& effect) { sum += effect.bound_length(state, shifted); });
+    each([&](const auto& effect) { sum += effect.bound_length(state, shifted, parameters); });
     return sum;
   }
   /// Whether any effect moves the tips.
@@ -150,7 +153,7 @@ struct EffectSet {
   /// The same, and what depends on where it is; `tips` are shifted.
   StringNow<Scalar> string_at(StringNow<Scalar> string, const State<Scalar>& state, const Tips<Scalar>& tips,
                               const Parameters<Scalar>& parameters) const {
-    string.length = string.length - bound_length(state, tips);
+    string.length = string.length - bound_length(state, tips, parameters);
     each([&](const auto& effect) { string.add(effect.spring_at(state, tips), parameters.mass); });
     return string;
   }

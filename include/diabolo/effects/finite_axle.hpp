@@ -9,10 +9,10 @@
 namespace diabolo {
 
 /// An axle that is not thin: the strands leave it along its tangents, and `radius` times the contact angle of
-/// the string lies around it. The strands pull as those to a thin axle would from tips that are moved by the
-/// radius, square to each strand and towards the other. While the string swings, what the strands lose is
-/// what the axle takes up (the strands' ends run along an involute), so that one step sees a string of
-/// constant length from tips of a constant shift. For an axle square to both strands.
+/// the string, with all its wraps, lies around it. The strands pull as those to a thin axle would from tips
+/// that are moved by the radius, square to each strand and towards the other. While the string swings, what
+/// the strands lose is what the axle takes up (the strands' ends run along an involute), so that one step
+/// sees a string of constant length from tips of a constant shift. For an axle square to both strands.
 template <class Scalar>
 struct FiniteAxle : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "finite_axle";
@@ -30,10 +30,11 @@ struct FiniteAxle : NeutralEffect<Scalar> {
             select<Scalar>(captured, shift(to_right, to_left, path.right_length), TipShift<Scalar>().right)};
   }
 
-  Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted) const {
+  Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted,
+                      const Parameters<Scalar>& parameters) const {
     const StringPath<Scalar> path(state.position, shifted);
     return select(is(state.string_state, StringState::kFlying), Scalar(0),
-                  Scalar(radius * contact_angle(path)));
+                  Scalar(radius * (contact_angle(path) + wrapped_angle(parameters))));
   }
 
   /// Calls `visit(info, field)` for every field.

@@ -10,8 +10,9 @@ namespace diabolo {
 /// A string that rubs on the axle. Euler's and Eytelwein's capstan law: while the string slips towards the
 /// right tip with the contact angle b, T_right / T_left = exp(coefficient b), so that the string's force
 /// leans from the bisector of its segments by F tanh(coefficient b / 2) tan(e), e half the angle between them
-/// (b = pi - 2 e). The constraint keeps the normal force F; friction adds the tangential part, and takes
-/// energy exactly where the string slips against it. String on a plastic or metal axle: 0.1 to 0.35.
+/// (b = pi - 2 e, and 2 pi more for each wrap). The constraint keeps the normal force F; friction adds the
+/// tangential part, and takes energy exactly where the string slips against it. String on a plastic or metal
+/// axle: 0.1 to 0.35.
 ///
 /// The same difference of tensions turns the axle: dw/dt = spin_gain (T_right - T_left) / m, spin_gain = m r
 /// / I (4 to 9 1/m for the paper's diabolos); zero leaves the spin to the model's spin rule.
@@ -44,7 +45,8 @@ struct StringFriction : NeutralEffect<Scalar> {
     const Vector3<Scalar> tangent = across * Scalar(Scalar(1) / maximum(sine, tiny<Scalar>()));
     // Nearly straight strings have no tangent worth the name: the constraint holds the diabolo there.
     const Scalar thin = maximum(cosine, Scalar(0.02)), steepness = sine / thin;
-    const Scalar exponent = coefficient * atan2(cosine, sine);  // half of coefficient b
+    const Scalar exponent = coefficient * (atan2(cosine, sine) +
+                                           Scalar(0.5) * wrapped_angle(parameters));  // half of coefficient b
     const Scalar largest = norm(result.string_acceleration) * dt * steepness;
     const Scalar slip = result.passed / dt - parameters.axle_radius * state.spin;
     const Scalar lean = tanh(exponent * tanh(slip_left(slip, Scalar(0.25) * sine * largest, exponent)));

@@ -49,6 +49,7 @@ inline const char* direction_of(const Candidate& candidate) {
   switch (first_of(candidate)) {
     case Unknown::kCompliance:
     case Unknown::kStickCompliance:
+    case Unknown::kRestitution:
       return "string_normal";
     case Unknown::kWindX:
       return "horizontal";
@@ -57,6 +58,7 @@ inline const char* direction_of(const Candidate& candidate) {
     case Unknown::kGravity:
       return candidate.kind == CandidateKind::kPhysics ? "vertical" : "measurement";
     case Unknown::kFriction:
+    case Unknown::kWraps:
       return "string_tangent";
     case Unknown::kLinearDrag:
     case Unknown::kQuadraticDrag:

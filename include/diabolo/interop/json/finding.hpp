@@ -66,6 +66,10 @@ inline Json parameters_of(const Finding& f, double given_length, double given_gr
     }
     case kFriction:
       return Json::array({plain("coefficient", kFriction, "1")});
+    case kWraps:
+      return Json::array({plain("turns", kWraps, "1")});
+    case kRestitution:
+      return Json::array({plain("coefficient", kRestitution, "1")});
     case kLinearDrag:
       return Json::array({plain("rate", kLinearDrag, "1/s")});
     case kQuadraticDrag:

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "diabolo/effects/effect.hpp"
+
+namespace diabolo {
+
+/// A catch that is not perfectly inelastic: of the rate at which the path length grows when a slack string
+/// comes taut, the diabolo keeps `coefficient` in the other direction (Newton's law of impact along the
+/// string). Hands and string damping leave 0 to 0.4. For a string without resolved springs, which bounce by
+/// themselves.
+template <class Scalar>
+struct LandingRestitution : NeutralEffect<Scalar> {
+  static constexpr std::string_view kName = "landing_restitution";
+  Scalar coefficient{0};  ///< 0: inelastic; 1: no energy is lost with resting tips
+
+  bool neutral() const { return is_constant_zero(coefficient); }
+
+  /// The catch took all of that rate by its impulse; as much of it again throws the diabolo back.
+  Contact<Scalar> contact(const State<Scalar>&, const Tips<Scalar>&, const StringStepResult<Scalar>& result,
+                          const Scalar& dt, const Parameters<Scalar>&) const {
+    const Scalar share = select(result.snapped_taut, coefficient, Scalar(0));
+    return {result.string_acceleration * Scalar(share * dt), Scalar(0)};
+  }
+
+  /// Calls `visit(info, field)` for every field.
+  template <class Self, class Visitor>
+  static void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"coefficient", "1", 0.0, 1.0,
+                        "of the string's rate of stretch that a catch gives back"},
+          self.coefficient);
+  }
+};
+
+}  // namespace diabolo

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/effects/landing_restitution.hpp"
+
+#include <cmath>
+
+#include "effect_scene.hpp"
+
+using namespace effect_scene;
+
+namespace {
+
+/// Under the middle of resting tips, `drop` above the lowest point of the string.
+struct Drop {
+  Tips<double> tips;
+  State<double> state;
+  double lowest;
+};
+
+Drop drop_from(double drop) {
+  Drop scene;
+  scene.tips.left = Vector(0.0, 0.2, 1.0);
+  scene.tips.right = Vector(0.0, -0.2, 1.0);
+  scene.lowest = 1.0 - std::sqrt(0.25 * 1.45 * 1.45 - 0.04);
+  scene.state.position = Vector(0.0, 0.0, scene.lowest + drop);
+  scene.state.string_state = StringState::kLoose;
+  return scene;
+}
+
+/// Highest point after the first catch, above the lowest point of the string [m].
+double bounce(double coefficient, double drop, double dt) {
+  const Full model = full<LandingRestitution>([&](auto& effect) { effect.coefficient = coefficient; });
+  Drop scene = drop_from(drop);
+  bool caught = false;
+  double highest = 0.0, velocity = 0.0;
+  for (double t = 0.0; t < 1.0; t += dt) {
+    const bool snapped = model.step(scene.state, scene.tips, scene.tips, dt).snapped_taut;
+    if (snapped && caught) return highest;
+    caught = caught || snapped;
+    if (caught) highest = std::max(highest, scene.state.position.z() - scene.lowest);
+    if (caught && velocity > 0.0 && scene.state.velocity.z() <= 0.0) return highest;
+    velocity = scene.state.velocity.z();
+  }
+  return highest;
+}
+
+}  // namespace
+
+TEST_CASE("a catch without restitution changes no bit") {
+  const unsigned seed = 1021;
+  CAPTURE(seed);
+  Full::Set set;
+  CHECK(differing_steps(set, seed) == 0);
+}
+
+TEST_CASE(
+    "a dropped diabolo comes back to the square of the coefficient times its height, as dt goes to zero") {
+  for (const double e : {0.2, 0.5, 0.9}) {
+    CAPTURE(e);
+    const double expected = e * e * 0.1;
+    CHECK(bounce(e, 0.1, 1e-5) == Approx(expected).epsilon(2e-3));
+    CHECK(std::abs(bounce(e, 0.1, 1e-4) - expected) < 3e-3 * 0.1);
+    CHECK(std::abs(bounce(e, 0.1, 1e-3) - expected) < 3e-2 * 0.1);
+  }
+}
+
+TEST_CASE("a diabolo that bounces on resting tips gains no energy and comes to rest on the string") {
+  const Full model = full<LandingRestitution>([](auto& effect) { effect.coefficient = 0.4; });
+  Drop scene = drop_from(0.15);
+  scene.state.position.y() += 0.03;
+  const double g = model.parameters().gravity;
+  const auto energy = [&] { return 0.5 * scene.state.velocity.squaredNorm() + g * scene.state.position.z(); };
+  double before = energy();
+  for (int i = 0; i < 3000; ++i) {
+    const bool snapped = model.step(scene.state, scene.tips, scene.tips, 1e-3).snapped_taut;
+    CAPTURE(i, snapped);
+    REQUIRE(energy() <= before + 1e-4);
+    before = std::min(before, energy());
+  }
+  CHECK(scene.state.string_state == StringState::kOnString);
+}
+
+TEST_CASE("a taut string feels no restitution") {
+  Random random(1022);
+  const Scene scene = hanging_scene(random);
+  const auto tips = [&](double t) { return scene.tips.at(t); };
+  const Full bouncy = full<LandingRestitution>([](auto& effect) { effect.coefficient = 0.8; });
+  const State<double> with = run(bouncy, scene.start, tips, 0.02, 20),
+                      without = run(Full(Numbers()), scene.start, tips, 0.02, 20);
+  CHECK(with.position == without.position);
+}
