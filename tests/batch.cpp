@@ -13,17 +13,32 @@ namespace {
 
 TipMotion<double> beat(double amplitude, double frequency) {
   std::vector<double> times;
-  std::vector<V> left, right;
+  std::vector<V> left, right, left_sticks, right_sticks;
   for (int i = 0; i <= 60; ++i) {
     const double t = i / 60.0, z = amplitude * std::sin(2.0 * M_PI * frequency * t);
     times.push_back(t);
     left.emplace_back(0.0, 0.3, 1.0 + z);
     right.emplace_back(0.0, -0.3, 1.0 - z);
+    left_sticks.push_back(V(1.0, 0.5, z).normalized());
+    right_sticks.push_back(V(1.0, -0.2, -3.0 * z).normalized());
   }
-  return {times, left, right, Interpolation::kSpline};
+  TipMotion<double> motion(times, left, right, Interpolation::kSpline);
+  motion.point_along(left_sticks, right_sticks);
+  return motion;
 }
 
-/// Rollouts of all presets, on the string, slack and flying, with and without elasticity.
+/// Every field at a small share of its largest value.
+AllEffects<double> every_effect() {
+  AllEffects<double> effects;
+  const auto turn_on = []<class Effect>(Effect& effect) {
+    Effect::for_each(effect, [](const ParameterInfo& info, double& field) { field = 0.005 * info.maximum; });
+  };
+  std::apply([&](auto&... effect) { (turn_on(effect), ...); }, effects.members);
+  return effects;
+}
+
+/// Rollouts of all presets, on the string, slack and flying, without effects, with elasticity and with every
+/// effect.
 struct Case {
   std::vector<TipMotion<double>> motions;
   Batch batch;
@@ -48,11 +63,13 @@ struct Case {
       AllEffects<double> effects;
       if (i % 3 == 0)
         effects.get<StringElasticity>() = StringElasticity<double>::of_stiffness(uniform(60.0, 5000.0), 1.0);
+      if (i % 3 == 1) effects = every_effect();
       batch.effects.push_back(effects);
       State<double> s;
       s.position = V(uniform(-0.1, 0.1), uniform(-0.1, 0.1), uniform(0.3, 1.6));
       s.velocity = V(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-2.0, 2.0));
       s.spin = uniform(-200.0, 200.0);
+      s.axis = V(1.0, uniform(-0.2, 0.2), uniform(-0.2, 0.2)).normalized();
       s.string_state = i % 7 == 0 ? StringState::kFlying : StringState::kLoose;
       batch.initial.push_back(s);
     }

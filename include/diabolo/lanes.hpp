@@ -92,6 +92,8 @@ void gather_tips(const LaneBlock& block, std::size_t i, Tips<Pack>& to) {
       to.right[k] = get([k](const Tips<double>& tips) { return tips.right[k]; });
       to.left_velocity[k] = get([k](const Tips<double>& tips) { return tips.left_velocity[k]; });
       to.right_velocity[k] = get([k](const Tips<double>& tips) { return tips.right_velocity[k]; });
+      to.left_direction[k] = get([k](const Tips<double>& tips) { return tips.left_direction[k]; });
+      to.right_direction[k] = get([k](const Tips<double>& tips) { return tips.right_direction[k]; });
     }
   };
   if (block.shared_tips)

@@ -26,6 +26,13 @@ struct Tips {
                   right_direction = Vector3<Scalar>::Constant(Scalar(0));
 };
 
+/// Whether it may be a stick's direction: of norm one within 1e-6, or zero.
+template <class Scalar>
+bool is_direction(const Vector3<Scalar>& v) {
+  const Scalar square = squared_norm(v);
+  return all(square == Scalar(0) || absolute<Scalar>(square - Scalar(1)) < Scalar(2e-6));
+}
+
 /// How tips are read between the given instants.
 enum class Interpolation {
   kHeld,    ///< each pose is held until the next one (the published program)
@@ -62,6 +69,17 @@ class TipMotion {
   double begin() const { return times_.front(); }  ///< [s]
   double end() const { return times_.back(); }     ///< [s]
   std::size_t size() const { return times_.size(); }
+  const std::vector<double>& times() const { return times_; }  ///< [s]
+  Interpolation interpolation() const { return interpolation_; }
+
+  /// What was given for instant number `i`, as tips at rest.
+  Tips<Scalar> pose(std::size_t i) const {
+    Tips<Scalar> tips;
+    tips.left = knots_[i].value.template head<3>();
+    tips.right = knots_[i].value.template tail<3>();
+    if (!directions_.empty()) point(tips, directions_[i]);
+    return tips;
+  }
 
   /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
   Tips<Scalar> at(double time, std::size_t& hint) const {
@@ -69,17 +87,16 @@ class TipMotion {
     const double rounding =
         8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin()), std::abs(end()));
     const std::size_t last = times_.size() - 1;
-    if (time < begin() - rounding || last == 0) return resting(0);
-    if (time > end() + rounding) return resting(last);
+    if (time < begin() - rounding || last == 0) return pose(0);
+    if (time > end() + rounding) return pose(last);
     time = std::max(time, begin());
-    if (time >= end())
-      return interpolation_ == Interpolation::kHeld ? resting(last) : between(last - 1, end());
+    if (time >= end()) return interpolation_ == Interpolation::kHeld ? pose(last) : between(last - 1, end());
     std::size_t i = hint + 1 < times_.size() ? hint : 0;
     if (times_[i] > time)
       i = static_cast<std::size_t>(std::ranges::upper_bound(times_, time) - times_.begin()) - 1;
     while (times_[i + 1] <= time) ++i;
     hint = i;
-    if (interpolation_ == Interpolation::kHeld) return resting(i);
+    if (interpolation_ == Interpolation::kHeld) return pose(i);
     return between(i, time);
   }
 
@@ -93,14 +110,6 @@ class TipMotion {
   struct Knot {
     Vector6 value, curvature = Vector6::Constant(Scalar(0));
   };
-
-  Tips<Scalar> resting(std::size_t i) const {
-    Tips<Scalar> tips;
-    tips.left = knots_[i].value.template head<3>();
-    tips.right = knots_[i].value.template tail<3>();
-    if (!directions_.empty()) point(tips, directions_[i]);
-    return tips;
-  }
 
   static void point(Tips<Scalar>& tips, const Vector6& directions) {
     tips.left_direction = directions.template head<3>();

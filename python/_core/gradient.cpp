@@ -19,7 +19,6 @@
 
 #include "effects.hpp"
 #include "state.hpp"
-#include "tip_motion.hpp"
 
 namespace diabolo::python {
 
@@ -38,22 +37,21 @@ void copy_numbers(const From& from, To& to) {
   To::for_each(to, [&](const ParameterInfo&, D& field) { field = *value++; });
 }
 
-std::vector<Vector3<D>> to_duals(const std::vector<Vector3<double>>& points) {
-  std::vector<Vector3<D>> duals;
-  duals.reserve(points.size());
-  for (const Vector3<double>& p : points) duals.push_back(p.cast<D>());
-  return duals;
-}
-
 /// Everything that a rollout depends on, in numbers that carry derivatives.
 struct Inputs {
   Parameters<D> parameters;
   AllEffects<D> effects;
   State<D> state;
-  std::vector<Vector3<D>> left, right;
+  std::vector<Vector3<D>> left, right, left_directions, right_directions;
 
-  Inputs(const Model& model, const State<double>& initial, const SampledTipMotion& tips)
-      : left(to_duals(tips.left)), right(to_duals(tips.right)) {
+  Inputs(const Model& model, const State<double>& initial, const TipMotion<double>& tips) {
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      const Tips<double> pose = tips.pose(i);
+      left.push_back(pose.left.cast<D>());
+      right.push_back(pose.right.cast<D>());
+      left_directions.push_back(pose.left_direction.cast<D>());
+      right_directions.push_back(pose.right_direction.cast<D>());
+    }
     parameters.copy_rules(model.parameters);
     copy_numbers(model.parameters, parameters);
     const auto copy_effects = [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -104,10 +102,11 @@ struct Inputs {
 
 struct Cancelled {};
 
-State<D> run(const Inputs& inputs, const SampledTipMotion& tips, const Steps& steps,
+State<D> run(const Inputs& inputs, const TipMotion<double>& tips, const Steps& steps,
              const std::atomic<bool>& cancel) {
   const FullPredictor<D> predictor(inputs.parameters, inputs.effects);
-  const TipMotion<D> motion(tips.times, inputs.left, inputs.right, tips.interpolation);
+  TipMotion<D> motion(tips.times(), inputs.left, inputs.right, tips.interpolation());
+  motion.point_along(inputs.left_directions, inputs.right_directions);
   return diabolo::rollout(predictor, inputs.state, motion, steps,
                           [&](std::size_t, double, const State<D>&, const StepStatus<D>&) {
                             if (cancel) throw Cancelled();
@@ -144,7 +143,7 @@ void expect_finite(const Derivatives& derivatives, const std::vector<std::string
 
 /// Fills `result` chunk by chunk, on several threads.
 void differentiate(const Inputs& nominal, const std::vector<std::string>& names,
-                   const std::vector<Seed>& seeds, const SampledTipMotion& tips, const Steps& steps,
+                   const std::vector<Seed>& seeds, const TipMotion<double>& tips, const Steps& steps,
                    unsigned threads, const std::atomic<bool>& cancel, Derivatives& result) {
   const std::size_t chunks = std::max<std::size_t>(1, (seeds.size() + kChunk - 1) / kChunk);
   std::atomic<std::size_t> next = 0;
@@ -179,7 +178,7 @@ void differentiate(const Inputs& nominal, const std::vector<std::string>& names,
   work();
 }
 
-py::tuple rollout_gradient(const Model& model, const State<double>& initial, const SampledTipMotion& tips,
+py::tuple rollout_gradient(const Model& model, const State<double>& initial, const TipMotion<double>& tips,
                            const std::vector<std::string>& with_respect_to, double begin, double dt,
                            std::size_t steps_to_take, unsigned threads) {
   const Steps steps{begin, dt, steps_to_take};
