@@ -137,9 +137,19 @@ TEST_CASE("a batch says what is wrong with it") {
     test.batch.parameters[2].string_length = 0.0;
     REQUIRE_THROWS_WITH(run(test.batch), "string_length: 0 m; must be within [0.05, 20] m");
   }
+  SECTION("effects") {
+    test.batch.effects[3].get<StickFlex>().compliance = -1.0;
+    REQUIRE_THROWS_WITH(run(test.batch), "stick_flex compliance: -1 m/N; must be within [0, 1] m/N");
+  }
   SECTION("states") {
-    test.batch.initial[1].velocity[2] = std::nan("");
+    const auto component = GENERATE(&State<double>::position, &State<double>::velocity, &State<double>::axis,
+                                    &State<double>::string_acceleration);
+    (test.batch.initial[1].*component)[2] = std::nan("");
     REQUIRE_THROWS_WITH(run(test.batch), "batch: an initial state is not finite");
+  }
+  SECTION("motions") {
+    test.batch.motions[0] = nullptr;
+    REQUIRE_THROWS_WITH(run(test.batch), "batch: a tip motion is a null pointer");
   }
   SECTION("steps") {
     test.batch.steps.dt = 0.0;

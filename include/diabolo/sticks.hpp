@@ -55,13 +55,18 @@ class TipMotion {
     if (interpolation_ == Interpolation::kSpline) solve_spline();
   }
 
-  /// Gives the sticks' directions at the instants, unit vectors; straight in between. Throws
-  /// std::invalid_argument where there are not as many as instants.
+  /// Gives the sticks' directions at the instants, unit vectors, or zero where not known; in between, unit
+  /// vectors in the plane of the two. Throws std::invalid_argument where there are not as many as instants,
+  /// or one is no is_direction().
   void point_along(const std::vector<Vector3<Scalar>>& left, const std::vector<Vector3<Scalar>>& right) {
     if (left.size() != times_.size() || right.size() != times_.size())
       throw std::invalid_argument("tip motion: " + std::to_string(times_.size()) + " instants, " +
                                   std::to_string(left.size()) + " left and " + std::to_string(right.size()) +
                                   " right directions; must be equal");
+    for (std::size_t i = 0; i < times_.size(); ++i)
+      if (!is_direction(left[i]) || !is_direction(right[i]))
+        throw std::invalid_argument("tip motion, instant " + std::to_string(i) +
+                                    ": a direction is neither a unit vector nor zero");
     directions_.resize(times_.size());
     for (std::size_t i = 0; i < times_.size(); ++i) directions_[i] << left[i], right[i];
   }
@@ -77,7 +82,9 @@ class TipMotion {
     Tips<Scalar> tips;
     tips.left = knots_[i].value.template head<3>();
     tips.right = knots_[i].value.template tail<3>();
-    if (!directions_.empty()) point(tips, directions_[i]);
+    if (directions_.empty()) return tips;
+    tips.left_direction = directions_[i].template head<3>();
+    tips.right_direction = directions_[i].template tail<3>();
     return tips;
   }
 
@@ -111,10 +118,7 @@ class TipMotion {
     Vector6 value, curvature = Vector6::Constant(Scalar(0));
   };
 
-  static void point(Tips<Scalar>& tips, const Vector6& directions) {
-    tips.left_direction = directions.template head<3>();
-    tips.right_direction = directions.template tail<3>();
-  }
+  static Vector3<Scalar> unit_or_zero(const Vector3<Scalar>& v) { return v * Scalar(Scalar(1) / norm(v)); }
 
   Tips<Scalar> between(std::size_t i, double time) const {
     const double h = times_[i + 1] - times_[i];
@@ -133,7 +137,10 @@ class TipMotion {
     tips.right = value.template tail<3>();
     tips.left_velocity = rate.template head<3>();
     tips.right_velocity = rate.template tail<3>();
-    if (!directions_.empty()) point(tips, directions_[i] * Scalar(u) + directions_[i + 1] * Scalar(v));
+    if (directions_.empty()) return tips;
+    const Vector6 direction = directions_[i] * Scalar(u) + directions_[i + 1] * Scalar(v);
+    tips.left_direction = unit_or_zero(direction.template head<3>());
+    tips.right_direction = unit_or_zero(direction.template tail<3>());
     return tips;
   }
 
