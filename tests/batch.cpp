@@ -157,10 +157,36 @@ TEST_CASE("a batch says what is wrong with it") {
   }
 }
 
-TEST_CASE("a cancelled batch returns at once") {
-  Case test(8, false);
+namespace {
+
+std::atomic<bool> cancelled;
+std::atomic<int> calls;
+constexpr int kCallsBeforeCancelling = 5;
+
+void count_and_cancel(const LaneBlock& block) {
+  if (++calls == kCallsBeforeCancelling) cancelled = true;
+  portable_batch_kernel().run(block);
+}
+
+}  // namespace
+
+TEST_CASE("a cancelled batch calls no kernel") {
+  const Case test(8, false);
+  cancelled = true;
+  calls = 0;
+  const BatchResult result = rollout_batch(test.batch, {2, &count_and_cancel, "counting"}, 2, cancelled);
+  REQUIRE(calls == 0);
+  for (std::size_t i = 0; i < 8; ++i) require_same(result.final_states[i], test.batch.initial[i]);
+}
+
+TEST_CASE("a batch that is cancelled in mid-run ends with the kernel calls that were under way") {
+  Case test(8, GENERATE(false, true));
   test.batch.steps.count = 2'000'000'000;
   test.batch.record_every = 0;
-  const std::atomic<bool> cancel = true;
-  rollout_batch(test.batch, portable_batch_kernel(), 2, cancel);
+  cancelled = false;
+  calls = 0;
+  const unsigned threads = 3;
+  rollout_batch(test.batch, {2, &count_and_cancel, "counting"}, threads, cancelled);
+  REQUIRE(calls >= kCallsBeforeCancelling);
+  REQUIRE(calls < kCallsBeforeCancelling + static_cast<int>(threads));
 }
