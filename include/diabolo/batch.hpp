@@ -64,8 +64,12 @@ struct BatchResult {
   std::vector<StringState> record_states;   ///< n x records
 };
 
-/// The kernel that any processor runs; `diabolo/batch_kernels.hpp` has faster ones.
-inline BatchKernel portable_batch_kernel() { return {2, &run_lanes<Pack<double, 2>>, "portable"}; }
+/// The kernel that any processor runs; `diabolo/batch_kernels.hpp` has faster ones. A template, so that only
+/// who calls it compiles it.
+template <int Lanes = 2>
+BatchKernel portable_batch_kernel() {
+  return {Lanes, &run_lanes<Pack<double, Lanes>>, "portable"};
+}
 
 namespace detail {
 
