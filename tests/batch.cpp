@@ -102,7 +102,7 @@ TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbo
       expected.push_back(states);
     }
     for (const BatchKernel& kernel : kernels)
-      for (const unsigned threads : {1U, 3U}) {
+      for (const int threads : {0, 1, 3}) {
         INFO("kernel " << kernel.instruction_set << ", threads " << threads << ", own motions "
                        << own_motions);
         const BatchResult result = rollout_batch(test.batch, kernel, threads, cancel);
@@ -151,6 +151,10 @@ TEST_CASE("a batch says what is wrong with it") {
     test.batch.motions[0] = nullptr;
     REQUIRE_THROWS_WITH(run(test.batch), "batch: a tip motion is a null pointer");
   }
+  SECTION("threads") {
+    REQUIRE_THROWS_WITH(rollout_batch(test.batch, portable_batch_kernel(), -1, cancel),
+                        "threads: -1; must be 0 (one for every processor) or more");
+  }
   SECTION("steps") {
     test.batch.steps.dt = 0.0;
     REQUIRE_THROWS_AS(run(test.batch), std::invalid_argument);
@@ -185,8 +189,8 @@ TEST_CASE("a batch that is cancelled in mid-run ends with the kernel calls that 
   test.batch.record_every = 0;
   cancelled = false;
   calls = 0;
-  const unsigned threads = 3;
+  const int threads = 3;
   rollout_batch(test.batch, {2, &count_and_cancel, "counting"}, threads, cancelled);
   REQUIRE(calls >= kCallsBeforeCancelling);
-  REQUIRE(calls < kCallsBeforeCancelling + static_cast<int>(threads));
+  REQUIRE(calls < kCallsBeforeCancelling + threads);
 }

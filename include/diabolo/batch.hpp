@@ -5,10 +5,10 @@
 #include <atomic>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "diabolo/lanes.hpp"
+#include "diabolo/parallel.hpp"
 #include "diabolo/rollout.hpp"
 
 namespace diabolo {
@@ -147,25 +147,23 @@ class BatchWorker {
 
 }  // namespace detail
 
-/// Runs a batch with a kernel on some threads (0: one per core). A rollout's result depends neither on the
-/// number of threads nor on its neighbours. Once `cancel` is set it returns within some milliseconds, its
-/// result being void.
-inline BatchResult rollout_batch(const Batch& batch, const BatchKernel& kernel, unsigned threads,
+/// Runs a batch with a kernel on some threads (0: one for every processor). A rollout's result depends
+/// neither on the number of threads nor on its neighbours. Once `cancel` is set it returns within some
+/// milliseconds, its result being void.
+inline BatchResult rollout_batch(const Batch& batch, const BatchKernel& kernel, int threads,
                                  const std::atomic<bool>& cancel) {
+  check_threads(threads);
   batch.validate();
   const std::size_t n = batch.initial.size();
   BatchResult result{batch.initial, std::vector<double>(n * batch.records() * 7),
                      std::vector<StringState>(n * batch.records())};
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  // One share for each thread, of whole groups, since a worker reads shared tip motions anew.
+  const auto parts = [](std::size_t whole, std::size_t part) { return (whole + part - 1) / part; };
   const std::size_t lanes = static_cast<std::size_t>(kernel.lanes);
-  const std::size_t groups = (n + lanes - 1) / lanes;
-  const std::size_t share = (groups + threads - 1) / threads * lanes;
-  std::vector<std::jthread> workers;
-  for (std::size_t first = share; first < n; first += share)
-    workers.emplace_back([&, first] {
-      detail::BatchWorker(batch, kernel, result).run(first, std::min(first + share, n), cancel);
-    });
-  detail::BatchWorker(batch, kernel, result).run(0, std::min(share, n), cancel);
+  const std::size_t share = std::max<std::size_t>(1, parts(parts(n, lanes), thread_count(threads))) * lanes;
+  for_each_index(parts(n, share), threads, {}, [&](std::size_t i) {
+    detail::BatchWorker(batch, kernel, result).run(i * share, std::min((i + 1) * share, n), cancel);
+  });
   return result;
 }
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "diabolo/dual.hpp"
+#include "diabolo/parallel.hpp"
 #include "diabolo/rollout.hpp"
 
 #include "arrays.hpp"
@@ -100,8 +100,6 @@ struct Inputs {
   }
 };
 
-struct Cancelled {};
-
 State<D> run(const Inputs& inputs, const TipMotion<double>& tips, const Steps& steps,
              const std::atomic<bool>& cancel) {
   const FullPredictor<D> predictor(inputs.parameters, inputs.effects);
@@ -141,46 +139,34 @@ void expect_finite(const Derivatives& derivatives, const std::vector<std::string
     if (!finite(derivatives.of_input[i])) fail("the derivative with respect to " + names[i]);
 }
 
-/// Fills `result` chunk by chunk, on several threads.
+/// Fills `result` chunk by chunk, on several threads. Throws Cancelled.
 void differentiate(const Inputs& nominal, const std::vector<std::string>& names,
                    const std::vector<Seed>& seeds, const TipMotion<double>& tips, const Steps& steps,
-                   unsigned threads, const std::atomic<bool>& cancel, Derivatives& result) {
+                   int threads, const std::atomic<bool>& cancel, Derivatives& result) {
   const std::size_t chunks = std::max<std::size_t>(1, (seeds.size() + kChunk - 1) / kChunk);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t chunk = next++; chunk < chunks && !cancel; chunk = next++) {
-      const std::size_t first = chunk * kChunk, last = std::min(first + kChunk, seeds.size());
-      Inputs inputs = nominal;
-      for (std::size_t k = first; k < last; ++k)
-        inputs.component(names[seeds[k].input], seeds[k].index).gradient[static_cast<int>(k - first)] = 1.0;
-      State<D> end;
-      try {
-        end = run(inputs, tips, steps, cancel);
-      } catch (const Cancelled&) {
-        return;
-      }
-      const std::array<D, 7> numbers = flat(end);
-      for (std::size_t k = first; k < last; ++k) {
-        std::vector<double>& of_input = result.of_input[seeds[k].input];
-        const std::size_t columns = of_input.size() / 7;
-        for (std::size_t row = 0; row < 7; ++row)
-          of_input[row * columns + seeds[k].index] = numbers[row].gradient[static_cast<int>(k - first)];
-      }
-      if (chunk == 0) {
-        std::ranges::transform(numbers, result.state.begin(), [](const D& x) { return x.value; });
-        result.string_state = end.string_state;
-      }
+  for_each_index(chunks, threads, {}, [&](std::size_t chunk) {
+    const std::size_t first = chunk * kChunk, last = std::min(first + kChunk, seeds.size());
+    Inputs inputs = nominal;
+    for (std::size_t k = first; k < last; ++k)
+      inputs.component(names[seeds[k].input], seeds[k].index).gradient[static_cast<int>(k - first)] = 1.0;
+    const State<D> end = run(inputs, tips, steps, cancel);
+    const std::array<D, 7> numbers = flat(end);
+    for (std::size_t k = first; k < last; ++k) {
+      std::vector<double>& of_input = result.of_input[seeds[k].input];
+      const std::size_t columns = of_input.size() / 7;
+      for (std::size_t row = 0; row < 7; ++row)
+        of_input[row * columns + seeds[k].index] = numbers[row].gradient[static_cast<int>(k - first)];
     }
-  };
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::jthread> workers;
-  for (std::size_t i = 1; i < std::min<std::size_t>(threads, chunks); ++i) workers.emplace_back(work);
-  work();
+    if (chunk == 0) {
+      std::ranges::transform(numbers, result.state.begin(), [](const D& x) { return x.value; });
+      result.string_state = end.string_state;
+    }
+  });
 }
 
 py::tuple rollout_gradient(const Model& model, const State<double>& initial, const TipMotion<double>& tips,
                            const std::vector<std::string>& with_respect_to, double begin, double dt,
-                           std::size_t steps_to_take, unsigned threads) {
+                           std::size_t steps_to_take, int threads) {
   const Steps steps{begin, dt, steps_to_take};
   steps.validate();
   FullPredictor<double>(model.parameters, model.effects);  // speaks about values out of range

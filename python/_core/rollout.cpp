@@ -67,7 +67,7 @@ void expect_finite_end(const std::vector<double>& records, std::size_t frames) {
 
 py::tuple rollout(const std::vector<Model>& models, const Array& initial, const Codes& string_states,
                   const std::vector<std::shared_ptr<TipMotion<double>>>& tips, double begin, double dt,
-                  std::size_t steps, std::size_t record_every, unsigned threads) {
+                  std::size_t steps, std::size_t record_every, int threads) {
   Batch batch;
   batch.initial = to_states(initial, string_states);
   batch.effects.clear();
