@@ -18,7 +18,7 @@ LONGEST_HEADER = 300  # lines
 # What lives on each floor, from the lowest: files, or folders with a closing slash (see CONTRIBUTING.md).
 # A file named on its own stands there and not with its folder.
 FLOORS: list[list[str]] = [
-    ["types.hpp", "version.hpp", "scalar.hpp", "dual.hpp", "pack.hpp"],
+    ["types.hpp", "version.hpp", "scalar.hpp", "dual.hpp", "pack.hpp", "parallel.hpp"],
     ["spheroid.hpp", "sticks.hpp", "state.hpp", "parameters.hpp"],
     [
         "string_path.hpp",

@@ -16,7 +16,7 @@ constexpr std::size_t kRollouts = 256;
 
 struct Setting {
   BatchKernel kernel;
-  unsigned threads = 1;
+  int threads = 1;
   bool own_tips = false;
   std::size_t steps = 1000;
   bool alike = false;  ///< all begin in the same state, so that the work of a step does not change with time
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   std::vector<BatchKernel> kernels = batch_kernels();
   kernels.insert(kernels.begin(), portable_batch_kernel());
   for (const BatchKernel& kernel : kernels)
-    for (const unsigned threads : {1U, 2U})
+    for (const int threads : {1, 2})
       for (const bool own_tips : {false, true}) settings.push_back({kernel, threads, own_tips, 1000});
   for (const std::size_t steps : {1000, 2000, 4000})
     settings.push_back({best_batch_kernel(), 1, false, steps, true});

@@ -13,17 +13,32 @@ namespace {
 
 TipMotion<double> beat(double amplitude, double frequency) {
   std::vector<double> times;
-  std::vector<V> left, right;
+  std::vector<V> left, right, left_sticks, right_sticks;
   for (int i = 0; i <= 60; ++i) {
     const double t = i / 60.0, z = amplitude * std::sin(2.0 * M_PI * frequency * t);
     times.push_back(t);
     left.emplace_back(0.0, 0.3, 1.0 + z);
     right.emplace_back(0.0, -0.3, 1.0 - z);
+    left_sticks.push_back(V(1.0, 0.5, z).normalized());
+    right_sticks.push_back(V(1.0, -0.2, -3.0 * z).normalized());
   }
-  return {times, left, right, Interpolation::kSpline};
+  TipMotion<double> motion(times, left, right, Interpolation::kSpline);
+  motion.point_along(left_sticks, right_sticks);
+  return motion;
 }
 
-/// Rollouts of all presets, on the string, slack and flying, with and without elasticity.
+/// Every field at a small share of its largest value.
+AllEffects<double> every_effect() {
+  AllEffects<double> effects;
+  const auto turn_on = []<class Effect>(Effect& effect) {
+    Effect::for_each(effect, [](const ParameterInfo& info, double& field) { field = 0.005 * info.maximum; });
+  };
+  std::apply([&](auto&... effect) { (turn_on(effect), ...); }, effects.members);
+  return effects;
+}
+
+/// Rollouts of all presets, on the string, slack and flying, without effects, with elasticity and with every
+/// effect.
 struct Case {
   std::vector<TipMotion<double>> motions;
   Batch batch;
@@ -48,11 +63,13 @@ struct Case {
       AllEffects<double> effects;
       if (i % 3 == 0)
         effects.get<StringElasticity>() = StringElasticity<double>::of_stiffness(uniform(60.0, 5000.0), 1.0);
+      if (i % 3 == 1) effects = every_effect();
       batch.effects.push_back(effects);
       State<double> s;
       s.position = V(uniform(-0.1, 0.1), uniform(-0.1, 0.1), uniform(0.3, 1.6));
       s.velocity = V(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-2.0, 2.0));
       s.spin = uniform(-200.0, 200.0);
+      s.axis = V(1.0, uniform(-0.2, 0.2), uniform(-0.2, 0.2)).normalized();
       s.string_state = i % 7 == 0 ? StringState::kFlying : StringState::kLoose;
       batch.initial.push_back(s);
     }
@@ -85,7 +102,7 @@ TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbo
       expected.push_back(states);
     }
     for (const BatchKernel& kernel : kernels)
-      for (const unsigned threads : {1U, 3U}) {
+      for (const int threads : {0, 1, 3}) {
         INFO("kernel " << kernel.instruction_set << ", threads " << threads << ", own motions "
                        << own_motions);
         const BatchResult result = rollout_batch(test.batch, kernel, threads, cancel);
@@ -120,9 +137,23 @@ TEST_CASE("a batch says what is wrong with it") {
     test.batch.parameters[2].string_length = 0.0;
     REQUIRE_THROWS_WITH(run(test.batch), "string_length: 0 m; must be within [0.05, 20] m");
   }
+  SECTION("effects") {
+    test.batch.effects[3].get<StickFlex>().compliance = -1.0;
+    REQUIRE_THROWS_WITH(run(test.batch), "stick_flex compliance: -1 m/N; must be within [0, 1] m/N");
+  }
   SECTION("states") {
-    test.batch.initial[1].velocity[2] = std::nan("");
+    const auto component = GENERATE(&State<double>::position, &State<double>::velocity, &State<double>::axis,
+                                    &State<double>::string_acceleration);
+    (test.batch.initial[1].*component)[2] = std::nan("");
     REQUIRE_THROWS_WITH(run(test.batch), "batch: an initial state is not finite");
+  }
+  SECTION("motions") {
+    test.batch.motions[0] = nullptr;
+    REQUIRE_THROWS_WITH(run(test.batch), "batch: a tip motion is a null pointer");
+  }
+  SECTION("threads") {
+    REQUIRE_THROWS_WITH(rollout_batch(test.batch, portable_batch_kernel(), -1, cancel),
+                        "threads: -1; must be 0 (one for every processor) or more");
   }
   SECTION("steps") {
     test.batch.steps.dt = 0.0;
@@ -130,10 +161,36 @@ TEST_CASE("a batch says what is wrong with it") {
   }
 }
 
-TEST_CASE("a cancelled batch returns at once") {
-  Case test(8, false);
+namespace {
+
+std::atomic<bool> cancelled;
+std::atomic<int> calls;
+constexpr int kCallsBeforeCancelling = 5;
+
+void count_and_cancel(const LaneBlock& block) {
+  if (++calls == kCallsBeforeCancelling) cancelled = true;
+  portable_batch_kernel().run(block);
+}
+
+}  // namespace
+
+TEST_CASE("a cancelled batch calls no kernel") {
+  const Case test(8, false);
+  cancelled = true;
+  calls = 0;
+  const BatchResult result = rollout_batch(test.batch, {2, &count_and_cancel, "counting"}, 2, cancelled);
+  REQUIRE(calls == 0);
+  for (std::size_t i = 0; i < 8; ++i) require_same(result.final_states[i], test.batch.initial[i]);
+}
+
+TEST_CASE("a batch that is cancelled in mid-run ends with the kernel calls that were under way") {
+  Case test(8, GENERATE(false, true));
   test.batch.steps.count = 2'000'000'000;
   test.batch.record_every = 0;
-  const std::atomic<bool> cancel = true;
-  rollout_batch(test.batch, portable_batch_kernel(), 2, cancel);
+  cancelled = false;
+  calls = 0;
+  const int threads = 3;
+  rollout_batch(test.batch, {2, &count_and_cancel, "counting"}, threads, cancelled);
+  REQUIRE(calls >= kCallsBeforeCancelling);
+  REQUIRE(calls < kCallsBeforeCancelling + threads);
 }

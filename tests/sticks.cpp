@@ -201,6 +201,31 @@ TEST_CASE("the hint changes nothing, in whatever order the motion is read") {
   }
 }
 
+TEST_CASE("sticks are of unit length at every time, and point as given at the instants") {
+  Random random(37);
+  for (const Interpolation interpolation : kAll) {
+    const Knots knots = random_knots(random, 20);
+    std::vector<Vector> left, right;
+    for (std::size_t i = 0; i < 20; ++i) {
+      left.push_back(random.vector(1.0).normalized());
+      right.push_back(random.vector(1.0).normalized());
+    }
+    TipMotion<double> motion = motion_of(knots, interpolation);
+    motion.point_along(left, right);
+    for (std::size_t i = 0; i < 20; ++i) {
+      CHECK((motion.at(knots.times[i]).left_direction - left[i]).norm() < 1e-14);
+      CHECK(motion.pose(i).right_direction == right[i]);
+    }
+    for (int i = 0; i < 200; ++i) {
+      const Tips<double> tips = motion.at(random.uniform(motion.begin() - 0.1, motion.end() + 0.1));
+      CHECK(std::abs(tips.left_direction.norm() - 1.0) < 1e-14);
+      CHECK(std::abs(tips.right_direction.norm() - 1.0) < 1e-14);
+    }
+    motion.point_along(left, std::vector<Vector>(20, Vector::Zero()));
+    CHECK(motion.at(0.5 * (knots.times[3] + knots.times[4])).right_direction.isZero(0.0));
+  }
+}
+
 TEST_CASE("bad input is refused in a sentence") {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
@@ -220,6 +245,10 @@ TEST_CASE("bad input is refused in a sentence") {
                     Contains("instant 1") && Contains("tip"));
   CHECK_THROWS_WITH(build({0.0, 1.0}, {p, p}, {{infinity, 0.0, 0.0}, p}), Contains("instant 0"));
   CHECK_THROWS_AS(build({}, {}, {}), std::invalid_argument);
+  TipMotion<double> motion = build({0.0, 1.0}, {p, p}, {p, p});
+  CHECK_THROWS_WITH(motion.point_along({p, p}, {p}), Contains("1 right directions"));
+  for (const Vector& bad : {Vector(0.0, nan, 0.0), Vector(0.0, 0.0, infinity), Vector(0.0, 0.0, 1.00001)})
+    CHECK_THROWS_WITH(motion.point_along({p, p}, {p, bad}), Contains("instant 1: a direction"));
 }
 
 TEST_CASE("tips may carry derivatives and lanes") {

@@ -5,10 +5,10 @@
 #include <atomic>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "diabolo/lanes.hpp"
+#include "diabolo/parallel.hpp"
 #include "diabolo/rollout.hpp"
 
 namespace diabolo {
@@ -24,7 +24,12 @@ struct Batch {
 
   std::size_t records() const { return record_every == 0 ? 0 : steps.count / record_every; }
 
-  /// Throws std::invalid_argument when a size is neither 1 nor n, or a value is out of its range.
+  /// Of rollout number `i`.
+  const Parameters<double>& parameters_of(std::size_t i) const { return shared_or_own(parameters, i); }
+  const AllEffects<double>& effects_of(std::size_t i) const { return shared_or_own(effects, i); }
+
+  /// Throws std::invalid_argument when a size is neither 1 nor n, a tip motion is missing, a state is not
+  /// finite, or a Predictor would refuse its parameters and effects.
   void validate() const {
     const auto check = [&](std::size_t size, const char* what) {
       if (size != 1 && size != initial.size())
@@ -35,11 +40,20 @@ struct Batch {
     check(effects.size(), "effect sets");
     check(motions.size(), "tip motions");
     steps.validate();
-    for (const Parameters<double>& p : parameters) p.validate();
-    for (const AllEffects<double>& e : effects) e.validate();
+    for (const TipMotion<double>* motion : motions)
+      if (!motion) throw std::invalid_argument("batch: a tip motion is a null pointer");
     for (const State<double>& s : initial)
-      if (!s.position.allFinite() || !s.velocity.allFinite() || !std::isfinite(s.spin))
+      if (!s.position.allFinite() || !s.velocity.allFinite() || !s.axis.allFinite() ||
+          !s.string_acceleration.allFinite() || !std::isfinite(s.spin))
         throw std::invalid_argument("batch: an initial state is not finite");
+    const std::size_t models = initial.empty() ? 0 : std::max(parameters.size(), effects.size());
+    for (std::size_t i = 0; i < models; ++i) FullPredictor<double>(parameters_of(i), effects_of(i));
+  }
+
+ private:
+  template <class T>
+  static const T& shared_or_own(const std::vector<T>& values, std::size_t i) {
+    return values[values.size() == 1 ? 0 : i];
   }
 };
 
@@ -50,8 +64,12 @@ struct BatchResult {
   std::vector<StringState> record_states;   ///< n x records
 };
 
-/// The kernel that any processor runs; `diabolo/batch_kernels.hpp` has faster ones.
-inline BatchKernel portable_batch_kernel() { return {2, &run_lanes<Pack<double, 2>>, "portable"}; }
+/// The kernel that any processor runs; `diabolo/batch_kernels.hpp` has faster ones. A template, so that only
+/// who calls it compiles it.
+template <int Lanes = 2>
+BatchKernel portable_batch_kernel() {
+  return {Lanes, &run_lanes<Pack<double, Lanes>>, "portable"};
+}
 
 namespace detail {
 
@@ -70,7 +88,9 @@ class BatchWorker {
       if (shared) sample(0, *batch_.motions[0], done, steps);
       for (std::size_t i = first; i < last && !cancel;) {
         std::size_t used = 1;
-        while (used < lanes && i + used < last && parameters(i + used).same_rules(parameters(i))) ++used;
+        while (used < lanes && i + used < last &&
+               batch_.parameters_of(i + used).same_rules(batch_.parameters_of(i)))
+          ++used;
         if (!shared)
           for (std::size_t lane = 0; lane < used; ++lane)
             sample(lane, *batch_.motions[i + lane], done, steps);
@@ -82,10 +102,6 @@ class BatchWorker {
 
  private:
   static constexpr std::size_t kChunk = 256;
-
-  const Parameters<double>& parameters(std::size_t i) const {
-    return batch_.parameters[batch_.parameters.size() == 1 ? 0 : i];
-  }
 
   void sample(std::size_t lane, const TipMotion<double>& motion, std::size_t done, std::size_t steps) {
     std::vector<Tips<double>>& tips = tips_[lane];
@@ -104,8 +120,8 @@ class BatchWorker {
       const std::size_t i = first + std::min(lane, used - 1);
       const bool real = lane < used;
       spare[lane] = result_.final_states[i];
-      block.parameters[lane] = &parameters(i);
-      block.effects[lane] = &batch_.effects[batch_.effects.size() == 1 ? 0 : i];
+      block.parameters[lane] = &batch_.parameters_of(i);
+      block.effects[lane] = &batch_.effects_of(i);
       block.states[lane] = real ? &result_.final_states[i] : &spare[lane];
       block.tips[lane] = tips_[batch_.motions.size() == 1 ? 0 : std::min(lane, used - 1)].data();
       block.records[lane] = real ? result_.records.data() + 7 * batch_.records() * i : records.data();
@@ -131,25 +147,23 @@ class BatchWorker {
 
 }  // namespace detail
 
-/// Runs a batch with a kernel on some threads (0: one per core). A rollout's result depends neither on the
-/// number of threads nor on its neighbours. Once `cancel` is set it returns within some milliseconds, its
-/// result being void.
-inline BatchResult rollout_batch(const Batch& batch, const BatchKernel& kernel, unsigned threads,
+/// Runs a batch with a kernel on some threads (0: one for every processor). A rollout's result depends
+/// neither on the number of threads nor on its neighbours. Once `cancel` is set it returns within some
+/// milliseconds, its result being void.
+inline BatchResult rollout_batch(const Batch& batch, const BatchKernel& kernel, int threads,
                                  const std::atomic<bool>& cancel) {
+  check_threads(threads);
   batch.validate();
   const std::size_t n = batch.initial.size();
   BatchResult result{batch.initial, std::vector<double>(n * batch.records() * 7),
                      std::vector<StringState>(n * batch.records())};
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  // One share for each thread, of whole groups, since a worker reads shared tip motions anew.
+  const auto parts = [](std::size_t whole, std::size_t part) { return (whole + part - 1) / part; };
   const std::size_t lanes = static_cast<std::size_t>(kernel.lanes);
-  const std::size_t groups = (n + lanes - 1) / lanes;
-  const std::size_t share = (groups + threads - 1) / threads * lanes;
-  std::vector<std::jthread> workers;
-  for (std::size_t first = share; first < n; first += share)
-    workers.emplace_back([&, first] {
-      detail::BatchWorker(batch, kernel, result).run(first, std::min(first + share, n), cancel);
-    });
-  detail::BatchWorker(batch, kernel, result).run(0, std::min(share, n), cancel);
+  const std::size_t share = std::max<std::size_t>(1, parts(parts(n, lanes), thread_count(threads))) * lanes;
+  for_each_index(parts(n, share), threads, {}, [&](std::size_t i) {
+    detail::BatchWorker(batch, kernel, result).run(i * share, std::min((i + 1) * share, n), cancel);
+  });
   return result;
 }
 

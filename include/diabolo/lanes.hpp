@@ -56,7 +56,7 @@ Vector3<Pack> gather3(Get&& get) {
 /// Copies the numeric fields of a struct of doubles into one lane of a struct of packs.
 template <class From, class To>
 void gather_fields(const From& from, To& to, int lane) {
-  std::array<double, 32> values{};
+  std::array<double, sizeof(From) / sizeof(double)> values{};  // room for all, whatever their number
   std::size_t i = 0;
   From::for_each(from, [&](const ParameterInfo&, const double& field) { values[i++] = field; });
   i = 0;
@@ -92,6 +92,8 @@ void gather_tips(const LaneBlock& block, std::size_t i, Tips<Pack>& to) {
       to.right[k] = get([k](const Tips<double>& tips) { return tips.right[k]; });
       to.left_velocity[k] = get([k](const Tips<double>& tips) { return tips.left_velocity[k]; });
       to.right_velocity[k] = get([k](const Tips<double>& tips) { return tips.right_velocity[k]; });
+      to.left_direction[k] = get([k](const Tips<double>& tips) { return tips.left_direction[k]; });
+      to.right_direction[k] = get([k](const Tips<double>& tips) { return tips.right_direction[k]; });
     }
   };
   if (block.shared_tips)

@@ -11,12 +11,19 @@ namespace diabolo {
 
 /// # The Scalar contract
 /// Every law of the library is a template over `Scalar`: double, float, `Dual` (derivatives), `Pack` (SIMD
-/// lanes), or a type of yours. Needed of it: + - * / and unary -, comparisons on the value, construction from
-/// double, `sqrt exp` by argument-dependent lookup (`sin cos atan2 tanh` where a header says so),
-/// Eigen::NumTraits, and a specialisation of `ScalarTraits`. Rules of the house: `using std::sqrt;` then
-/// unqualified calls; never `auto` for a Scalar or an Eigen expression; `Scalar(0.5)` beside a Scalar; branch
-/// on values only where both sides agree at the switch, else `select`; keep every argument of sqrt above zero
-/// (`positive_sqrt`).
+/// lanes), or a type of yours. Needed of it, and shown by tests/laws/foreign_scalar.cpp to be enough:
+///
+/// - a default constructor, copies, and construction from double, which may be explicit;
+/// - + - * / of two Scalars, unary -, += and -=;
+/// - < > <= >= == on the value, which give its `Mask`: bool, or a type of yours with construction from bool,
+///   && || !, and `any(mask)`, `all(mask)`;
+/// - by argument-dependent lookup `sqrt exp`, and for the effects `tanh atan2`;
+/// - likewise `select(mask, a, b)`, `is_finite(x)`, a Mask, and `is_constant_zero(x)`, a bool, as below;
+/// - specialisations of `ScalarTraits`, as below, and of Eigen::NumTraits.
+///
+/// Rules of the house: `using std::sqrt;` then unqualified calls; never `auto` for a Scalar or an Eigen
+/// expression; `Scalar(0.5)` beside a Scalar; branch on values only where both sides agree at the switch,
+/// else `select`; keep every argument of sqrt above zero (`positive_sqrt`).
 template <class Scalar>
 struct ScalarTraits;
 

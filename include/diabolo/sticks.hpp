@@ -26,6 +26,13 @@ struct Tips {
                   right_direction = Vector3<Scalar>::Constant(Scalar(0));
 };
 
+/// Whether it may be a stick's direction: of norm one within 1e-6, or zero.
+template <class Scalar>
+bool is_direction(const Vector3<Scalar>& v) {
+  const Scalar square = squared_norm(v);
+  return all(square == Scalar(0) || absolute<Scalar>(square - Scalar(1)) < Scalar(2e-6));
+}
+
 /// How tips are read between the given instants.
 enum class Interpolation {
   kHeld,    ///< each pose is held until the next one (the published program)
@@ -48,13 +55,18 @@ class TipMotion {
     if (interpolation_ == Interpolation::kSpline) solve_spline();
   }
 
-  /// Gives the sticks' directions at the instants, unit vectors; straight in between. Throws
-  /// std::invalid_argument where there are not as many as instants.
+  /// Gives the sticks' directions at the instants, unit vectors, or zero where not known; in between, unit
+  /// vectors in the plane of the two. Throws std::invalid_argument where there are not as many as instants,
+  /// or one is no is_direction().
   void point_along(const std::vector<Vector3<Scalar>>& left, const std::vector<Vector3<Scalar>>& right) {
     if (left.size() != times_.size() || right.size() != times_.size())
       throw std::invalid_argument("tip motion: " + std::to_string(times_.size()) + " instants, " +
                                   std::to_string(left.size()) + " left and " + std::to_string(right.size()) +
                                   " right directions; must be equal");
+    for (std::size_t i = 0; i < times_.size(); ++i)
+      if (!is_direction(left[i]) || !is_direction(right[i]))
+        throw std::invalid_argument("tip motion, instant " + std::to_string(i) +
+                                    ": a direction is neither a unit vector nor zero");
     directions_.resize(times_.size());
     for (std::size_t i = 0; i < times_.size(); ++i) directions_[i] << left[i], right[i];
   }
@@ -62,6 +74,19 @@ class TipMotion {
   double begin() const { return times_.front(); }  ///< [s]
   double end() const { return times_.back(); }     ///< [s]
   std::size_t size() const { return times_.size(); }
+  const std::vector<double>& times() const { return times_; }  ///< [s]
+  Interpolation interpolation() const { return interpolation_; }
+
+  /// What was given for instant number `i`, as tips at rest.
+  Tips<Scalar> pose(std::size_t i) const {
+    Tips<Scalar> tips;
+    tips.left = knots_[i].value.template head<3>();
+    tips.right = knots_[i].value.template tail<3>();
+    if (directions_.empty()) return tips;
+    tips.left_direction = directions_[i].template head<3>();
+    tips.right_direction = directions_[i].template tail<3>();
+    return tips;
+  }
 
   /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
   Tips<Scalar> at(double time, std::size_t& hint) const {
@@ -69,17 +94,16 @@ class TipMotion {
     const double rounding =
         8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin()), std::abs(end()));
     const std::size_t last = times_.size() - 1;
-    if (time < begin() - rounding || last == 0) return resting(0);
-    if (time > end() + rounding) return resting(last);
+    if (time < begin() - rounding || last == 0) return pose(0);
+    if (time > end() + rounding) return pose(last);
     time = std::max(time, begin());
-    if (time >= end())
-      return interpolation_ == Interpolation::kHeld ? resting(last) : between(last - 1, end());
+    if (time >= end()) return interpolation_ == Interpolation::kHeld ? pose(last) : between(last - 1, end());
     std::size_t i = hint + 1 < times_.size() ? hint : 0;
     if (times_[i] > time)
       i = static_cast<std::size_t>(std::ranges::upper_bound(times_, time) - times_.begin()) - 1;
     while (times_[i + 1] <= time) ++i;
     hint = i;
-    if (interpolation_ == Interpolation::kHeld) return resting(i);
+    if (interpolation_ == Interpolation::kHeld) return pose(i);
     return between(i, time);
   }
 
@@ -94,18 +118,7 @@ class TipMotion {
     Vector6 value, curvature = Vector6::Constant(Scalar(0));
   };
 
-  Tips<Scalar> resting(std::size_t i) const {
-    Tips<Scalar> tips;
-    tips.left = knots_[i].value.template head<3>();
-    tips.right = knots_[i].value.template tail<3>();
-    if (!directions_.empty()) point(tips, directions_[i]);
-    return tips;
-  }
-
-  static void point(Tips<Scalar>& tips, const Vector6& directions) {
-    tips.left_direction = directions.template head<3>();
-    tips.right_direction = directions.template tail<3>();
-  }
+  static Vector3<Scalar> unit_or_zero(const Vector3<Scalar>& v) { return v * Scalar(Scalar(1) / norm(v)); }
 
   Tips<Scalar> between(std::size_t i, double time) const {
     const double h = times_[i + 1] - times_[i];
@@ -124,7 +137,10 @@ class TipMotion {
     tips.right = value.template tail<3>();
     tips.left_velocity = rate.template head<3>();
     tips.right_velocity = rate.template tail<3>();
-    if (!directions_.empty()) point(tips, directions_[i] * Scalar(u) + directions_[i + 1] * Scalar(v));
+    if (directions_.empty()) return tips;
+    const Vector6 direction = directions_[i] * Scalar(u) + directions_[i + 1] * Scalar(v);
+    tips.left_direction = unit_or_zero(direction.template head<3>());
+    tips.right_direction = unit_or_zero(direction.template tail<3>());
     return tips;
   }
 

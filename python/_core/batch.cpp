@@ -5,7 +5,7 @@
 
 namespace diabolo::python {
 
-BatchResult run_batch(const Batch& batch, unsigned threads, const std::atomic<bool>& cancel) {
+BatchResult run_batch(const Batch& batch, int threads, const std::atomic<bool>& cancel) {
   return rollout_batch(batch, best_batch_kernel(), threads, cancel);
 }
 

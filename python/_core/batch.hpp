@@ -8,6 +8,6 @@
 namespace diabolo::python {
 
 /// Runs a batch with the fastest kernel of this processor; see rollout_batch().
-BatchResult run_batch(const Batch& batch, unsigned threads, const std::atomic<bool>& cancel);
+BatchResult run_batch(const Batch& batch, int threads, const std::atomic<bool>& cancel);
 
 }  // namespace diabolo::python

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "diabolo/dual.hpp"
+#include "diabolo/parallel.hpp"
 #include "diabolo/rollout.hpp"
 
 #include "arrays.hpp"
@@ -19,7 +19,6 @@
 
 #include "effects.hpp"
 #include "state.hpp"
-#include "tip_motion.hpp"
 
 namespace diabolo::python {
 
@@ -38,22 +37,21 @@ void copy_numbers(const From& from, To& to) {
   To::for_each(to, [&](const ParameterInfo&, D& field) { field = *value++; });
 }
 
-std::vector<Vector3<D>> to_duals(const std::vector<Vector3<double>>& points) {
-  std::vector<Vector3<D>> duals;
-  duals.reserve(points.size());
-  for (const Vector3<double>& p : points) duals.push_back(p.cast<D>());
-  return duals;
-}
-
 /// Everything that a rollout depends on, in numbers that carry derivatives.
 struct Inputs {
   Parameters<D> parameters;
   AllEffects<D> effects;
   State<D> state;
-  std::vector<Vector3<D>> left, right;
+  std::vector<Vector3<D>> left, right, left_directions, right_directions;
 
-  Inputs(const Model& model, const State<double>& initial, const SampledTipMotion& tips)
-      : left(to_duals(tips.left)), right(to_duals(tips.right)) {
+  Inputs(const Model& model, const State<double>& initial, const TipMotion<double>& tips) {
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      const Tips<double> pose = tips.pose(i);
+      left.push_back(pose.left.cast<D>());
+      right.push_back(pose.right.cast<D>());
+      left_directions.push_back(pose.left_direction.cast<D>());
+      right_directions.push_back(pose.right_direction.cast<D>());
+    }
     parameters.copy_rules(model.parameters);
     copy_numbers(model.parameters, parameters);
     const auto copy_effects = [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -102,12 +100,11 @@ struct Inputs {
   }
 };
 
-struct Cancelled {};
-
-State<D> run(const Inputs& inputs, const SampledTipMotion& tips, const Steps& steps,
+State<D> run(const Inputs& inputs, const TipMotion<double>& tips, const Steps& steps,
              const std::atomic<bool>& cancel) {
   const FullPredictor<D> predictor(inputs.parameters, inputs.effects);
-  const TipMotion<D> motion(tips.times, inputs.left, inputs.right, tips.interpolation);
+  TipMotion<D> motion(tips.times(), inputs.left, inputs.right, tips.interpolation());
+  motion.point_along(inputs.left_directions, inputs.right_directions);
   return diabolo::rollout(predictor, inputs.state, motion, steps,
                           [&](std::size_t, double, const State<D>&, const StepStatus<D>&) {
                             if (cancel) throw Cancelled();
@@ -142,46 +139,34 @@ void expect_finite(const Derivatives& derivatives, const std::vector<std::string
     if (!finite(derivatives.of_input[i])) fail("the derivative with respect to " + names[i]);
 }
 
-/// Fills `result` chunk by chunk, on several threads.
+/// Fills `result` chunk by chunk, on several threads. Throws Cancelled.
 void differentiate(const Inputs& nominal, const std::vector<std::string>& names,
-                   const std::vector<Seed>& seeds, const SampledTipMotion& tips, const Steps& steps,
-                   unsigned threads, const std::atomic<bool>& cancel, Derivatives& result) {
+                   const std::vector<Seed>& seeds, const TipMotion<double>& tips, const Steps& steps,
+                   int threads, const std::atomic<bool>& cancel, Derivatives& result) {
   const std::size_t chunks = std::max<std::size_t>(1, (seeds.size() + kChunk - 1) / kChunk);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t chunk = next++; chunk < chunks && !cancel; chunk = next++) {
-      const std::size_t first = chunk * kChunk, last = std::min(first + kChunk, seeds.size());
-      Inputs inputs = nominal;
-      for (std::size_t k = first; k < last; ++k)
-        inputs.component(names[seeds[k].input], seeds[k].index).gradient[static_cast<int>(k - first)] = 1.0;
-      State<D> end;
-      try {
-        end = run(inputs, tips, steps, cancel);
-      } catch (const Cancelled&) {
-        return;
-      }
-      const std::array<D, 7> numbers = flat(end);
-      for (std::size_t k = first; k < last; ++k) {
-        std::vector<double>& of_input = result.of_input[seeds[k].input];
-        const std::size_t columns = of_input.size() / 7;
-        for (std::size_t row = 0; row < 7; ++row)
-          of_input[row * columns + seeds[k].index] = numbers[row].gradient[static_cast<int>(k - first)];
-      }
-      if (chunk == 0) {
-        std::ranges::transform(numbers, result.state.begin(), [](const D& x) { return x.value; });
-        result.string_state = end.string_state;
-      }
+  for_each_index(chunks, threads, {}, [&](std::size_t chunk) {
+    const std::size_t first = chunk * kChunk, last = std::min(first + kChunk, seeds.size());
+    Inputs inputs = nominal;
+    for (std::size_t k = first; k < last; ++k)
+      inputs.component(names[seeds[k].input], seeds[k].index).gradient[static_cast<int>(k - first)] = 1.0;
+    const State<D> end = run(inputs, tips, steps, cancel);
+    const std::array<D, 7> numbers = flat(end);
+    for (std::size_t k = first; k < last; ++k) {
+      std::vector<double>& of_input = result.of_input[seeds[k].input];
+      const std::size_t columns = of_input.size() / 7;
+      for (std::size_t row = 0; row < 7; ++row)
+        of_input[row * columns + seeds[k].index] = numbers[row].gradient[static_cast<int>(k - first)];
     }
-  };
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::jthread> workers;
-  for (std::size_t i = 1; i < std::min<std::size_t>(threads, chunks); ++i) workers.emplace_back(work);
-  work();
+    if (chunk == 0) {
+      std::ranges::transform(numbers, result.state.begin(), [](const D& x) { return x.value; });
+      result.string_state = end.string_state;
+    }
+  });
 }
 
-py::tuple rollout_gradient(const Model& model, const State<double>& initial, const SampledTipMotion& tips,
+py::tuple rollout_gradient(const Model& model, const State<double>& initial, const TipMotion<double>& tips,
                            const std::vector<std::string>& with_respect_to, double begin, double dt,
-                           std::size_t steps_to_take, unsigned threads) {
+                           std::size_t steps_to_take, int threads) {
   const Steps steps{begin, dt, steps_to_take};
   steps.validate();
   FullPredictor<double>(model.parameters, model.effects);  // speaks about values out of range

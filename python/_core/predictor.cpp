@@ -24,9 +24,19 @@ Simulator make(const Model& model, const py::kwargs& given) {
   return Simulator(model.parameters, effects);
 }
 
+/// A stick's direction: a unit vector, or zero where it is not known.
+Vector3<double> to_direction(const Array& array, const std::string& name) {
+  const Vector3<double> direction = to_vector3(array, name);
+  if (!is_direction(direction))
+    throw std::invalid_argument(name + ": norm " + std::to_string(direction.norm()) +
+                                "; expected a unit vector, or zero where it is not known");
+  return direction;
+}
+
 StepStatus<double> step(const Simulator& predictor, State<double>& state, const Array& left0,
                         const Array& right0, const Array& left1, const Array& right1, double dt,
-                        const std::optional<std::array<Array, 4>>& velocities) {
+                        const std::optional<std::array<Array, 4>>& velocities,
+                        const std::optional<std::array<Array, 4>>& directions) {
   if (!(dt > 0.0) || !std::isfinite(dt))
     throw std::invalid_argument("dt: " + std::to_string(dt) + " s; must be positive and finite");
   Tips<double> begin, end;
@@ -42,6 +52,12 @@ StepStatus<double> step(const Simulator& predictor, State<double>& state, const 
   } else {
     begin.left_velocity = end.left_velocity = (end.left - begin.left) * (1.0 / dt);
     begin.right_velocity = end.right_velocity = (end.right - begin.right) * (1.0 / dt);
+  }
+  if (directions) {
+    begin.left_direction = to_direction((*directions)[0], "directions[0]");
+    begin.right_direction = to_direction((*directions)[1], "directions[1]");
+    end.left_direction = to_direction((*directions)[2], "directions[2]");
+    end.right_direction = to_direction((*directions)[3], "directions[3]");
   }
   State<double> next = state;
   const StepStatus<double> status = predictor.step(next, begin, end, dt);
@@ -91,12 +107,13 @@ It holds nothing but checked constants; the state is yours. For many steps, or m
           }))
       .def(
           "step", &step, "state"_a, "left0"_a, "right0"_a, "left1"_a, "right1"_a, "dt"_a,
-          "velocities"_a = py::none(),
+          "velocities"_a = py::none(), "directions"_a = py::none(),
           R"(Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
 each of the shape (3,) [m].
 
 `velocities` [m/s] are those of left0, right0, left1, right1; without them the tips go straight at constant
-speed. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.)");
+speed. `directions`, unit vectors, are those of the sticks at the same four instants, zero where not known;
+StickFlex alone looks at them. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.)");
 }
 
 }  // namespace diabolo::python

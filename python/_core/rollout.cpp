@@ -14,7 +14,6 @@
 #include "interrupt.hpp"
 
 #include "effects.hpp"
-#include "tip_motion.hpp"
 
 namespace diabolo::python {
 
@@ -67,8 +66,8 @@ void expect_finite_end(const std::vector<double>& records, std::size_t frames) {
 }
 
 py::tuple rollout(const std::vector<Model>& models, const Array& initial, const Codes& string_states,
-                  const std::vector<std::shared_ptr<SampledTipMotion>>& tips, double begin, double dt,
-                  std::size_t steps, std::size_t record_every, unsigned threads) {
+                  const std::vector<std::shared_ptr<TipMotion<double>>>& tips, double begin, double dt,
+                  std::size_t steps, std::size_t record_every, int threads) {
   Batch batch;
   batch.initial = to_states(initial, string_states);
   batch.effects.clear();
@@ -76,7 +75,7 @@ py::tuple rollout(const std::vector<Model>& models, const Array& initial, const 
     batch.parameters.push_back(model.parameters);
     batch.effects.push_back(model.effects);
   }
-  for (const auto& motion : tips) batch.motions.push_back(&motion->motion);
+  for (const auto& motion : tips) batch.motions.push_back(motion.get());
   batch.steps = {begin, dt, steps};
   batch.record_every = record_every;
   BatchResult result;

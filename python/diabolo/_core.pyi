@@ -1186,16 +1186,18 @@ class TipMotion:
     
     `times` [s] has the shape (M,), `left` and `right` [m] the shape (M, 3), world frame: x forward (away from the
     player), y left, z up. Before the first and after the last instant the tips rest. Between two instants they
-    follow `interpolation`, as in diabolo.Interpolation: 'linear', 'spline' or 'held'.
+    follow `interpolation`, as in diabolo.Interpolation: 'linear', 'spline' or 'held'. `left_directions` and
+    `right_directions` are those of the sticks, unit vectors of the shape (M, 3), zero where not known; StickFlex
+    alone looks at them.
     """
     @staticmethod
     def of_recording(recording: Recording, interpolation: str = 'spline') -> TipMotion:
         """
-        Motion of a recording's tips, time zero at its first row; gaps in a tip's track are filled, and rows before both tips are seen, or after, are left out.
+        Motion of a recording's tips and sticks, time zero at its first row; gaps in a tip's track are filled, and rows before both tips are seen, or after, are left out.
         """
-    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], typing.Any]:
+    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], typing.Any, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
         ...
-    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], interpolation: str = 'linear') -> None:
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], interpolation: str = 'linear', left_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
         ...
     def __len__(self) -> int:
         ...
@@ -1206,6 +1208,10 @@ class TipMotion:
     def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
         """
         Left tips [m], right tips [m], left and right velocities [m/s] at times of any shape (...): four arrays of the shape (..., 3).
+        """
+    def directions_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
+        """
+        Directions of the left and of the right stick at times of any shape (...): two arrays of the shape (..., 3), zero where not known.
         """
     @property
     def begin(self) -> float:
@@ -1226,9 +1232,19 @@ class TipMotion:
         Left tips [m], shape (M, 3).
         """
     @property
+    def left_directions(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of the left stick, shape (M, 3); zero where not known.
+        """
+    @property
     def right(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         Right tips [m], shape (M, 3).
+        """
+    @property
+    def right_directions(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of the right stick, shape (M, 3); zero where not known.
         """
     @property
     def times(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1276,13 +1292,14 @@ class Predictor:
         ...
     def __setstate__(self, arg0: tuple) -> None:
         ...
-    def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None) -> StepStatus:
+    def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None) -> StepStatus:
         """
         Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
         each of the shape (3,) [m].
         
         `velocities` [m/s] are those of left0, right0, left1, right1; without them the tips go straight at constant
-        speed. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.
+        speed. `directions`, unit vectors, are those of the sticks at the same four instants, zero where not known;
+        StickFlex alone looks at them. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.
         """
     @property
     def parameters(self) -> Parameters:

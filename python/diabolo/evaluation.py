@@ -91,7 +91,8 @@ def evaluate(
         compared at `horizons` [s], for each recording and, where there are several, for all together.
     start: how the state at such a start is found: "fair", from the rows up to it, the same for every model;
         or "published", by the rules of the authors' program, which look one row ahead.
-    seed: of the bootstrap intervals. threads: 0 takes all that help. progress: called with the fraction done.
+    seed: of the bootstrap intervals. threads: 0 takes all cores; the result does not depend on it.
+    progress: called with the fraction done.
 
         evaluate(load_recording("throw_1.csv")).rows[0].error  # [m]
     """
@@ -106,7 +107,7 @@ def evaluate(
         if any(other.name == model.name for other in chosen[:index]):
             raise ValueError(f"models: two are named '{model.name}'; their results could not be told apart")
     if threads < 0:
-        raise ValueError(f"threads: {threads}; expected 0 (all that help) or more")
+        raise ValueError(f"threads: {threads}; expected 0 (all cores) or more")
     report = progress or (lambda fraction: None)
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
@@ -122,7 +123,7 @@ def evaluate(
             report((done + fraction) / len(jobs))
 
         scores = _core.score_horizons(
-            group, model, starts_every, list(horizons), start, seed, 1 if threads == 1 else 2, report_part
+            group, model, starts_every, list(horizons), start, seed, threads, report_part
         )
         rows += [HorizonRow(name, model.name, score) for score in scores]
     report(1.0)

@@ -5,7 +5,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from diabolo import Model, Parameters, StringElasticity, TipMotion, motions, rollout, rollout_gradient
+from diabolo import (
+    Model,
+    Parameters,
+    StickFlex,
+    StringElasticity,
+    TipMotion,
+    motions,
+    rollout,
+    rollout_gradient,
+)
 from numpy.typing import NDArray
 
 TIPS = motions.swing(1.0)
@@ -78,6 +87,15 @@ def test_the_value_is_that_of_the_rollout() -> None:
     result = rollout_gradient(Parameters(), START, FEW, ["mass"], steps=STEPS)
     np.testing.assert_allclose(result.state, final_state(Model(), START, FEW), atol=1e-9)
     assert result.string_state.name == "ON_STRING"
+
+
+def test_sticks_bend_in_the_gradient_as_in_the_rollout() -> None:
+    sticks = (np.tile(stick, (len(FEW), 1)) for stick in ([0.8, 0.6, 0.0], [0.0, -0.6, 0.8]))
+    pointed = TipMotion(FEW.times, FEW.left, FEW.right, "spline", *sticks)
+    model = Model(stick_flex=StickFlex(compliance=5e-3, damping=2.0))
+    result = rollout_gradient(model, START, pointed, ["mass"], steps=STEPS)
+    np.testing.assert_allclose(result.state, final_state(model, START, pointed), atol=1e-9)
+    assert np.abs(result.state - final_state(model, START, FEW)).max() > 1e-3
 
 
 def test_shapes_and_threads() -> None:

@@ -6,7 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
-from diabolo import Parameters, Predictor, Spheroid, State, StringElasticity, StringState
+from diabolo import Parameters, Predictor, Spheroid, State, StickFlex, StringElasticity, StringState
 
 LEFT, RIGHT = np.array([0.0, 0.3, 0.0]), np.array([0.0, -0.3, 0.0])
 REST = (LEFT, RIGHT, LEFT, RIGHT)
@@ -97,6 +97,18 @@ def test_velocities_default_to_those_of_straight_tips() -> None:
     assert np.abs(states[0].velocity - states[2].velocity).max() > 1e-3
 
 
+def test_a_stick_that_points_along_its_strand_does_not_bend() -> None:
+    start = np.array([0.0, 0.0, -Spheroid(LEFT, RIGHT, 1.45).semi_minor])
+    strands = [(tip - start) / np.linalg.norm(tip - start) for tip in (LEFT, RIGHT)]
+    rigid, pointed, unknown = (State(start, string_state="on_string") for _ in range(3))
+    flexible = Predictor(Parameters(), stick_flex=StickFlex(compliance=1e-2))
+    Predictor(Parameters()).step(rigid, *REST, dt=1e-3)
+    flexible.step(pointed, *REST, dt=1e-3, directions=(*strands, *strands))
+    flexible.step(unknown, *REST, dt=1e-3)
+    np.testing.assert_allclose(pointed.to_array(), rigid.to_array(), atol=1e-12)
+    assert np.abs(unknown.velocity - rigid.velocity).max() > 1e-3
+
+
 def test_bad_steps_are_refused_and_change_nothing() -> None:
     predictor, state = Predictor(Parameters()), State([0.0, 0.0, -0.5])
     before = state.to_array()
@@ -106,6 +118,8 @@ def test_bad_steps_are_refused_and_change_nothing() -> None:
         predictor.step(state, LEFT, RIGHT, [0.0, 0.0], RIGHT, dt=1e-3)
     with pytest.raises(ValueError, match=r"velocities\[2\]: shape \(1,\)"):
         predictor.step(state, *REST, dt=1e-3, velocities=(LEFT, LEFT, [0.0], LEFT))
+    with pytest.raises(ValueError, match=r"directions\[1\]: norm 2\.0+; expected a unit vector, or zero"):
+        predictor.step(state, *REST, dt=1e-3, directions=(LEFT * 0, [2.0, 0.0, 0.0], LEFT, LEFT))
     with pytest.raises(FloatingPointError, match="no longer finite"):
         predictor.step(state, *REST, dt=1e300)
     np.testing.assert_array_equal(state.to_array(), before)

@@ -9,7 +9,16 @@ import diabolo
 import numpy as np
 import pytest
 from conftest import motive_text
-from diabolo import Calibration, DiaboloProperties, Recording, RecordingError, TipMotion
+from diabolo import (
+    Calibration,
+    DiaboloProperties,
+    Model,
+    Recording,
+    RecordingError,
+    StickFlex,
+    TipMotion,
+    rollout,
+)
 
 
 def with_dropouts(played: Recording) -> Recording:
@@ -130,6 +139,35 @@ def test_the_tips_of_a_recording_are_a_motion(played: Recording) -> None:
     filled = TipMotion.of_recording(with_dropouts(played), "linear")
     expected = 0.5 * (played.left[19] + played.left[21])
     np.testing.assert_allclose(filled.at(played.time[20])[0], expected, atol=1e-12)
+
+
+def test_a_prediction_is_a_rollout_of_the_recorded_tips_and_sticks(played: Recording) -> None:
+    half = 0.3 * np.sin(3.0 * played.time)
+    zero = np.zeros_like(half)
+    turn = np.stack([zero, zero, np.sin(half), np.cos(half)], axis=1)
+    recording = Recording(
+        played.time,
+        played.left,
+        played.right,
+        played.diabolo,
+        played.rate,
+        diabolo_orientation=played.diabolo_orientation,
+        left_orientation=turn,
+        right_orientation=turn,
+    )
+    tips = TipMotion.of_recording(recording)
+    np.testing.assert_allclose(
+        tips.left_directions[:, :2].T, [np.cos(2 * half), np.sin(2 * half)], atol=1e-12
+    )
+    flex = StickFlex(compliance=5e-3, damping=2.0)
+    model = Model(own_string_length=True, own_mass=True, stick_flex=flex)
+    predicted = diabolo.predict(recording, model, row=60, start="fair")
+    start = diabolo.start_state(recording, 60)
+    result = rollout(
+        model, start.to_array(), tips, begin=60 / 120.0, string_state=start.string_state, steps=3500
+    )
+    steps = np.ceil((np.arange(61, 481) - 60) / 120.0 * 1e3 - 1e-3).astype(int)  # the first at or after a row
+    np.testing.assert_array_equal(predicted.states[61:], result.states[steps - 1])
 
 
 def test_start_states_are_those_of_the_motion(played: Recording) -> None:

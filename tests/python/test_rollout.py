@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import threading
 import time
@@ -13,6 +14,7 @@ from diabolo import (
     Parameters,
     Predictor,
     State,
+    StickFlex,
     StringElasticity,
     StringState,
     TipMotion,
@@ -26,6 +28,10 @@ from numpy.typing import NDArray
 DT = 1e-3
 SWING = motions.swing(2.0)
 BEAT = motions.beat(2.0)
+STICKS = np.array([[0.8, 0.6, 0.0], [0.0, -0.6, 0.8]])
+POINTED = TipMotion(
+    SWING.times, SWING.left, SWING.right, "spline", *(np.tile(stick, (len(SWING), 1)) for stick in STICKS)
+)
 CENTRE = np.array([0.5, 0.0, 1.0])
 
 
@@ -41,12 +47,15 @@ def initial_states(count: int, seed: int) -> NDArray[np.float64]:
 def step_by_step(
     predictor: Predictor, initial: NDArray[np.float64], tips: TipMotion, steps: int
 ) -> tuple[NDArray[np.float64], list[int]]:
-    left, right, left_velocity, right_velocity = tips.at(DT * np.arange(steps + 1))
+    times = DT * np.arange(steps + 1)
+    left, right, left_velocity, right_velocity = tips.at(times)
+    left_stick, right_stick = tips.directions_at(times)
     state = State(initial[:3], initial[3:6], initial[6])
     states, string_states = [], []
     for i in range(steps):
         velocities = (left_velocity[i], right_velocity[i], left_velocity[i + 1], right_velocity[i + 1])
-        predictor.step(state, left[i], right[i], left[i + 1], right[i + 1], DT, velocities)
+        sticks = (left_stick[i], right_stick[i], left_stick[i + 1], right_stick[i + 1])
+        predictor.step(state, left[i], right[i], left[i + 1], right[i + 1], DT, velocities, sticks)
         states.append(state.to_array())
         string_states.append(int(state.string_state))
     return np.array(states), string_states
@@ -57,17 +66,18 @@ def step_by_step(
     [
         Model(),
         Model(string_elasticity=StringElasticity.of_stiffness(600.0, 2.0)),
+        Model(stick_flex=StickFlex(compliance=5e-3, damping=2.0)),
         Model.paper(),
         Model.published(),
     ],
-    ids=["consistent", "elastic", "paper", "published"],
+    ids=["consistent", "elastic", "bending", "paper", "published"],
 )
 def test_a_batch_is_what_single_steps_are(model: Model) -> None:
     initial = initial_states(9, seed=4)
-    batch = rollout(model, initial, SWING, steps=500)
+    batch = rollout(model, initial, POINTED, steps=500)
     predictor = Predictor(model)
     for i in range(len(initial)):
-        states, string_states = step_by_step(predictor, initial[i], SWING, 500)
+        states, string_states = step_by_step(predictor, initial[i], POINTED, 500)
         # Vector instructions may round otherwise; a taut string forgets that, and nothing here is chaotic.
         np.testing.assert_allclose(batch.states[i], states, rtol=1e-7, atol=1e-7)
         np.testing.assert_array_equal(batch.string_states[i], string_states)
@@ -212,6 +222,27 @@ def test_ctrl_c_ends_it_at_once_and_other_threads_run_on() -> None:
         timer.join()
     print(f"delays: {delays} s")
     assert min(delays) < 0.2
+
+
+def test_tip_motions_can_be_pickled() -> None:
+    other = pickle.loads(pickle.dumps(POINTED))
+    assert repr(other) == repr(POINTED)
+    for name in ("times", "left", "right", "left_directions", "right_directions"):
+        np.testing.assert_array_equal(getattr(other, name), getattr(POINTED, name))
+    flexible = Model(stick_flex=StickFlex(compliance=5e-3))
+    initial = initial_states(1, seed=13)[0]
+    ends = [rollout(flexible, initial, tips).states[-1] for tips in (POINTED, other, SWING)]
+    np.testing.assert_array_equal(ends[0], ends[1])
+    assert np.abs(ends[0] - ends[2]).max() > 1e-3
+
+
+def test_sticks_that_are_not_known_have_no_direction() -> None:
+    assert not SWING.left_directions.any() and not SWING.directions_at(0.5)[1].any()
+    one = TipMotion(SWING.times, SWING.left, SWING.right, right_directions=POINTED.right_directions)
+    assert not one.left_directions.any()
+    np.testing.assert_array_equal(one.right_directions, POINTED.right_directions)
+    with pytest.raises(ValueError, match=r"left_directions: shape \(1, 3\); expected \(\d+, 3\)"):
+        TipMotion(SWING.times, SWING.left, SWING.right, left_directions=STICKS[:1])
 
 
 def test_string_states_are_those_of_the_enumeration() -> None:

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "diabolo/diagnose/window_rollout.hpp"
+#include "diabolo/parallel.hpp"
 #include "diabolo/recording/bootstrap.hpp"
-#include "diabolo/recording/parallel.hpp"
 #include "diabolo/recording/solve_symmetric.hpp"
 
 namespace diabolo {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/parallel.hpp"
 #include "diabolo/recording/evaluation_step.hpp"
 #include "diabolo/recording/start_state.hpp"
 #include "diabolo/recording/text.hpp"
@@ -22,7 +23,7 @@ struct HorizonOptions {
   std::vector<double> horizons{0.1, 0.25, 0.5, 1.0, 2.0};  ///< after the start [s]
   Start start = Start::kFair;
   std::uint64_t seed = 1;  ///< of the bootstrap
-  int threads = 2;         ///< 1 or 2; the result is the same
+  int threads = 0;         ///< 0: one for every processor; the result is the same
 };
 
 /// Throws std::invalid_argument where an option is out of its range.
@@ -35,8 +36,7 @@ inline void check_options(const HorizonOptions& options) {
     if (!(horizon > 0.0 && horizon <= kLongestHorizon))
       throw std::invalid_argument("horizon: " + shown(horizon) + " s; must be > 0 and at most " +
                                   shown(kLongestHorizon) + " s");
-  if (options.threads < 1 || options.threads > 2)
-    throw std::invalid_argument("threads: " + std::to_string(options.threads) + "; must be 1 or 2");
+  check_threads(options.threads);
 }
 
 }  // namespace diabolo

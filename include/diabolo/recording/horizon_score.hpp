@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/parallel.hpp"
 #include "diabolo/recording/bootstrap.hpp"
 #include "diabolo/recording/horizon_options.hpp"
 #include "diabolo/recording/horizon_task.hpp"
 #include "diabolo/recording/model.hpp"
-#include "diabolo/recording/parallel.hpp"
 
 namespace diabolo {
 

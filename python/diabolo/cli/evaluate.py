@@ -64,7 +64,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--plot", metavar="FILE", help="draw error against time after the start (.png, .pdf, .svg)"
     )
-    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default 0: all that help")
+    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default 0: all cores")
     parser.add_argument(
         "--seed", metavar="N", type=int, default=1, help="of the bootstrap intervals; default 1"
     )

@@ -7,7 +7,9 @@
 #include <exception>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace diabolo {
 
@@ -23,14 +25,28 @@ struct Cancelled : std::runtime_error {
   Cancelled() : std::runtime_error("cancelled") {}
 };
 
-/// Calls `work(i)` for every i below `count`, each once and in no certain order, by the calling thread and,
-/// where `threads` is 2, one more. The calls must not depend on each other. The first exception of either
-/// thread, or of the watch, ends the work and reaches the caller.
+/// How many threads `wanted` means: 0 one for every processor, else itself.
+inline std::size_t thread_count(int wanted) {
+  return wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// Throws std::invalid_argument where `threads` is below zero.
+inline void check_threads(int threads) {
+  if (threads < 0)
+    throw std::invalid_argument("threads: " + std::to_string(threads) +
+                                "; must be 0 (one for every processor) or more");
+}
+
+/// Calls `work(i)` for every i below `count`, each once and in no certain order, by the calling thread and
+/// thread_count(threads) - 1 more. The calls must not depend on each other; then neither does what they give
+/// on the number of threads. The first exception of any thread, or of the watch, ends the work and reaches
+/// the caller.
 template <class Work>
 void for_each_index(std::size_t count, int threads, const Watch& watch, const Work& work) {
   constexpr std::size_t kLooks = 200;  // at the watch, at most
   std::atomic<std::size_t> next{0}, done{0};
-  std::exception_ptr failure;
+  std::atomic<bool> failed{false};
+  std::exception_ptr failure;  ///< of a helper, the first one
   const auto take = [&] {
     const std::size_t i = next.fetch_add(1);
     if (i >= count) return false;
@@ -49,15 +65,15 @@ void for_each_index(std::size_t count, int threads, const Watch& watch, const Wo
       while (take()) {
       }
     } catch (...) {
-      failure = std::current_exception();
+      if (!failed.exchange(true)) failure = std::current_exception();
       stop();
     }
   };
   {
-    std::jthread helper;
+    std::vector<std::jthread> helpers;
     try {
       look();
-      if (threads >= 2 && count > 1) helper = std::jthread(help);
+      for (std::size_t i = 1; i < std::min(thread_count(threads), count); ++i) helpers.emplace_back(help);
       for (std::size_t seen = 0; take();) {
         if (done.load() - seen < std::max<std::size_t>(1, count / kLooks)) continue;
         seen = done.load();
