@@ -32,6 +32,7 @@ FLOORS: list[list[str]] = [
         "pull_velocity.hpp",
         "hold_between_tips.hpp",
         "settle_on_string.hpp",
+        "slide_along_string.hpp",
         "advance_in_flight.hpp",
     ],
     ["effects/", "sensor/"],

@@ -10,6 +10,7 @@
 #include "diabolo/pull_velocity.hpp"
 #include "diabolo/rotation.hpp"
 #include "diabolo/settle_on_string.hpp"
+#include "diabolo/slide_along_string.hpp"
 #include "diabolo/spheroid.hpp"
 #include "diabolo/state_machine.hpp"
 #include "diabolo/taut_string.hpp"
@@ -150,15 +151,16 @@ class Predictor {
     const Scalar slipped =
         spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_);
     Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
-    Vector3<Scalar> rubbed = result.velocity;
-    effects_.touch(rubbed, spin, state, step.end, result, dt, parameters_);
-    rubbed = step.plane(rubbed);
+    Vector3<Scalar> velocity = result.velocity;
+    effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
+    velocity = step.plane(velocity);
+    state.position = result.position;
     // The change of velocity happens over the step: the mean of what it was before and after counts.
     if constexpr (Set::kTouches)
-      state.position = result.position + (rubbed - result.velocity) * Scalar(Scalar(0.5) * dt);
-    else
-      state.position = result.position;
-    state.velocity = rubbed * dissipation(dt, result.taut);
+      if (effects_.touches())
+        state.position = slide_along_string<Scalar>(step, result.position,
+                                                    (velocity - result.velocity) * Scalar(Scalar(0.5) * dt));
+    state.velocity = velocity * dissipation(dt, result.taut);
     state.spin = spin;
     state.string_acceleration = result.string_acceleration;
     assign_where(result.taut, state.string_state, StringState::kOnString);

@@ -135,6 +135,14 @@ struct EffectSet {
     });
     return moves;
   }
+  /// Whether any effect has a contact impulse.
+  bool touches() const {
+    bool touches = false;
+    each([&]<class Effect>(const Effect&) {
+      touches = touches || !std::is_same_v<decltype(&Effect::contact), decltype(&Neutral::contact)>;
+    });
+    return touches;
+  }
   /// Of the string with all additions [m].
   Scalar string_length(const Parameters<Scalar>& parameters) const {
     Scalar sum = parameters.string_length;
