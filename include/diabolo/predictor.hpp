@@ -176,12 +176,7 @@ class Predictor {
                                const Scalar& dt, const StringNow<Scalar>& string) const {
     const Parameters<Scalar>& p = parameters_;
     StepStatus<Scalar> status;
-    const Scalar length_change =
-        norm<Scalar>(state.position - end.right) - norm<Scalar>(state.position - begin.right);
     const Mask<Scalar> was_on_string = is(state.string_state, StringState::kOnString);
-    if (p.spin_rule == SpinRule::kLengthChange)
-      state.spin = select(was_on_string, spin_after_length_change(state.spin, length_change, p), state.spin);
-
     const Vector3<Scalar> a = plane_(effects_.acceleration(state, begin, parameters_));
     const Vector3<Scalar> from = state.position;
     Vector3<Scalar> velocity = plane_(state.velocity);
@@ -227,8 +222,11 @@ class Predictor {
     }
     if (!published)
       velocity = velocity * dissipation(dt, !held && is(state.string_state, StringState::kOnString));
-    if (p.spin_rule == SpinRule::kSlip) {
-      const Scalar change = norm<Scalar>(position - end.right) - norm<Scalar>(from - begin.right);
+    const Scalar change = norm<Scalar>(position - end.right) - norm<Scalar>(from - begin.right);
+    if (p.spin_rule == SpinRule::kLengthChange) {
+      const Mask<Scalar> stays = was_on_string && is(state.string_state, StringState::kOnString);
+      state.spin = select(stays, spin_after_length_change(state.spin, change, p), state.spin);
+    } else {
       const Scalar slipped =
           p.per_step ? spin_after_slip_explicit<Scalar>(state.spin, change / dt, factor_time(dt), p)
                      : spin_after_slip<Scalar>(state.spin, change / dt, factor_time(dt), p);
