@@ -289,7 +289,8 @@ TEST_CASE("tips farther apart than the string: the diabolo is held between them,
     CHECK(state.velocity.z() == Approx(0.2));
     CHECK(state.string_state == kOn);
     State<double> flying = at_rest({0.0, 0.2, 3.0}, kFlying);
-    predictor.step(flying, begin, end, kStep);
+    CHECK(predictor.step(flying, begin, end, kStep).overstretched);
+    CHECK_FALSE(predictor.step(flying, end, begin, kStep).overstretched);
     CHECK(flying.string_state == kFlying);
     CHECK(flying.position.z() == Approx(3.0).margin(1e-5));
   }

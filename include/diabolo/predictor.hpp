@@ -139,8 +139,8 @@ class Predictor {
       state.string_state = slack_string_state(state.string_state, state.position, result.slack,
                                               result.gradient_squared, end.left, end.right, parameters_);
     status.snapped_taut = result.snapped_taut;
-    const Mask<Scalar> straight = overstretched(end, string.length);
-    if (any(straight)) status.overstretched = hold(state, end, dt, captured && straight, string);
+    status.overstretched = overstretched(end, string.length);
+    if (any(status.overstretched)) hold(state, end, dt, captured && status.overstretched, string);
     return status;
   }
 
@@ -242,11 +242,9 @@ class Predictor {
     state.velocity = plane_(velocity);
     state.position = position;
     state.string_acceleration = result.string_acceleration;
-    if (p.release_when_overstretched)
-      status.overstretched = after.overstretched();
-    else if (any(after.overstretched()))
-      status.overstretched = hold(
-          state, end, dt, !is(state.string_state, StringState::kFlying) && after.overstretched(), string);
+    status.overstretched = after.overstretched();
+    if (!p.release_when_overstretched && any(status.overstretched))
+      hold(state, end, dt, !is(state.string_state, StringState::kFlying) && status.overstretched, string);
     return status;
   }
 
@@ -254,9 +252,9 @@ class Predictor {
     return kMayStretch && !is_constant_zero(string.compliance);
   }
   /// On a straight string; an elastic one is longer.
-  Mask<Scalar> hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
-                    const Mask<Scalar>& where, const StringNow<Scalar>& string) const {
-    return hold_between_tips<Scalar>(state, tips, dt, where && (string.compliance == Scalar(0)), plane_);
+  void hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt, const Mask<Scalar>& where,
+            const StringNow<Scalar>& string) const {
+    hold_between_tips<Scalar>(state, tips, dt, where && (string.compliance == Scalar(0)), plane_);
   }
 
   Scalar dissipation(const Scalar& dt, const Mask<Scalar>& where) const {

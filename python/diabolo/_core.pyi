@@ -1249,7 +1249,7 @@ class StepStatus:
     @property
     def overstretched(self) -> bool:
         """
-        The tips were farther apart than the string: the diabolo is held between them.
+        The tips are as far apart as the string is long, or farther, whatever the diabolo does.
         """
     @property
     def snapped_taut(self) -> bool:
