@@ -300,3 +300,29 @@ TEST_CASE("the difference of the tensions turns the axle, by the spin gain") {
     CHECK(std::abs(state.spin) < std::abs(spin));
   }
 }
+
+TEST_CASE("friction's torque adds to the spin rule") {
+  const unsigned seed = 715;
+  CAPTURE(seed);
+  Random random(seed);
+  const auto spun = [](const Scene& scene, double coupling, double gain) {
+    Numbers numbers;
+    numbers.spin_coupling = coupling;
+    const Full model = full<StringFriction>(
+        [&](auto& friction) {
+          friction.coefficient = 0.3;
+          friction.spin_gain = gain;
+        },
+        numbers);
+    State<double> state = scene.start;
+    model.step(state, scene.tips.at(0.0), scene.tips.at(1e-3), 1e-3);
+    return state.spin - scene.start.spin;
+  };
+  for (int episode = 0; episode < 20; ++episode) {
+    const Scene scene = hanging_scene(random);
+    const double rule = spun(scene, 2.0, 0.0), torque = spun(scene, 0.0, 5.0);
+    CHECK(std::abs(rule) > 1e-3);
+    CHECK(std::abs(torque) > 1e-3);
+    CHECK(spun(scene, 2.0, 5.0) == Approx(rule + torque).margin(1e-12));
+  }
+}
