@@ -35,7 +35,7 @@ FLOORS: list[list[str]] = [
         "slide_along_string.hpp",
         "advance_in_flight.hpp",
     ],
-    ["effects/", "sensor/"],
+    ["effects/"],
     ["predictor.hpp", "effects/all.hpp", "rollout.hpp", "lanes.hpp", "batch_kernels.hpp", "batch.hpp"],
     ["recording/", "player/", "diagnose/"],
     ["robot/"],

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cassert>
-#include <stdexcept>
 
 #include "diabolo/advance_in_flight.hpp"
 #include "diabolo/effects/effect.hpp"
@@ -32,8 +31,6 @@ class Predictor {
       : Predictor(parameters, effects, AlreadyValid{}) {
     parameters.validate();
     effects.validate();
-    if (!all(string_.length > Scalar(0)))
-      throw std::invalid_argument("string_length: not positive with the additions of all effects");
   }
 
   /// For parameters that have been validated before, such as the lanes of a batch.

@@ -65,8 +65,6 @@ struct NeutralEffect {
   }
   /// String that is not in the strands [m], at the beginning of a step; `tips` are shifted.
   Scalar bound_length(const State<Scalar>&, const Tips<Scalar>&) const { return Scalar(0); }
-  /// Addition to the string's length [m].
-  Scalar added_length(const Parameters<Scalar>&) const { return Scalar(0); }
   /// Wherever the diabolo is.
   Spring<Scalar> spring() const { return {}; }
   /// Where it is at the beginning of a step; beside spring(), for effects that have a tip_shift().
@@ -143,15 +141,9 @@ struct EffectSet {
     });
     return touches;
   }
-  /// Of the string with all additions [m].
-  Scalar string_length(const Parameters<Scalar>& parameters) const {
-    Scalar sum = parameters.string_length;
-    each([&](const auto& effect) { sum += effect.added_length(parameters); });
-    return sum;
-  }
-  /// The string with what makes it longer and softer wherever the diabolo is.
+  /// The string with what makes it softer wherever the diabolo is.
   StringNow<Scalar> string(const Parameters<Scalar>& parameters) const {
-    StringNow<Scalar> string{string_length(parameters)};
+    StringNow<Scalar> string{parameters.string_length};
     each([&](const auto& effect) { string.add(effect.spring(), parameters.mass); });
     return string;
   }
