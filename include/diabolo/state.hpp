@@ -58,7 +58,8 @@ struct State {
   /// Mean acceleration of the diabolo by the string over the last step [m/s^2]; times its mass, the string's
   /// force on it. Part of the state: the next step begins its iteration with it, which changes the result by
   /// no more than the iteration's tolerance, but StickFlex bends the sticks by it. A motion that is continued
-  /// without it starts with straight sticks, which for a step puts the tips aside by compliance times tension.
+  /// without it starts with straight sticks, which for a step puts the tips aside by compliance times
+  /// tension.
   Vector3<Scalar> string_acceleration = Vector3<Scalar>::Constant(Scalar(0));
 };
 
