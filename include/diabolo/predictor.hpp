@@ -65,7 +65,7 @@ class Predictor {
     end.left += shift.left;
     end.right += shift.right;
     const StringNow<Scalar> string = effects_.string_at(string_, state, begin, parameters_);
-    if (!elastic(string)) settle_on_string(state, begin, string.length);
+    if (!elastic(string)) settle_on_string(state, begin, string.length, plane_);
     return dispatch(state, begin, end, dt, string);
   }
 
