@@ -194,7 +194,8 @@ class Predictor {
     state.position = result.position;
     state.string_acceleration = result.string_acceleration;
     StepStatus<Scalar> status;
-    status.overstretched = overstretched(end, string.length);
+    // To the last bit as the spheroid sees it, lest a diabolo be neither put back nor held.
+    status.overstretched = norm<Scalar>(end.left - end.right) >= string.length;
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     if (!parameters_.release_when_overstretched && any(status.overstretched))
       hold(state, end, dt, captured && status.overstretched, string);
