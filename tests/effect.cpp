@@ -47,17 +47,6 @@ struct TipOffset : NeutralEffect<Scalar> {
   }
 };
 
-template <class Scalar>
-struct Creep : NeutralEffect<Scalar> {
-  static constexpr std::string_view kName = "creep";
-  Scalar share{0};  ///< of the string's length [1]
-  Scalar added_length(const Parameters<Scalar>& parameters) const { return share * parameters.string_length; }
-  template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"share", "1", -0.1, 0.1, "added length"}, self.share);
-  }
-};
-
 /// Takes a share of the velocity while the string is taut.
 template <class Scalar>
 struct Brake : NeutralEffect<Scalar> {
@@ -119,7 +108,6 @@ template <class Set>
 void turn_on(Set& set) {
   set.template get<Wind>().push = 1.5;
   set.template get<TipOffset>().height = 0.03;
-  set.template get<Creep>().share = 0.02;
   set.template get<Brake>().rate = 0.5;
   set.template get<SpinDrag>().deceleration = 20.0;
 }
@@ -132,12 +120,10 @@ TEST_CASE("effects of amplitude zero change no bit, under any preset") {
     const auto plain = play(Predictor<double>(parameters));
     CHECK(difference(play(Predictor<double, Wind>(parameters)), plain) == 0.0);
     CHECK(difference(play(Predictor<double, TipOffset>(parameters)), plain) == 0.0);
-    CHECK(difference(play(Predictor<double, Creep>(parameters)), plain) == 0.0);
     CHECK(difference(play(Predictor<double, Brake>(parameters)), plain) == 0.0);
     CHECK(difference(play(Predictor<double, SpinDrag>(parameters)), plain) == 0.0);
-    CHECK(difference(
-              play(Predictor<double, Wind, TipOffset, Creep, Brake, SpinDrag, StringElasticity>(parameters)),
-              plain) == 0.0);
+    CHECK(difference(play(Predictor<double, Wind, TipOffset, Brake, SpinDrag, StringElasticity>(parameters)),
+                     plain) == 0.0);
   }
 }
 
@@ -191,17 +177,6 @@ TEST_CASE("raised tips are the same as tips that are higher") {
   }
 }
 
-TEST_CASE("added length is the same as a longer string") {
-  for (const auto preset : kPresets) {
-    Numbers longer = preset();
-    Predictor<double, Creep>::Set set;
-    set.get<Creep>().share = 0.05;
-    const Predictor<double, Creep> crept(preset(), set);
-    longer.string_length += 0.05 * longer.string_length;
-    CHECK(difference(play(crept), play(Predictor<double>(longer))) == 0.0);
-  }
-}
-
 TEST_CASE("a contact impulse acts while the string is taut") {
   Predictor<double, Brake>::Set set;
   set.get<Brake>().rate = 2.0;
@@ -244,9 +219,9 @@ TEST_CASE("spin drag acts in every state") {
 
 TEST_CASE("effects act together, in any order") {
   for (const auto preset : kPresets) {
-    using Forward = Predictor<double, Wind, TipOffset, Creep, Brake, SpinDrag>;
-    using Backward = Predictor<double, SpinDrag, Brake, Creep, TipOffset, Wind>;
-    using Mixed = Predictor<double, Creep, StringElasticity, SpinDrag, Wind, Brake, TipOffset>;
+    using Forward = Predictor<double, Wind, TipOffset, Brake, SpinDrag>;
+    using Backward = Predictor<double, SpinDrag, Brake, TipOffset, Wind>;
+    using Mixed = Predictor<double, StringElasticity, SpinDrag, Wind, Brake, TipOffset>;
     Forward::Set forward;
     Backward::Set backward;
     Mixed::Set mixed;
@@ -261,22 +236,21 @@ TEST_CASE("effects act together, in any order") {
 }
 
 TEST_CASE("an effect's number out of range is refused by effect, field, value and range") {
-  Predictor<double, Creep, Wind>::Set set;
+  Predictor<double, SpinDrag, Wind>::Set set;
   set.get<Wind>().push = 7.0;
-  CHECK_THROWS_WITH((Predictor<double, Creep, Wind>(Numbers(), set)),
+  CHECK_THROWS_WITH((Predictor<double, SpinDrag, Wind>(Numbers(), set)),
                     "wind push: 7 m/s^2; must be within [-5, 5] m/s^2");
   set.get<Wind>().push = std::nan("");
-  CHECK_THROWS_AS((Predictor<double, Creep, Wind>(Numbers(), set)), std::invalid_argument);
+  CHECK_THROWS_AS((Predictor<double, SpinDrag, Wind>(Numbers(), set)), std::invalid_argument);
 }
 
 TEST_CASE("a set knows its effects by their types") {
-  EffectSet<double, Wind, Creep> set;
-  set.get<Creep>().share = 0.01;
-  const EffectSet<double, Wind, Creep>& constant = set;
-  CHECK(constant.get<Creep>().share == 0.01);
-  CHECK(set.string_length(Numbers()) == Approx(1.45 * 1.01));
+  EffectSet<double, Wind, SpinDrag> set;
+  set.get<SpinDrag>().deceleration = 5.0;
+  const EffectSet<double, Wind, SpinDrag>& constant = set;
+  CHECK(constant.get<SpinDrag>().deceleration == 5.0);
   CHECK_FALSE(decltype(set)::kChangesTips);
   CHECK(EffectSet<double, Wind, TipOffset>::kChangesTips);
-  CHECK(set.string(Numbers()).length == set.string_length(Numbers()));
+  CHECK(set.string(Numbers()).length == Numbers().string_length);
   CHECK(set.string(Numbers()).compliance == 0.0);
 }

@@ -229,10 +229,43 @@ TEST_CASE("the paper's rules change position and spin on the string only") {
     } else {
       CHECK((state.position - euler).norm() < 1e-15);
     }
-    const double change = (start.position - end.right).norm() - (start.position - begin.right).norm();
-    CHECK(state.spin == Approx(start.string_state == kOn ? 50.0 + 154.0 * change : 50.0));
+    const double change = (state.position - end.right).norm() - (start.position - begin.right).norm();
+    const bool stays = start.string_state == kOn && state.string_state == kOn;
+    CHECK(state.spin == Approx(stays ? 50.0 + 154.0 * change : 50.0));
   }
   CHECK(held > 300);
+}
+
+TEST_CASE("the paper's spin knows how much string has passed, and nothing of motion in common") {
+  const Numbers parameters = Numbers::paper();
+  const Predictor<double> predictor(parameters);
+  const auto raised = [](double height) {
+    Tips<double> tips = level(0.5);
+    tips.left.z() += height;
+    tips.right.z() += height;
+    return tips;
+  };
+  const Spheroid<double> s = spheroid_of(raised(0.0), parameters.string_length);
+  State<double> lifted = at_rest(s.center() - Vector(0.0, 0.0, s.semi_minor()), kOn);
+  for (int k = 0; k < 500; ++k) {
+    const auto height = [](int i) { return 0.5 * std::pow(i * kStep, 2); };
+    predictor.step(lifted, raised(height(k)), raised(height(k + 1)), kStep);
+  }
+  CHECK(lifted.position.z() == Approx(s.center().z() - s.semi_minor() + 0.125).margin(1e-9));
+  CHECK(std::abs(lifted.spin) < 1e-9);
+
+  const Tips<double> tips = raised(0.0);
+  State<double> swinging = at_rest(s.closest_point({0.0, 0.3, 0.0}), kOn);
+  const double start = (swinging.position - tips.right).norm();
+  double farthest = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    predictor.step(swinging, tips, tips, kStep);
+    REQUIRE(swinging.string_state == kOn);
+    const double change = (swinging.position - tips.right).norm() - start;
+    CHECK(swinging.spin == Approx(parameters.mu_acceleration * change).margin(1e-9));
+    farthest = std::max(farthest, std::abs(change));
+  }
+  CHECK(farthest > 0.1);
 }
 
 TEST_CASE("tips farther apart than the string: the diabolo is held between them, or let go") {
@@ -256,7 +289,8 @@ TEST_CASE("tips farther apart than the string: the diabolo is held between them,
     CHECK(state.velocity.z() == Approx(0.2));
     CHECK(state.string_state == kOn);
     State<double> flying = at_rest({0.0, 0.2, 3.0}, kFlying);
-    predictor.step(flying, begin, end, kStep);
+    CHECK(predictor.step(flying, begin, end, kStep).overstretched);
+    CHECK_FALSE(predictor.step(flying, end, begin, kStep).overstretched);
     CHECK(flying.string_state == kFlying);
     CHECK(flying.position.z() == Approx(3.0).margin(1e-5));
   }

@@ -145,3 +145,28 @@ TEST_CASE("mirrored with their sticks, bending tips act as before") {
   CHECK((a.position.cwiseProduct(flip) - b.position).norm() < 1e-9);
   CHECK(a.position.allFinite());
 }
+
+TEST_CASE("a motion goes on from its whole state; without the string's pull, off by a step of it") {
+  const Full model = bending(1.0 / 60.0);
+  const auto tips = [](double t) {
+    Tips<double> swung = pointing({1.0, 0.3, 0.3}, {1.0, -0.3, 0.3});
+    const Vector swing(0.0, 0.1, 0.0);
+    swung.left += swing * std::sin(5.0 * t);
+    swung.right += swing * std::sin(5.0 * t);
+    swung.left_velocity = swung.right_velocity = swing * 5.0 * std::cos(5.0 * t);
+    return swung;
+  };
+  const auto later = [&](double t) { return tips(t + 0.5); };
+  const auto off = [&](int count) {
+    const State<double> start = rested(model, tips(0.0));
+    const State<double> half = run(model, start, tips, 0.5, count);
+    State<double> forgetful = half;
+    forgetful.string_acceleration.setZero();
+    const State<double> whole = run(model, start, tips, 1.0, 2 * count);
+    CHECK(apart(run(model, half, later, 0.5, count), whole) < 1e-9);  // times round otherwise
+    return apart(run(model, forgetful, later, 0.5, count), whole);
+  };
+  const double coarse = off(500), fine = off(2000);
+  CHECK(coarse < 2e-4);
+  CHECK(coarse / fine == Approx(4.0).epsilon(0.1));
+}

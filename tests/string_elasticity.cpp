@@ -329,7 +329,7 @@ TEST_CASE("an elastic string holds a diabolo between tips that are farther apart
   const Elastic predictor = elastic(300.0, 50.0);
   State<double> state;
   state.position = Vector(0.0, 0.0, 0.99);
-  for (int i = 0; i < 20000; ++i) REQUIRE_FALSE(predictor.step(state, tips, tips, 1e-3).overstretched);
+  for (int i = 0; i < 20000; ++i) REQUIRE(predictor.step(state, tips, tips, 1e-3).overstretched);
   CHECK(state.position.allFinite());
   CHECK(state.position.z() < 1.0);  // it sags under its weight
   const double drop = 1.0 - state.position.z(), strand = std::hypot(0.75, drop);

@@ -124,7 +124,7 @@ TEST_CASE("a string that rubs on an axle at rest gives no energy, in swings, sli
   const unsigned seed = 711;
   CAPTURE(seed);
   Random random(seed);
-  double gain = 0.0, least_loss = 1e9;
+  double gain = 0.0, least_loss = 1e9, beyond = 0.0;
   int taut = 0, snaps = 0;
   for (int episode = 0; episode < 200; ++episode) {
     Numbers parameters;
@@ -145,6 +145,7 @@ TEST_CASE("a string that rubs on an axle at rest gives no energy, in swings, sli
       const double before = energy();
       snaps += model.step(state, tips, tips, dt).snapped_taut;
       gain = std::max(gain, energy() - before);
+      beyond = std::max(beyond, StringPath<double>(state.position, tips).length() - parameters.string_length);
       taut += state.string_acceleration.norm() > 0.0;
       if (state.string_state == StringState::kFlying) break;
     }
@@ -154,6 +155,7 @@ TEST_CASE("a string that rubs on an axle at rest gives no energy, in swings, sli
   CHECK(snaps > 100);
   CHECK(least_loss > 1e-3);
   CHECK(gain < 1e-9);  // [J/kg]; the constraint is solved to 3e-9
+  CHECK(beyond < 1e-9);
 }
 
 TEST_CASE("friction stops a slide and does not push back, however hard the string pulls") {
@@ -203,22 +205,26 @@ TEST_CASE("friction follows its equation with the second order of the step") {
     if (episode % 2 == 0) scene.start.spin = 0.0;  // slip changes its sign
     Numbers parameters;
     parameters.spin_coupling = 0.0;
-    const double coefficient = random.uniform(0.1, 0.4);
+    const double coefficient = random.uniform(0.1, 0.7);
     const Full model = rubbing(coefficient, parameters);
     RubbingReference reference{scene.tips, coefficient, parameters.axle_radius};
     const State<double> exact = reference.run(scene.start, 0.5, 10000);
     if (reference.least_tension < 0.5) continue;
     ++compared;
-    turning += reference.least_slip < 0.005;
     const auto error = [&](int count) {
       return apart(run(
                        model, scene.start, [&](double t) { return scene.tips.at(t); }, 0.5, count),
                    exact);
     };
-    const double coarse = error(1000), fine = error(2000);
-    CAPTURE(episode, coarse, fine);
-    CHECK(fine < 1e-6);  // without friction 1e-7
-    CHECK(coarse / fine == Approx(4.0).epsilon(0.15));
+    const bool turns = reference.least_slip < 0.005;
+    turning += turns;
+    CAPTURE(episode, coefficient, turns);
+    CHECK(error(100) < 2e-5);   // steps of 5 ms; measured 1.1e-5
+    CHECK(error(2000) < 1e-6);  // without friction 1e-7
+    // A slip that changes its sign is resolved from 2.5 ms on.
+    if (!turns) CHECK(error(100) / error(200) == Approx(4.0).epsilon(0.15));
+    CHECK(error(200) / error(500) == Approx(6.25).epsilon(0.15));
+    CHECK(error(1000) / error(2000) == Approx(4.0).epsilon(0.15));
   }
   CHECK(compared > 10);
   CHECK(turning > 3);
@@ -292,5 +298,31 @@ TEST_CASE("the difference of the tensions turns the axle, by the spin gain") {
     for (int k = 0; k < std::lround(duration / dt); ++k) model.step(state, tips, tips, dt);
     CHECK((state.spin - spin) / duration == Approx(expected).epsilon(2e-3));
     CHECK(std::abs(state.spin) < std::abs(spin));
+  }
+}
+
+TEST_CASE("friction's torque adds to the spin rule") {
+  const unsigned seed = 715;
+  CAPTURE(seed);
+  Random random(seed);
+  const auto spun = [](const Scene& scene, double coupling, double gain) {
+    Numbers numbers;
+    numbers.spin_coupling = coupling;
+    const Full model = full<StringFriction>(
+        [&](auto& friction) {
+          friction.coefficient = 0.3;
+          friction.spin_gain = gain;
+        },
+        numbers);
+    State<double> state = scene.start;
+    model.step(state, scene.tips.at(0.0), scene.tips.at(1e-3), 1e-3);
+    return state.spin - scene.start.spin;
+  };
+  for (int episode = 0; episode < 20; ++episode) {
+    const Scene scene = hanging_scene(random);
+    const double rule = spun(scene, 2.0, 0.0), torque = spun(scene, 0.0, 5.0);
+    CHECK(std::abs(rule) > 1e-3);
+    CHECK(std::abs(torque) > 1e-3);
+    CHECK(spun(scene, 2.0, 5.0) == Approx(rule + torque).margin(1e-12));
   }
 }

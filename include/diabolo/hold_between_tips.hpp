@@ -8,11 +8,10 @@
 namespace diabolo {
 
 /// The tips are as far apart as the string is long, or farther: there is no spheroid, and in the lanes
-/// `where` the diabolo rests on the straight string and moves with it. Returns `where`.
+/// `where` the diabolo rests on the straight string and moves with it.
 template <class Scalar>
-[[gnu::noinline]] Mask<Scalar> hold_between_tips(State<Scalar>& state, const Tips<Scalar>& tips,
-                                                 const Scalar& dt, const Mask<Scalar>& where,
-                                                 const PlaneProjector<Scalar>& plane) {
+[[gnu::noinline]] void hold_between_tips(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
+                                         const Mask<Scalar>& where, const PlaneProjector<Scalar>& plane) {
   const Vector3<Scalar> span = tips.left - tips.right;
   const Scalar along = dot<Scalar>(state.position - tips.right, span) / (squared_norm(span) + tiny<Scalar>());
   const Scalar fraction = minimum(maximum(along, Scalar(0)), Scalar(1));
@@ -25,7 +24,6 @@ template <class Scalar>
   state.velocity = select<Scalar>(where, velocity, state.velocity);
   state.string_acceleration = select<Scalar>(where, jerked, state.string_acceleration);
   assign_where(where, state.string_state, StringState::kOnString);
-  return where;
 }
 
 }  // namespace diabolo

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <cassert>
-#include <stdexcept>
 
+#include "diabolo/advance_by_pull.hpp"
 #include "diabolo/advance_in_flight.hpp"
 #include "diabolo/effects/effect.hpp"
+#include "diabolo/factors.hpp"
 #include "diabolo/hold_between_tips.hpp"
-#include "diabolo/pull_velocity.hpp"
 #include "diabolo/rotation.hpp"
 #include "diabolo/settle_on_string.hpp"
-#include "diabolo/spheroid.hpp"
+#include "diabolo/slide_along_string.hpp"
 #include "diabolo/state_machine.hpp"
 #include "diabolo/taut_string.hpp"
 
@@ -31,8 +31,6 @@ class Predictor {
       : Predictor(parameters, effects, AlreadyValid{}) {
     parameters.validate();
     effects.validate();
-    if (!all(string_.length > Scalar(0)))
-      throw std::invalid_argument("string_length: not positive with the additions of all effects");
   }
 
   /// For parameters that have been validated before, such as the lanes of a batch.
@@ -67,7 +65,7 @@ class Predictor {
     end.left += shift.left;
     end.right += shift.right;
     const StringNow<Scalar> string = effects_.string_at(string_, state, begin, parameters_);
-    if (!elastic(string)) settle_on_string(state, begin, string.length);
+    if (!elastic(string)) settle_on_string(state, begin, string.length, plane_);
     return dispatch(state, begin, end, dt, string);
   }
 
@@ -77,11 +75,6 @@ class Predictor {
     if constexpr (ScalarTraits<Scalar>::kLanes == 1)
       if (usual_string_step(state, begin, end, dt, string)) return {};
     return string_step(state, begin, end, dt, string);
-  }
-
-  /// Time that the per-step factors stand for.
-  Scalar factor_time(const Scalar& dt) const {
-    return parameters_.per_step ? parameters_.reference_step : dt;
   }
 
   /// string_step() in fewer instructions, bit for bit, while the string stays taut. False where it may not;
@@ -138,8 +131,8 @@ class Predictor {
       state.string_state = slack_string_state(state.string_state, state.position, result.slack,
                                               result.gradient_squared, end.left, end.right, parameters_);
     status.snapped_taut = result.snapped_taut;
-    const Mask<Scalar> straight = overstretched(end, string.length);
-    if (any(straight)) status.overstretched = hold(state, end, dt, captured && straight, string);
+    status.overstretched = overstretched(end, string.length);
+    if (any(status.overstretched)) hold(state, end, dt, captured && status.overstretched, string);
     return status;
   }
 
@@ -148,17 +141,18 @@ class Predictor {
                                                const StringStepResult<Scalar>& result) const {
     const Scalar& dt = step.dt;
     const Scalar slipped =
-        spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(dt), parameters_);
+        spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(parameters_, dt), parameters_);
     Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
-    Vector3<Scalar> rubbed = result.velocity;
-    effects_.touch(rubbed, spin, state, step.end, result, dt, parameters_);
-    rubbed = step.plane(rubbed);
+    Vector3<Scalar> velocity = result.velocity;
+    effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
+    velocity = step.plane(velocity);
+    state.position = result.position;
     // The change of velocity happens over the step: the mean of what it was before and after counts.
     if constexpr (Set::kTouches)
-      state.position = result.position + (rubbed - result.velocity) * Scalar(Scalar(0.5) * dt);
-    else
-      state.position = result.position;
-    state.velocity = rubbed * dissipation(dt, result.taut);
+      if (effects_.touches())
+        state.position = slide_along_string<Scalar>(step, result.position,
+                                                    (velocity - result.velocity) * Scalar(Scalar(0.5) * dt));
+    state.velocity = velocity * dissipation(parameters_, dt, result.taut);
     state.spin = spin;
     state.string_acceleration = result.string_acceleration;
     assign_where(result.taut, state.string_state, StringState::kOnString);
@@ -168,85 +162,43 @@ class Predictor {
     return squared_norm<Scalar>(tips.left - tips.right) >= length * length;
   }
 
-  /// The paper's and the published program's: back onto the spheroid, and a capped part of the way as
-  /// velocity.
+  /// The paper's and the published program's rules.
   StepStatus<Scalar> pull_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                                const Scalar& dt, const StringNow<Scalar>& string) const {
-    const Parameters<Scalar>& p = parameters_;
-    StepStatus<Scalar> status;
-    const Scalar length_change =
-        norm<Scalar>(state.position - end.right) - norm<Scalar>(state.position - begin.right);
     const Mask<Scalar> was_on_string = is(state.string_state, StringState::kOnString);
-    if (p.spin_rule == SpinRule::kLengthChange)
-      state.spin = select(was_on_string, spin_after_length_change(state.spin, length_change, p), state.spin);
-
-    const Vector3<Scalar> a = plane_(effects_.acceleration(state, begin, parameters_));
-    const Vector3<Scalar> from = state.position;
-    Vector3<Scalar> velocity = plane_(state.velocity);
-    Vector3<Scalar> position = from + velocity * dt;
-    if (p.integrator == Integrator::kParabolic) position += a * (Scalar(0.5) * dt * dt);
-    velocity += a * dt;
-
-    const Spheroid<Scalar> before(begin.left, begin.right, string.length),
-        after(end.left, end.right, string.length);
-    const bool published = p.flight_rule == FlightRule::kPublished;
-    state.string_state = published ? published_string_state(state.string_state, position, after, p)
-                                   : paper_string_state(state.string_state, position, after, p);
-    const Mask<Scalar> held =
-        is(state.string_state, StringState::kOnString) && !after.contains(position) && !after.overstretched();
-    Vector3<Scalar> pulled = Vector3<Scalar>::Constant(Scalar(0));
-    if (any(held)) {
-      const Vector3<Scalar> target =
-          plane_.on(from, p.projection == Projection::kRadial ? after.radial_point(position)
-                                                              : after.closest_point(position));
-      const Vector3<Scalar> gradient = after.path_gradient(target);
-      const Scalar give =
-          string.compliance /
-          (string.compliance + Scalar(0.5) * dt * dt * squared_norm(gradient) + tiny<Scalar>());
-      const Vector3<Scalar> put = target + (position - target) * give;
-      const Vector3<Scalar> normal = normal_at(after, put);
-      const Vector3<Scalar> facing = normal_at(after, position);
-      const Vector3<Scalar> cap = facing * Scalar(-p.cap_scale * pull_cap(before, after, facing, dt));
-      Vector3<Scalar> pull = capped_pull<Scalar>(put - position, normal, cap, dt, p.pull_scale);
-      const Mask<Scalar> thin = after.tip_distance() >= string.length - p.thin_slack;
-      pull = select<Scalar>(thin,
-                            p.thin_rule == ThinRule::kPublished
-                                ? pull_in_vertical_plane<Scalar>(pull, end.left, end.right)
-                                : pull_across_plane<Scalar>(pull, end.left, end.right),
-                            pull);
-      const Scalar share = p.pull_scale_after_cap * factor_time(dt) / p.reference_step;
-      pulled = select<Scalar>(held, plane_(pull) * share, pulled);
-      Vector3<Scalar> moved = velocity * dissipation(dt, held) + pulled;
-      const Vector3<Scalar> outward = plane_(normal);
-      const Scalar outward_rate = maximum(dot<Scalar>(moved, outward), Scalar(0));
-      moved = moved - outward * Scalar(outward_rate / (squared_norm(outward) + tiny<Scalar>()));
-      position = select<Scalar>(held, put, position);
-      velocity = select<Scalar>(held, moved, velocity);
-    }
-    if (!published)
-      velocity = velocity * dissipation(dt, !held && is(state.string_state, StringState::kOnString));
-    if (p.spin_rule == SpinRule::kSlip) {
-      const Scalar change = norm<Scalar>(position - end.right) - norm<Scalar>(from - begin.right);
-      const Scalar slipped =
-          p.per_step ? spin_after_slip_explicit<Scalar>(state.spin, change / dt, factor_time(dt), p)
-                     : spin_after_slip<Scalar>(state.spin, change / dt, factor_time(dt), p);
-      state.spin = select(held && was_on_string, slipped, state.spin);
-    }
+    const Vector3<Scalar> velocity = plane_(state.velocity);
+    const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, parameters_));
+    const StringStep<Scalar> step{state.position,
+                                  velocity,
+                                  outer,
+                                  begin,
+                                  end,
+                                  dt,
+                                  string.length,
+                                  state.string_acceleration,
+                                  string.compliance,
+                                  string.damping_time,
+                                  plane_};
+    const StringStepResult<Scalar> result = advance_by_pull(state.string_state, step, parameters_);
+    const Mask<Scalar> passes = parameters_.spin_rule == SpinRule::kLengthChange
+                                    ? is(state.string_state, StringState::kOnString)
+                                    : result.taut;
+    const Scalar change =
+        norm<Scalar>(result.position - end.right) - norm<Scalar>(state.position - begin.right);
+    const Scalar driven = spin_after_passing(state.spin, change, dt, parameters_);
+    state.spin = select(was_on_string && passes, driven, state.spin);
     state.spin = effects_.after_torques(state.spin, state, dt, parameters_);
-    StringStepResult<Scalar> result;
-    result.position = position;
-    result.velocity = velocity;
-    result.string_acceleration = pulled * Scalar(Scalar(1) / dt);
-    result.taut = held;
-    effects_.touch(velocity, state.spin, state, end, result, dt, p);
-    state.velocity = plane_(velocity);
-    state.position = position;
+    Vector3<Scalar> rubbed = result.velocity;
+    effects_.touch(rubbed, state.spin, state, end, result, dt, parameters_);
+    state.velocity = plane_(rubbed);
+    state.position = result.position;
     state.string_acceleration = result.string_acceleration;
-    if (p.release_when_overstretched)
-      status.overstretched = after.overstretched();
-    else if (any(after.overstretched()))
-      status.overstretched = hold(
-          state, end, dt, !is(state.string_state, StringState::kFlying) && after.overstretched(), string);
+    StepStatus<Scalar> status;
+    // To the last bit as the spheroid sees it, lest a diabolo be neither put back nor held.
+    status.overstretched = norm<Scalar>(end.left - end.right) >= string.length;
+    const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
+    if (!parameters_.release_when_overstretched && any(status.overstretched))
+      hold(state, end, dt, captured && status.overstretched, string);
     return status;
   }
 
@@ -254,19 +206,9 @@ class Predictor {
     return kMayStretch && !is_constant_zero(string.compliance);
   }
   /// On a straight string; an elastic one is longer.
-  Mask<Scalar> hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
-                    const Mask<Scalar>& where, const StringNow<Scalar>& string) const {
-    return hold_between_tips<Scalar>(state, tips, dt, where && (string.compliance == Scalar(0)), plane_);
-  }
-
-  Scalar dissipation(const Scalar& dt, const Mask<Scalar>& where) const {
-    using std::exp;
-    if (is_constant_zero(parameters_.dissipation_rate)) return Scalar(1);
-    return select(where, Scalar(exp(-parameters_.dissipation_rate * factor_time(dt))), Scalar(1));
-  }
-
-  Vector3<Scalar> normal_at(const Spheroid<Scalar>& s, const Vector3<Scalar>& point) const {
-    return parameters_.normal_rule == NormalRule::kPublished ? s.published_normal(point) : s.normal(point);
+  void hold(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt, const Mask<Scalar>& where,
+            const StringNow<Scalar>& string) const {
+    hold_between_tips<Scalar>(state, tips, dt, where && (string.compliance == Scalar(0)), plane_);
   }
 
   Parameters<Scalar> parameters_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "diabolo/parameters.hpp"
+#include "diabolo/factors.hpp"
 
 namespace diabolo {
 
@@ -33,6 +33,18 @@ Scalar spin_after_slip(const Scalar& spin, const Scalar& string_speed, const Sca
   const Scalar z = parameters.spin_coupling * duration;
   const Scalar growth = z + Scalar(0.5) * z * z;
   return spin + (string_speed / parameters.axle_radius - spin) * (growth / (Scalar(1) + growth));
+}
+
+/// The spin rule of a pull-velocity model, after a step in which the distance to the right tip has changed by
+/// `length_change` [m].
+template <class Scalar>
+Scalar spin_after_passing(const Scalar& spin, const Scalar& length_change, const Scalar& dt,
+                          const Parameters<Scalar>& parameters) {
+  if (parameters.spin_rule == SpinRule::kLengthChange)
+    return spin_after_length_change(spin, length_change, parameters);
+  const Scalar speed = length_change / dt, duration = factor_time(parameters, dt);
+  return parameters.per_step ? spin_after_slip_explicit(spin, speed, duration, parameters)
+                             : spin_after_slip(spin, speed, duration, parameters);
 }
 
 }  // namespace diabolo

@@ -2,19 +2,20 @@
 #pragma once
 
 #include "diabolo/state.hpp"
-#include "diabolo/string_path.hpp"
+#include "diabolo/string_step.hpp"
 
 namespace diabolo {
 
 /// The strands of a string that was taut have turned a little since the last step: their length is as it was
 /// up to second order. The rest is put right, lest the string count as slack.
 template <class Scalar>
-void settle_on_string(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& length) {
+void settle_on_string(State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& length,
+                      const PlaneProjector<Scalar>& plane) {
   const StringPath<Scalar> path(state.position, tips);
   const Scalar gap = path.length() - length;
   const Mask<Scalar> taut = (squared_norm(state.string_acceleration) > Scalar(0)) &&
                             (absolute<Scalar>(gap) < Scalar(1e-4) * length);
-  const Vector3<Scalar> gradient = path.gradient();
+  const Vector3<Scalar> gradient = plane(path.gradient());
   const Scalar move = select(taut, Scalar(gap / (squared_norm(gradient) + tiny<Scalar>())), Scalar(0));
   state.position = state.position - gradient * move;
 }

@@ -56,16 +56,19 @@ struct State {
   /// not predicted); only effects look at it. The angular velocity is -spin * axis.
   Vector3<Scalar> axis = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));
   /// Mean acceleration of the diabolo by the string over the last step [m/s^2]; times its mass, the string's
-  /// force on it. Output; the next step begins its iteration with it, which changes its result by no more
-  /// than the iteration's tolerance.
+  /// force on it. Part of the state: the next step begins its iteration with it, which changes the result by
+  /// no more than the iteration's tolerance, but StickFlex bends the sticks by it. A motion that is continued
+  /// without it starts with straight sticks, which for a step puts the tips aside by compliance times
+  /// tension.
   Vector3<Scalar> string_acceleration = Vector3<Scalar>::Constant(Scalar(0));
 };
 
 /// What happened in one step.
 template <class Scalar>
 struct StepStatus {
-  Mask<Scalar> overstretched{
-      false};                        ///< tips farther apart than the string: the diabolo is held between them
+  /// The tips are as far apart as the string is long, or farther, whatever the diabolo does: one on a rigid
+  /// string is held between them, unless the parameters release it.
+  Mask<Scalar> overstretched{false};
   Mask<Scalar> snapped_taut{false};  ///< the string came taut within the step
   Mask<Scalar> caught{false};        ///< the string was under a flying diabolo again
 };

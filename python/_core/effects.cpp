@@ -24,8 +24,8 @@ const char* doc_of(const StringFriction<double>&) {
   return R"(A string that rubs on the axle: Euler's and Eytelwein's capstan law.
 
 While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). The difference turns
-the axle, too: dw/dt = spin_gain (T_right - T_left) / mass; at zero the spin is left to
-Parameters.spin_coupling.)";
+the axle, too: dw/dt = spin_gain (T_right - T_left) / mass. It adds to Parameters.spin_coupling, which
+stands for the same torque as a rate; set that to zero where friction alone drives the spin.)";
 }
 
 const char* doc_of(const StickFlex<double>&) {

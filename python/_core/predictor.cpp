@@ -74,7 +74,7 @@ StepStatus<double> step(const Simulator& predictor, State<double>& state, const 
 void bind_predictor(py::module_& module) {
   py::class_<StepStatus<double>>(module, "StepStatus", "What happened in one step.")
       .def_readonly("overstretched", &StepStatus<double>::overstretched,
-                    "The tips were farther apart than the string: the diabolo is held between them.")
+                    "The tips are as far apart as the string is long, or farther, whatever the diabolo does.")
       .def_readonly("snapped_taut", &StepStatus<double>::snapped_taut,
                     "The string came taut within the step.")
       .def_readonly("caught", &StepStatus<double>::caught, "The string was under a flying diabolo again.")

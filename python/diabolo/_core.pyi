@@ -364,8 +364,8 @@ class StringFriction:
     A string that rubs on the axle: Euler's and Eytelwein's capstan law.
     
     While it slips towards the right tip, T_right / T_left = exp(coefficient * contact angle). The difference turns
-    the axle, too: dw/dt = spin_gain (T_right - T_left) / mass; at zero the spin is left to
-    Parameters.spin_coupling.
+    the axle, too: dw/dt = spin_gain (T_right - T_left) / mass. It adds to Parameters.spin_coupling, which
+    stands for the same torque as a rate; set that to zero where friction alone drives the spin.
     """
     __hash__: typing.ClassVar[None] = None
     @staticmethod
@@ -1265,7 +1265,7 @@ class StepStatus:
     @property
     def overstretched(self) -> bool:
         """
-        The tips were farther apart than the string: the diabolo is held between them.
+        The tips are as far apart as the string is long, or farther, whatever the diabolo does.
         """
     @property
     def snapped_taut(self) -> bool:

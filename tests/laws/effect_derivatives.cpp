@@ -141,6 +141,15 @@ bool has_kink(const Play& play, const std::array<double, kFields>& x, int k, dou
   return (coarse - fine).norm() > 1e-3 * (1.0 + fine.norm());
 }
 
+/// The change of a field for a central difference: small where the outcome bends with the field or jumps
+/// nearby, otherwise large enough for the rounding of the outcome not to count.
+double change_of(int k) {
+  const std::string name = field_names()[static_cast<std::size_t>(k)];
+  const bool bends =
+      name.ends_with(".compliance") || name == "string_friction.coefficient" || name == "finite_axle.radius";
+  return (bends ? 1e-4 : 1e-3) * std::abs(at_work()[static_cast<std::size_t>(k)]);
+}
+
 /// Acts while the string is loose only: a millimetre's fall does not show it. See string_mass.cpp.
 bool of_loose_string(int k) { return field_names()[static_cast<std::size_t>(k)].starts_with("string_mass"); }
 
@@ -173,24 +182,19 @@ TEST_CASE("derivatives by every field, all effects at work, on the string") {
   CAPTURE(seed);
   Random random(seed);
   const std::array<double, kFields> x = at_work();
-  int compared = 0;
   for (int episode = 0; episode < 6; ++episode) {
     const Play play = hanging_play(random);
     const auto jacobian = dual(play, x);
     for (int k = 0; k < kFields; ++k) {
-      const double h = 1e-4 * std::abs(x[static_cast<std::size_t>(k)]);
-      if (of_loose_string(k) || has_kink(play, x, k, h)) continue;
-      ++compared;
-      const Outputs difference = central(play, x, k, h);
+      if (of_loose_string(k)) continue;
+      REQUIRE_FALSE(has_kink(play, x, k, change_of(k)));
+      const Outputs difference = central(play, x, k, change_of(k));
       CAPTURE(episode, field_names()[static_cast<std::size_t>(k)], difference.transpose(),
               jacobian.col(k).transpose());
-      const double off = (jacobian.col(k) - difference).norm();
-      // The string is solved to 1e-10 of its length, its rate to 1e-10 L / dt: over the change of the field.
-      CHECK(off < 1e-4 * difference.norm() + 2e-8 / h);
-      CHECK(jacobian.col(k).norm() > 10.0 * off);
+      CHECK(difference.norm() > 1e-3);
+      CHECK((jacobian.col(k) - difference).norm() < 1e-6 * difference.norm());  // measured 2.1e-7
     }
   }
-  CHECK(compared > 86);  // of 96
 }
 
 TEST_CASE("derivatives by every field, all effects at work, in flight") {
@@ -250,16 +254,18 @@ TEST_CASE("derivatives by every field where all amplitudes are zero") {
         CHECK((jacobian.col(k).head<3>() - difference).norm() < 2e-2 * difference.norm());
         continue;
       }
-      const double h = 1e-3 * std::abs(at_work()[static_cast<std::size_t>(k)]);
-      if (has_kink(play, zero, k, h)) continue;
+      REQUIRE_FALSE(has_kink(play, zero, k, change_of(k)));
       ++compared;
-      const Outputs difference = central(play, zero, k, h);
+      const Outputs difference = central(play, zero, k, change_of(k));
       CAPTURE(difference.transpose(), jacobian.col(k).transpose());
-      CHECK((jacobian.col(k) - difference).norm() < 1e-4 * difference.norm() + 2e-8 / h);
+      // Measured 2.5e-8. Where a radius is not zero the tips count as moved, and a string that is taut to its
+      // tolerance is settled on it first: 2.9e-5, whatever the change.
+      const double tolerance = name == "finite_axle.radius" ? 1e-4 : 1e-7;
+      CHECK((jacobian.col(k) - difference).norm() < tolerance * difference.norm());
       CHECK(difference.norm() > 1e-2);
     }
   }
-  CHECK(compared > 48);  // of 54
+  CHECK(compared == 54);
 }
 
 TEST_CASE("with both tips in one place friction's derivative is finite") {

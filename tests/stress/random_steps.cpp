@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // random_steps [STEPS [SEED [FIRST_EPISODE]]]: random motions of sticks and diabolo, within the string's
-// reach and beyond it, through every preset and scalar. Exits with 1 when a state is not finite, leaves the
-// spheroid or, on resting tips, gains energy.
+// reach and beyond it, through every preset and scalar, in space or in a plane, without effects and with any
+// of them (in double precision). Exits with 1 when a state is not finite, leaves the spheroid or its plane
+// or, on resting tips, gains energy.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "diabolo/predictor.hpp"
+#include "diabolo/effects/all.hpp"
 #include "lane.hpp"
 #include "random.hpp"
 
@@ -51,9 +52,10 @@ struct Worst {
 
 /// All that is looked at. Path beyond the string's length [m] and energy gained on resting tips [J/kg] are
 /// divided by what is allowed of them, so that 1 is the limit. `thin_gain` is the same for spheroids that are
-/// thinner than the solver resolves, `any_gain` the energy itself.
+/// thinner than the solver resolves, `any_gain` the energy itself. `astray` is the distance from the plane of
+/// a planar motion, over what its rounding allows.
 struct Tally {
-  Worst excess, gain, thin_gain, any_gain, speed;
+  Worst excess, astray, gain, thin_gain, any_gain, speed;
   std::uint64_t steps = 0, not_finite = 0, taut = 0, slack = 0, flying = 0, snapped = 0, caught = 0;
 };
 
@@ -81,10 +83,20 @@ double allowed_gain(double energies) {
   return solved + 16.0 * epsilon * energies;
 }
 
-Scene random_scene(Random& random, double length, bool rest) {
+/// Distance [m] and velocity [m/s] that may lead out of a plane, by the rounding of coordinates and
+/// velocities of this size in each of an episode's steps.
+template <class Scalar>
+double allowed_astray(double scale) {
+  return 4.0 * kStepsPerEpisode * static_cast<double>(std::numeric_limits<ValueOf<Scalar>>::epsilon()) *
+         (1.0 + scale);
+}
+
+/// Tips and their motion lie in the plane of a planar motion.
+Scene random_scene(Random& random, double length, bool rest, const PlaneProjector<double>& plane) {
   Scene scene;
   scene.motion = rest ? int{kResting} : random.index(static_cast<int>(kTipMotions.size()));
-  const Vector3<double> center = random.vector(1.0), half = random.direction() * 0.5;
+  const Vector3<double> center = plane(random.vector(1.0)),
+                        half = plane(random.direction()).normalized() * 0.5;
   double span = length * random.unit();
   if (scene.motion == kCoinciding) span = 0.0;
   if (scene.motion == kOverstretched) span = length * random.uniform(1.0, 1.2);
@@ -93,8 +105,8 @@ Scene random_scene(Random& random, double length, bool rest) {
   scene.left = center + half * span;
   scene.right = center - half * span;
   if (scene.motion == kResting || scene.motion == kJumping) return scene;
-  scene.left_swing = random.vector(0.3);
-  scene.right_swing = scene.motion == kCoinciding ? scene.left_swing : random.vector(0.3);
+  scene.left_swing = plane(random.vector(0.3));
+  scene.right_swing = scene.motion == kCoinciding ? scene.left_swing : plane(random.vector(0.3));
   scene.angular_rate = random.uniform(1.0, 30.0);
   if (scene.motion == kCrossing) {  // through each other, and back
     scene.left_swing = scene.right - scene.left;
@@ -104,10 +116,11 @@ Scene random_scene(Random& random, double length, bool rest) {
 }
 
 /// Tips of one lane at a time [s], which is that of a step.
-Tips<double> tips_at(Scene& scene, Random& random, double length, double time, int step) {
+Tips<double> tips_at(Scene& scene, Random& random, double length, double time, int step,
+                     const PlaneProjector<double>& plane) {
   if (scene.motion == kJumping && step % 8 == 7) {
     const double half_length = 0.5 * length * random.unit();
-    const Vector3<double> half = random.direction() * half_length, center = random.vector(1.0);
+    const Vector3<double> half = plane(random.direction()) * half_length, center = plane(random.vector(1.0));
     scene.left = center + half;
     scene.right = center - half;
   }
@@ -139,7 +152,36 @@ Parameters<Scalar> random_parameters(Random& random, int preset) {
   parameters.reference_step =
       minimum(parameters.reference_step, Scalar(Scalar(0.9) / (parameters.spin_coupling + Scalar(1e-3))));
   parameters.per_step = random.chance(0.5);
+  parameters.planar = random.chance(0.2);
+  parameters.plane_normal = random.direction();
   return parameters;
+}
+
+/// Some effects at work: the string's and the sticks' anywhere in their ranges, the others, whose laws are
+/// explicit, where steps of 10 ms resolve them.
+template <class Scalar>
+AllEffects<Scalar> random_effects(Random& random) {
+  AllEffects<Scalar> effects;
+  const auto draw = [&]<class Effect>(Effect& effect) {
+    if (!random.chance(0.3)) return;
+    const bool of_string = Effect::kName.starts_with("string_") || Effect::kName.starts_with("stick_");
+    Effect::for_each(effect, [&](const ParameterInfo& info, Scalar& field) {
+      const bool both_signs = info.minimum < 0.0, whole_range = of_string && info.name != "spin_gain";
+      for (int i = 0; i < ScalarTraits<Scalar>::kLanes; ++i) {
+        const double size = info.maximum * random.log_uniform(1e-6, whole_range ? 0.999 : 1e-2);
+        set_lane(field, i, both_signs && random.chance(0.5) ? -size : size);
+      }
+    });
+  };
+  std::apply([&](auto&... effect) { (draw(effect), ...); }, effects.members);
+  return effects;
+}
+
+/// Whether the path between the given tips is as long as the string: nothing gives, nothing lies elsewhere.
+template <class Scalar>
+bool keeps_length(const AllEffects<Scalar>& effects) {
+  return effects.template get<StringElasticity>().neutral() && effects.template get<StickFlex>().neutral() &&
+         effects.template get<FiniteAxle>().neutral();
 }
 
 /// The energy per mass [J/kg] of one lane.
@@ -157,14 +199,17 @@ bool all_finite(const State<Scalar>& state) {
   return all(finite);
 }
 
-template <class Scalar>
+template <class Scalar, class Model>
 struct Episode {
   static constexpr int kLanes = ScalarTraits<Scalar>::kLanes;
   std::uint64_t number;
   int preset;
   Random random;
   bool rest = random.chance(0.3);
+  static constexpr bool kEffects = std::is_same_v<Model, FullPredictor<Scalar>>;
   Parameters<Scalar> parameters = random_parameters<Scalar>(random, preset);
+  AllEffects<Scalar> effects = kEffects ? random_effects<Scalar>(random) : AllEffects<Scalar>();
+  PlaneProjector<double> plane{parameters.planar, parameters.plane_normal};
   double dt = random.log_uniform(1e-4, 1e-2);
   std::array<Scene, kLanes> scenes{};
   State<Scalar> state{};
@@ -173,7 +218,7 @@ struct Episode {
     Tips<Scalar> all;
     for (int i = 0; i < kLanes; ++i) {
       const Tips<double> one = tips_at(scenes[static_cast<std::size_t>(i)], random,
-                                       lane<Scalar>(parameters.string_length, i), step * dt, step);
+                                       lane<Scalar>(parameters.string_length, i), step * dt, step, plane);
       set_lane(all.left, i, one.left);
       set_lane(all.right, i, one.right);
       set_lane(all.left_velocity, i, one.left_velocity);
@@ -185,10 +230,10 @@ struct Episode {
   void start() {
     for (int i = 0; i < kLanes; ++i) {
       const double length = lane<Scalar>(parameters.string_length, i);
-      const Scene scene = random_scene(random, length, rest);
+      const Scene scene = random_scene(random, length, rest, plane);
       scenes[static_cast<std::size_t>(i)] = scene;
-      set_lane(state.position, i, random.reachable({scene.left, scene.right, length}));
-      set_lane(state.velocity, i, random.arrow(1e-3, 30.0));
+      set_lane(state.position, i, plane(random.reachable({scene.left, scene.right, length})));
+      set_lane(state.velocity, i, plane(random.arrow(1e-3, 30.0)));
       set_lane(state.spin, i, random.uniform(-400.0, 400.0));
     }
     state.string_state = static_cast<StringState>(random.index(3));
@@ -213,13 +258,19 @@ struct Episode {
       tally.caught += lane(status.caught, i);
       tally.speed.look_at(velocity.norm(), number, step, motion);
       const double scale = position.norm() + left.norm() + right.norm();
-      if ((left - right).norm() >= length) continue;
-      // Under the paper's rules a diabolo may be outside in the step that catches it.
-      if (preset == 0 ? !flying : taut) {
+      if (plane.active) {
+        const double off =
+            std::max(std::abs(plane.normal.dot(position)), std::abs(plane.normal.dot(velocity)));
+        tally.astray.look_at(off / allowed_astray<Scalar>(scale + velocity.norm()), number, step, motion);
+      }
+      if ((left - right).norm() >= length || !keeps_length(effects)) continue;
+      // Under the paper's rules a diabolo may be outside in the step that catches it, and the closest point
+      // knows no plane.
+      if (preset == 0 ? !flying : taut && !plane.active) {
         const double beyond = (position - left).norm() + (position - right).norm() - length;
         tally.excess.look_at(beyond / allowed_excess<Scalar>(length, scale), number, step, motion);
       }
-      if (rest) {
+      if (rest && !kEffects) {  // wind, spin and a tilted gravity give energy
         const double gain = energy_of(state, gravity, i) - energy_of(before, gravity, i);
         const double energies =
             velocity.squaredNorm() + lane<Scalar>(before.velocity, i).squaredNorm() + gravity * scale;
@@ -232,7 +283,12 @@ struct Episode {
   }
 
   void run(Tally& tally) {
-    const Predictor<Scalar> predictor(parameters);
+    const Model predictor = [&] {
+      if constexpr (kEffects)
+        return Model(parameters, effects);
+      else
+        return Model(parameters);
+    }();
     start();
     Tips<Scalar> now = tips(0);
     for (int step = 1; step <= kStepsPerEpisode; ++step) {
@@ -251,27 +307,30 @@ struct Episode {
   }
 };
 
-template <class Scalar>
+template <class Scalar, class Model>
 bool run(const char* scalar, int preset, std::uint64_t steps, std::uint64_t seed, std::uint64_t first) {
+  using Case = Episode<Scalar, Model>;
   Tally tally;
   for (std::uint64_t number = first; tally.steps + 8 * tally.not_finite < steps; ++number)
-    Episode<Scalar>{number, preset, Random(seed * 0x9E3779B97F4A7C15U + number)}.run(tally);
+    Case{number, preset, Random(seed * 0x9E3779B97F4A7C15U + number)}.run(tally);
   const auto share = [&](std::uint64_t count) {
     return static_cast<double>(count) / static_cast<double>(tally.steps);
   };
-  std::printf("%s, %s: %" PRIu64 " steps, %.0f %% taut, %.0f %% slack, %.0f %% flying, %" PRIu64
+  std::printf("%s, %s%s: %" PRIu64 " steps, %.0f %% taut, %.0f %% slack, %.0f %% flying, %" PRIu64
               " snaps, %" PRIu64 " catches, %" PRIu64 " not finite\n",
-              kPresets[static_cast<std::size_t>(preset)], scalar, tally.steps, 100.0 * share(tally.taut),
-              100.0 * share(tally.slack), 100.0 * share(tally.flying), tally.snapped, tally.caught,
-              tally.not_finite);
+              kPresets[static_cast<std::size_t>(preset)], scalar, Case::kEffects ? ", effects" : "",
+              tally.steps, 100.0 * share(tally.taut), 100.0 * share(tally.slack), 100.0 * share(tally.flying),
+              tally.snapped, tally.caught, tally.not_finite);
   // The paper's rules put a diabolo back without asking for energy: their gain is told, not judged.
-  const bool keeps_energy = preset == 0;
+  const bool keeps_energy = preset == 0 && !Case::kEffects;
   tally.excess.print("path beyond the string / allowed", 1.0);
+  tally.astray.print("off the plane / allowed", 1.0);
   if (keeps_energy) tally.gain.print("energy gained on resting tips / allowed", 1.0);
   if (keeps_energy) tally.thin_gain.print("the same, thinner than is resolved", 0.0);
-  tally.any_gain.print("energy gained on resting tips [J/kg]", 0.0);
+  if (!Case::kEffects) tally.any_gain.print("energy gained on resting tips [J/kg]", 0.0);
   tally.speed.print("speed [m/s]", 0.0);
-  return tally.not_finite == 0 && tally.excess.value <= 1.0 && (!keeps_energy || tally.gain.value <= 1.0);
+  return tally.not_finite == 0 && tally.excess.value <= 1.0 && tally.astray.value <= 1.0 &&
+         (!keeps_energy || tally.gain.value <= 1.0);
 }
 
 }  // namespace
@@ -283,12 +342,17 @@ int main(int count, char** arguments) {
   const std::uint64_t steps = argument(1, 10'000'000), seed = argument(2, 1), first = argument(3, 0);
   std::printf("random_steps %" PRIu64 " %" PRIu64 "\n", steps, seed);
   bool good = true;
-  const std::uint64_t each = steps / 12;
+  const auto both = [&]<class Scalar>(const Scalar&, const char* scalar, int preset) {
+    const std::uint64_t each = steps / 18;
+    good = run<Scalar, Predictor<Scalar>>(scalar, preset, each, seed, first) && good;
+    if constexpr (sizeof(ValueOf<Scalar>) == 8)  // the whole ranges of the effects ask for double precision
+      good = run<Scalar, FullPredictor<Scalar>>(scalar, preset, each, seed, first) && good;
+  };
   for (int preset = 0; preset < 3; ++preset) {
-    good = run<double>("double", preset, each, seed, first) && good;
-    good = run<float>("float", preset, each, seed, first) && good;
-    good = run<Pack<double, 4>>("4 doubles", preset, each, seed, first) && good;
-    good = run<Pack<float, 8>>("8 floats", preset, each, seed, first) && good;
+    both(double(), "double", preset);
+    both(float(), "float", preset);
+    both(Pack<double, 4>(), "4 doubles", preset);
+    both(Pack<float, 8>(), "8 floats", preset);
   }
   return good ? 0 : 1;
 }

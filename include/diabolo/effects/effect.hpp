@@ -67,8 +67,6 @@ struct NeutralEffect {
   Scalar bound_length(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
     return Scalar(0);
   }
-  /// Addition to the string's length [m].
-  Scalar added_length(const Parameters<Scalar>&) const { return Scalar(0); }
   /// Wherever the diabolo is.
   Spring<Scalar> spring() const { return {}; }
   /// Where it is at the beginning of a step; beside spring(), for effects that have a tip_shift().
@@ -138,15 +136,17 @@ struct EffectSet {
     });
     return moves;
   }
-  /// Of the string with all additions [m].
-  Scalar string_length(const Parameters<Scalar>& parameters) const {
-    Scalar sum = parameters.string_length;
-    each([&](const auto& effect) { sum += effect.added_length(parameters); });
-    return sum;
+  /// Whether any effect has a contact impulse.
+  bool touches() const {
+    bool touches = false;
+    each([&]<class Effect>(const Effect&) {
+      touches = touches || !std::is_same_v<decltype(&Effect::contact), decltype(&Neutral::contact)>;
+    });
+    return touches;
   }
-  /// The string with what makes it longer and softer wherever the diabolo is.
+  /// The string with what makes it softer wherever the diabolo is.
   StringNow<Scalar> string(const Parameters<Scalar>& parameters) const {
-    StringNow<Scalar> string{string_length(parameters)};
+    StringNow<Scalar> string{parameters.string_length};
     each([&](const auto& effect) { string.add(effect.spring(), parameters.mass); });
     return string;
   }

@@ -49,7 +49,7 @@ struct FiniteAxle : NeutralEffect<Scalar> {
                         const Scalar& length) const {
     const Vector3<Scalar> across = other - own * dot<Scalar>(other, own);
     const Vector3<Scalar> inward = across * Scalar(Scalar(1) / (norm(across) + Scalar(1e-9)));
-    const Scalar sine = radius / length;
+    const Scalar sine = minimum(Scalar(radius / length), Scalar(1));  // a tip within the axle is on it
     const Scalar cosine = positive_sqrt<Scalar>(Scalar(1) - sine * sine);
     return inward * Scalar(radius * cosine) - own * Scalar(radius * sine);
   }

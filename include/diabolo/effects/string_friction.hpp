@@ -15,7 +15,8 @@ namespace diabolo {
 /// axle: 0.1 to 0.35.
 ///
 /// The same difference of tensions turns the axle: dw/dt = spin_gain (T_right - T_left) / m, spin_gain = m r
-/// / I (4 to 9 1/m for the paper's diabolos); zero leaves the spin to the model's spin rule.
+/// / I (4 to 9 1/m for the paper's diabolos). It adds to the model's spin rule, which stands for the same
+/// torque as a rate: with a gain, Parameters::spin_coupling is zero or what else couples string and axle.
 template <class Scalar>
 struct StringFriction : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "string_friction";

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "diabolo/string_step.hpp"
+
+namespace diabolo {
+
+/// Where a diabolo comes that is moved from the end of a step by `move` [m], all but along the string: back
+/// along the gradient of the path length, until the path is as long as before. Newton's method; the length is
+/// convex, so that it stays outside and never passes the point it looks for. Two steps do, but for a thin
+/// spheroid.
+template <class Scalar>
+[[gnu::noinline]] Vector3<Scalar> slide_along_string(const StringStep<Scalar>& step,
+                                                     const Vector3<Scalar>& from,
+                                                     const Vector3<Scalar>& move) {
+  const Scalar length = StringPath<Scalar>(from, step.end).length();
+  Vector3<Scalar> position = from + move;
+  for (int i = 0; i < 12; ++i) {
+    const StringPath<Scalar> path(position, step.end);
+    const Vector3<Scalar> gradient = step.plane(path.gradient());
+    const Scalar beyond = path.length() - length;
+    if (i > 1 && all(beyond <= step.tolerance())) break;
+    position = position - gradient * Scalar(beyond / (squared_norm(gradient) + Scalar(1e-12)));
+  }
+  return position;
+}
+
+}  // namespace diabolo
