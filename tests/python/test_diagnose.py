@@ -7,7 +7,7 @@ from typing import Any
 
 import diabolo
 import pytest
-from diabolo import Diagnosis, Model, Recording, diagnose, load_recording
+from diabolo import Calibration, Diagnosis, Model, Recording, diagnose, load_recording
 from diabolo.cli import main
 from diabolo.cli.demo import packaged_recordings
 
@@ -130,6 +130,25 @@ def test_the_command_writes_report_result_and_model(
     assert result == json.loads((out / "diagnosis.json").read_text())
     assert [entry["file"] for entry in result["inputs"]] == [Path(take).name for take in takes]
     assert result["sentence"].split(",")[0] in (out / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("option", "output"),
+    [("--base", "out/model.json"), ("--calibration", "out/diagnosis.json"), ("--base", "base.json")],
+)
+def test_the_command_overwrites_no_input(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], option: str, output: str
+) -> None:
+    given = tmp_path / output
+    given.parent.mkdir(exist_ok=True)
+    kind = Model.named("consistent") if option == "--base" else Calibration.published()
+    given.write_text(kind.to_json())
+    before = given.read_bytes()
+    take = str(packaged_recordings()[0])
+    out = ["--out", str(given.parent)] if given.parent != tmp_path else ["--json", str(given)]
+    assert main(["diagnose", take, option, str(given), *out]) == 2
+    assert f"{given}: this file is read already" in capsys.readouterr().err
+    assert given.read_bytes() == before and list(given.parent.iterdir()) == [given]
 
 
 @pytest.mark.parametrize(

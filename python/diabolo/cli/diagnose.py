@@ -12,6 +12,7 @@ from typing import Any
 from .._core import Model, load_recording
 from ..diagnosis import Diagnosis
 from ..diagnosis import diagnose as run_diagnosis
+from ..evaluation import DEFAULT_MODELS
 from ..report import check as check_report
 from ..report import report_html
 from . import files
@@ -82,7 +83,9 @@ def run(arguments: argparse.Namespace) -> None:
         check_report(folder / REPORT_FILE)
         folder.mkdir(parents=True, exist_ok=True)
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
-    files.check_outputs(outputs, inputs)
+    settings = [arguments.calibration] if arguments.calibration else []
+    settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
+    files.check_outputs(outputs, [*inputs, *settings])
     calibration = read_calibration(arguments.calibration)
     excerpts = [read_excerpt(text, calibration) for text in arguments.recordings]
     takes = [excerpt.recording.cut(excerpt.first, excerpt.last) for excerpt in excerpts]
