@@ -39,7 +39,7 @@ def check(path: str | Path) -> None:
             import_module(name)
     except ModuleNotFoundError as error:
         raise ValueError(
-            f"{path}: to make a report, install {error.name} (pip install 'diabolo[plot]')"
+            f"{path}: to make a report, install {error.name} (pip install '.[plot]' in the project's root)"
         ) from error
 
 

@@ -342,7 +342,7 @@ def test_without_matplotlib_a_sentence_says_so(command: Command, tidy: Path) -> 
     for arguments in (("evaluate", "played.csv", "--plot", "out.png"), ("demo",)):
         done = command(*arguments, env={"PYTHONPATH": f"{tidy.parent}:{os.environ.get('PYTHONPATH', '')}"})
         assert done.returncode == 2
-        assert "install matplotlib (pip install 'diabolo[plot]')" in done.stderr
+        assert "install matplotlib (pip install '.[plot]' in the project's root)" in done.stderr
         assert not (tidy.parent / "out.png").exists()
 
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -149,6 +150,57 @@ def test_the_command_overwrites_no_input(
     assert main(["diagnose", take, option, str(given), *out]) == 2
     assert f"{given}: this file is read already" in capsys.readouterr().err
     assert given.read_bytes() == before and list(given.parent.iterdir()) == [given]
+
+
+@pytest.fixture
+def short(tmp_path: Path, played: Recording) -> Path:
+    """Too short to decide anything, so diagnosed at once."""
+    path = tmp_path / "short.csv"
+    played.cut(0, 60).save(path)
+    return path
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), ValueError("no report")])
+def test_an_end_while_writing_leaves_the_older_set(
+    short: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException
+) -> None:
+    def fail(result: dict[str, Any]) -> str:
+        raise error
+
+    out = short.parent / "deep" / "out"
+    assert main(["diagnose", str(short), "--out", str(out)]) == 0
+    before = {path: path.read_bytes() for path in out.iterdir()}
+    monkeypatch.setattr("diabolo.cli.diagnose.report_html", fail)
+    assert main(["diagnose", str(short), "--seed", "2", "--out", str(out)]) != 0
+    assert {path: path.read_bytes() for path in out.iterdir()} == before
+    assert main(["diagnose", str(short), "--out", str(short.parent / "other" / "out")]) != 0
+    assert not (short.parent / "other").exists()
+
+
+@pytest.mark.parametrize("missing", ["jinja2", "matplotlib"])
+def test_a_missing_library_is_told_before_the_work(
+    short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], missing: str
+) -> None:
+    monkeypatch.setattr("diabolo.cli.diagnose.run_diagnosis", None)
+    monkeypatch.setitem(sys.modules, missing, None)
+    assert main(["diagnose", str(short), "--out", str(short.parent / "out")]) == 2
+    assert f"install {missing} (pip install '.[plot]'" in capsys.readouterr().err
+    assert not (short.parent / "out").exists()
+
+
+@pytest.mark.parametrize("option", ["--out /proc/diagnosis", "--json /proc/r.json", f"--json {'r' * 300}"])
+def test_an_output_that_cannot_be_is_told_before_the_work(
+    short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], option: str
+) -> None:
+    monkeypatch.setattr("diabolo.cli.diagnose.run_diagnosis", None)
+    assert main(["diagnose", str(short), *option.split()]) == 2
+    error = capsys.readouterr().err
+    assert option.split()[1] in error and error.count("\n") == 1
+
+
+def test_bad_input_makes_no_folder(short: Path) -> None:
+    assert main(["diagnose", "nothing.csv", "--out", str(short.parent / "new" / "out")]) == 2
+    assert not (short.parent / "new").exists()
 
 
 @pytest.mark.parametrize(
