@@ -7,10 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import diabolo
+import numpy as np
 import pytest
-from diabolo import Calibration, Diagnosis, Model, Recording, diagnose, load_recording
+from conftest import make_recording
+from diabolo import Calibration, Diagnosis, Model, Recording, RecordingError, diagnose, load_recording
 from diabolo.cli import main
 from diabolo.cli.demo import packaged_recordings
+from diabolo.report import report_html
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +108,53 @@ def test_too_little_is_an_answer(played: Recording) -> None:
     assert answer.headline == "INSUFFICIENT_DATA"
     assert "windows" in answer.sentence
     assert answer.effects == []
+    assert answer.model == Model.named("consistent")
+
+
+def lost_from(recording: Recording, row: int, *tracks: str) -> Recording:
+    """The recording with tracks that end at a row."""
+    kept = {name: np.array(getattr(recording, name)) for name in ("left", "right", "diabolo")}
+    for name in tracks:
+        kept[name][row:] = np.nan
+    return Recording(recording.time, *kept.values(), recording.rate, name="lost")
+
+
+def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
+    copy = Recording(played.time, played.left, played.right, played.diabolo, played.rate, name="copy")
+    for takes, held in (
+        ([played, copy], []),
+        ([played], [copy]),
+        ([played, copy.cut(100, 200)], []),
+        ([played.cut(0, 240)], [copy.cut(200, 400)]),
+    ):
+        with pytest.raises(ValueError, match="'played' and 'copy' hold the same [0-9]+ samples"):
+            diagnose(takes, holdout=held)
+    assert diagnose([played.cut(0, 40), copy.cut(40, 80)]).headline == "INSUFFICIENT_DATA"
+
+
+def test_a_holdout_without_windows_is_told(played: Recording) -> None:
+    other = make_recording("throw")
+    unseen = lost_from(other, 5, "diabolo")
+    result = diagnose(played.cut(0, 60), holdout=[other, unseen]).result
+    assert result["fit"]["holdout_unused"] == ["lost"]
+    assert "could be compared: lost." in report_html(result)
+
+
+def test_an_unusable_holdout_is_refused_before_the_fit(played: Recording) -> None:
+    def fail(step: str, fraction: float) -> None:
+        raise AssertionError(step)
+
+    with pytest.raises(RecordingError, match='"lost"'):
+        diagnose(played, holdout=lost_from(make_recording("throw"), 0, "left"), progress=fail)
+
+
+def test_the_command_holds_out_rows(short: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    other = short.parent / "other.csv"
+    make_recording("throw").save(other)
+    assert main(["diagnose", str(short), "--holdout", f"{other}:0-8", f"{other}:10-200"]) == 0
+    assert "without a start that could be compared: other" in capsys.readouterr().out
+    assert main(["diagnose", str(other), "--holdout", f"{other}:0-80"]) == 2
+    assert "'other' and 'other' hold the same 81 samples" in capsys.readouterr().err
 
 
 def test_bad_input_is_named(played: Recording) -> None:
@@ -112,8 +162,22 @@ def test_bad_input_is_named(played: Recording) -> None:
         diagnose([])
     with pytest.raises(ValueError, match="expected published, paper or consistent"):
         diagnose(played, "ours")
-    with pytest.raises(ValueError, match="threads: -1"):
-        diagnose(played, threads=-1)
+    for change, text in (
+        ({"threads": -1}, "threads: -1"),
+        ({"threads": 1.5}, "threads: 1.5; expected a whole number"),
+        ({"threads": 10**30}, "threads: 10"),
+        ({"seed": -1}, "seed: -1; expected a whole number"),
+        ({"seed": 2**70}, "seed: 11805"),
+        ({"progress": 3}, "progress: 3; expected a function"),
+        ({"bank": "string_friction"}, "bank: 'string_friction'; expected a list"),
+        ({"base": 3}, "base: 3; expected a Model"),
+        ({"recordings": "swing.csv"}, "recordings: 'swing.csv'; expected Recording"),
+        ({"recordings": [None]}, r"recordings\[0\]: None; expected Recording"),
+        ({"recordings": 3}, "recordings: 3; expected Recording"),
+        ({"holdout": "swing.csv"}, "holdout: 'swing.csv'; expected Recording"),
+    ):
+        with pytest.raises(ValueError, match=text):
+            diagnose(**{"recordings": played, **change})
     with pytest.raises(ValueError, match="budget: 0"):
         diagnose(played, budget=0.0)
 
@@ -209,6 +273,8 @@ def test_bad_input_makes_no_folder(short: Path) -> None:
         (["nothing.csv"], "nothing.csv: there is no such file"),
         (["TAKE", "--base", "ours"], "model ours: no such file"),
         (["TAKE", "--seed", "-1"], "--seed: -1"),
+        (["TAKE", "--threads", "-1"], "--threads: -1"),
+        (["TAKE", "--budget", "nan"], "--budget: nan s"),
         (["TAKE", "--out", "TAKE"], "a file; expected a folder"),
     ],
 )

@@ -10,10 +10,11 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from .._core import Model, load_recording
+from .._core import Model, Recording
+from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import Diagnosis
 from ..diagnosis import diagnose as run_diagnosis
-from ..evaluation import DEFAULT_MODELS
+from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..report import check as check_report
 from ..report import report_html
 from . import files
@@ -59,7 +60,7 @@ def add_parser(commands: Any) -> None:
         nargs="+",
         default=[],
         metavar="RECORDING",
-        help="recordings that nothing is fitted to, to compare on",
+        help="recordings, or rows of them as above, that nothing is fitted to, to compare on",
     )
     parser.add_argument("--json", metavar="FILE", help="write the result as JSON; - is standard output")
     parser.add_argument(
@@ -73,8 +74,10 @@ def add_parser(commands: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    if not 0 <= arguments.seed < 2**63:
-        raise ValueError(f"--seed: {arguments.seed}; must be at least 0 and less than 2^63")
+    whole_number("--threads", arguments.threads, 0, MOST_THREADS)
+    whole_number("--seed", arguments.seed, 0, LARGEST_SEED)
+    if not arguments.budget > 0.0:
+        raise ValueError(f"--budget: {arguments.budget} s; expected more than 0")
     folder = None if arguments.out is None else Path(arguments.out)
     outputs: list[Path | str | None] = [arguments.json]
     if folder is not None:
@@ -85,9 +88,10 @@ def run(arguments: argparse.Namespace) -> None:
     settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
     files.check_outputs(outputs, [*inputs, *settings], folder)
     calibration = read_calibration(arguments.calibration)
-    excerpts = [read_excerpt(text, calibration) for text in arguments.recordings]
-    takes = [excerpt.recording.cut(excerpt.first, excerpt.last) for excerpt in excerpts]
-    held = [load_recording(path, calibration) for path in arguments.holdout]
+    takes, held = (
+        [_cut(read_excerpt(text, calibration)) for text in given]
+        for given in (arguments.recordings, arguments.holdout)
+    )
     hashes = [_input(path) for path in inputs]
     begin = time.monotonic()
     with progress_steps() as report:
@@ -133,7 +137,14 @@ def text_of(diagnosis: Diagnosis) -> str:
     ]
     if shown:
         lines.append(f"  mean error on {fit['heldout']} left out, after " + "; ".join(shown))
+    if fit["holdout_unused"]:
+        names = ", ".join(fit["holdout_unused"])
+        lines.append(f"  held out, but without a start that could be compared: {names}")
     return "\n".join(lines)
+
+
+def _cut(excerpt: Excerpt) -> Recording:
+    return excerpt.recording.cut(excerpt.first, excerpt.last)
 
 
 def _value(parameter: dict[str, Any]) -> str:
