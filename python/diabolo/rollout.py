@@ -203,7 +203,7 @@ def _steps_between(begin: float, end: float, dt: float, multiple: int) -> int:
     steps = int((end - begin) / dt + 1e-6)
     if steps < multiple:
         raise ValueError(
-            f"begin: {begin} s; the tips end at {end} s, before the first frame; say by steps how long they rest"
+            f"begin: {begin} s; the tips end at {end} s, before the first frame; give steps for tips at rest"
         )
     return steps - steps % multiple
 

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: MIT
 from __future__ import annotations
 
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import diabolo
@@ -158,3 +163,18 @@ def test_the_published_program_is_repeated(real_recordings: Path) -> None:
     for row in rows:
         assert row.error is not None
         assert row.error == pytest.approx(row.program_error, rel=0.02)
+
+
+@pytest.mark.parametrize("work", [evaluate, predict])
+def test_ctrl_c_ends_one_long_prediction(played: Recording, work: Callable[[Recording, str], object]) -> None:
+    stretch = 20_000.0
+    long = Recording(
+        played.time * stretch, played.left, played.right, played.diabolo, played.rate / stretch, name="long"
+    )
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))  # needs the interpreter's lock
+    timer.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        work(long, "consistent")
+    assert time.monotonic() - begin < 5.0
+    timer.join()
