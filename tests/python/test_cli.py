@@ -394,6 +394,13 @@ def test_output_that_cannot_be_printed_is_told(tidy: Path, redirection: str, com
     assert complaint in done.stderr and done.stderr.count("\n") == 1
 
 
+def test_it_works_without_standard_error(tidy: Path) -> None:
+    done = subprocess.run(
+        ["sh", "-c", f'"{sys.executable}" -m diabolo evaluate "{tidy}" 2>&-'], capture_output=True, text=True
+    )
+    assert done.returncode == 0 and "consistent" in done.stdout
+
+
 def long_evaluation(tidy: Path) -> list[str | Path]:
     """Takes far longer than a test would wait: the same recording, many times over, at many starts."""
     options = ["--starts", "every=0.001", "--json", "out.json", "--plot", "out.png"]
