@@ -22,10 +22,17 @@ class RefusedError(ValueError):
 
 
 def check_program(program: Path) -> None:
+    """Raises ValueError where it is not there, or is another program."""
     if not os.access(program, os.X_OK) or program.is_dir():
         raise ValueError(
             f"{program}: the plant's program is not there; make test-plant builds it, --plant names it"
         )
+    try:
+        told = subprocess.run([program.absolute(), "--help"], capture_output=True, text=True, timeout=10.0)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise ValueError(f"{program}: cannot be run ({error}); expected the plant's program") from error
+    if told.returncode != 0 or "--key" not in told.stdout:
+        raise ValueError(f"{program}: another program; expected the plant's, which make test-plant builds")
 
 
 def run(program: Path, scenario: dict[str, Any], out: Path) -> dict[str, Any] | None:

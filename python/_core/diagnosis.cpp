@@ -56,11 +56,23 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
   return py::make_tuple(json_text(diagnosis_to_json(result, recordings), "diagnosis"), result.model);
 }
 
+/// Starts from which a recording that is held out can be compared, as compare_held_out() would take them.
+std::size_t comparable_windows(const Recording& recording, const Model& base) {
+  check_recording(recording);
+  HorizonOptions options;
+  options.starts_every = 0.2;
+  options.horizons = HeldOut{}.horizons;
+  return HorizonTask(recording, base, options).size();
+}
+
 }  // namespace
 
 void bind_diagnosis(py::module_& module) {
   module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "budget"_a, "seed"_a,
              "threads"_a, "progress"_a, "See diabolo.diagnose.");
+  module.def("comparable_windows", &comparable_windows, "recording"_a, "base"_a,
+             py::call_guard<py::gil_scoped_release>(),
+             "Starts from which a recording that is held out can be compared; see diabolo.diagnose.");
 }
 
 }  // namespace diabolo::python

@@ -38,6 +38,16 @@ State<double> state_at(const Recording& recording, const StartStates& starts, St
   return starts.at(start, row);
 }
 
+/// What `work(watch)` gives. Ctrl-C ends it.
+template <class Work>
+auto watched(const Work& work) {
+  decltype(work(Watch{})) result;
+  run_interruptibly([&](const std::atomic<bool>& cancel) {
+    result = work(Watch{.progress = {}, .cancelled = [&] { return cancel.load(); }});
+  });
+  return result;
+}
+
 /// States at each row from the start on, the first step at or after it; NaN before.
 py::tuple predict(const Recording& recording, const Model& model, std::optional<Eigen::Index> start_row,
                   const std::string& start_rule) {
@@ -62,11 +72,15 @@ py::tuple predict(const Recording& recording, const Model& model, std::optional<
     }
   };
   record(0, start);
-  rollout(predictor_for(model, recording), start, *tips.motion(first, last),
-          Steps{begin, kEvaluationStep, steps_until(tips.times()[last] - begin)},
-          [&](std::size_t step, double, const State<double>& state, const StepStatus<double>&) {
-            record(step, state);
-          });
+  const auto motion = tips.motion(first, last);
+  const Steps steps{begin, kEvaluationStep, steps_until(tips.times()[last] - begin)};
+  watched([&](const Watch& watch) {
+    return rollout(predictor_for(model, recording), start, *motion, steps,
+                   [&](std::size_t step, double, const State<double>& state, const StepStatus<double>&) {
+                     if (watch.cancelled()) throw Cancelled();
+                     record(step, state);
+                   });
+  });
   return py::make_tuple(states, codes);
 }
 
@@ -139,10 +153,18 @@ void bind_scores(py::module_& module) {
 
 void bind_evaluation(py::module_& module) {
   bind_scores(module);
-  module.def("score_excerpt", &score_excerpt, "recording"_a, "model"_a,
-             py::call_guard<py::gil_scoped_release>(), "See diabolo.evaluate.");
-  module.def("score_excerpts", &score_excerpts, "recording"_a, "model"_a,
-             py::call_guard<py::gil_scoped_release>(), "See diabolo.evaluate.");
+  module.def(
+      "score_excerpt",
+      [](const Recording& recording, const Model& model) {
+        return watched([&](const Watch& watch) { return score_excerpt(recording, model, watch); });
+      },
+      "recording"_a, "model"_a, "See diabolo.evaluate.");
+  module.def(
+      "score_excerpts",
+      [](const Recording& recording, const Model& model) {
+        return watched([&](const Watch& watch) { return score_excerpts(recording, model, watch); });
+      },
+      "recording"_a, "model"_a, "See diabolo.evaluate.");
   module.def(
       "score_horizons",
       [](const std::vector<Recording>& recordings, const Model& model, double starts_every,

@@ -68,6 +68,7 @@ says that its own count.)");
                  "Reads a model file (JSON) of the schema diabolo.model/1.");
   cls.def("save", &save_model, "path"_a, py::call_guard<py::gil_scoped_release>(),
           "Writes a model file, whole or not at all.");
+  cls.def("to_json", &write_model, "The text of its file.");
   cls.def_static("named", &model_named, "name"_a, "'published', 'paper' or 'consistent'.");
   cls.def_readwrite("name", &Model::name);
   cls.def_readwrite("parameters", &Model::parameters);

@@ -20,7 +20,10 @@ py::object to_python(Enum value) {
 }
 
 void from_python(py::handle value, const std::string& name, bool& field) {
-  field = cast_to<bool>(value, name, "True or False");
+  py::detail::make_caster<bool> caster;  // without conversion, which takes None for False
+  if (!caster.load(value, false))
+    throw py::type_error(name + ": " + std::string(py::repr(value)) + "; expected True or False");
+  field = static_cast<bool>(caster);
 }
 void from_python(py::handle value, const std::string& name, Vector3<double>& field) {
   field = to_vector3(cast_to<Array>(value, name, "an array of the shape (3,)"), name);
@@ -66,7 +69,7 @@ void bind_rules(py::class_<P>& cls) {
     } else if constexpr (std::is_same_v<Field, bool>) {
       cls.def_property(
           name, [member](const P& p) { return p.*member; },
-          [set](P& p, bool value) { set(p, py::bool_(value)); }, meaning);
+          [set](P& p, const py::bool_& value) { set(p, value); }, meaning);
     } else {
       cls.def_property(
           name, [member](const P& p) { return from_vector3(p.*member); },

@@ -104,6 +104,8 @@ py::tuple to_tuple(const Recording& r) {
 }
 
 Recording from_tuple(const py::tuple& t) {
+  if (t.size() != 15)
+    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 15");
   const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
   const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
   Recording recording =
@@ -112,6 +114,7 @@ Recording from_tuple(const py::tuple& t) {
            {t[9].cast<double>(), t[10].cast<double>(), t[11].cast<double>(), t[12].cast<double>()},
            t[13].cast<double>());
   recording.frame = t[14].cast<std::vector<long>>();
+  check_recording(recording);
   return recording;
 }
 

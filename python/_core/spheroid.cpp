@@ -37,7 +37,11 @@ Array map_points(const Surface& spheroid, Result (Surface::*method)(const Vector
     const Vector3<double> point(from[0], from[1], from[2]);
     Eigen::Map<Eigen::Matrix<double, components, 1>> value(to);
     value.setConstant(std::numeric_limits<double>::quiet_NaN());
-    if (point.allFinite()) value << (spheroid.*method)(point);
+    if (point.hasNaN()) continue;
+    if (!point.allFinite())
+      throw std::invalid_argument("points: infinite at row " + std::to_string(i) +
+                                  "; expected finite numbers, or NaN in a dropout");
+    value << (spheroid.*method)(point);
   }
   return result;
 }

@@ -57,8 +57,8 @@ StringState string_state_from_python(const py::object& state) {
     const auto found = std::ranges::find(kNames, state.cast<std::string>());
     if (found != kNames.end()) return static_cast<StringState>(found - kNames.begin());
   } else if (py::isinstance<py::int_>(state) || py::hasattr(state, "__index__")) {
-    const long code = state.cast<long>();
-    if (code >= 0 && code < static_cast<long>(kNames.size())) return static_cast<StringState>(code);
+    for (std::size_t code = 0; code < kNames.size(); ++code)
+      if (state.equal(py::int_(code))) return static_cast<StringState>(code);
   }
   throw std::invalid_argument("string_state: " + std::string(py::repr(state)) +
                               "; expected 'on_string', 'loose', 'flying' or a StringState");

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'comparable_windows', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -781,6 +781,10 @@ class Model:
         """
         The keyword arguments that make the model again.
         """
+    def to_json(self) -> str:
+        """
+        The text of its file.
+        """
     @property
     def interpolation(self) -> str:
         """
@@ -1461,6 +1465,10 @@ class HorizonScore:
 def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """
     The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
+    """
+def comparable_windows(recording: Recording, base: Model) -> int:
+    """
+    Starts from which a recording that is held out can be compared; see diabolo.diagnose.
     """
 def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
     """

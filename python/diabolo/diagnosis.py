@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from itertools import combinations
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from . import _core
 from ._core import Model, Recording
+from .checks import LARGEST_SEED, MOST_THREADS, callable_or_none, list_of, model_of, whole_number
 
 SCHEMA = "diabolo.diagnosis/1"
 
@@ -45,7 +49,7 @@ def diagnose(
     recordings: Recording | Iterable[Recording],
     base: Model | str = "consistent",
     *,
-    holdout: Iterable[Recording] = (),
+    holdout: Recording | Iterable[Recording] = (),
     bank: Iterable[str] = (),
     budget: float = 1e9,
     seed: int = 1,
@@ -57,7 +61,8 @@ def diagnose(
     recordings: of one set-up; they are looked at together.
     base: the simulator: a Model, "consistent", "paper" or "published".
     holdout: recordings that nothing is fitted to, to compare base and answer on; by default recordings, or
-        thirds of a single one, are left out in turn.
+        thirds of a single one, are left out in turn. Those on which nothing can be compared are named in
+        result["fit"]["holdout_unused"].
     bank: names of what may be claimed, such as "string_friction"; by default everything known. What no
         measurement is without stays free in every fit.
     budget: no new refit begins after so many seconds.
@@ -66,18 +71,40 @@ def diagnose(
 
         diagnose(load_recording("swing.csv")).sentence
 
-    Ctrl-C ends it at once. Raises ValueError about bad input; a recording that can decide nothing is an
-    answer, INSUFFICIENT_DATA.
+    Ctrl-C ends it at once. Raises ValueError about bad input, such as samples that are given twice; a
+    recording that can decide nothing is an answer, INSUFFICIENT_DATA.
     """
-    given = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    given = list_of("recordings", recordings)
     if not given:
         raise ValueError("recordings: none; at least one expected")
-    if threads < 0:
-        raise ValueError(f"threads: {threads}; expected 0 (all that help) or more")
+    threads = whole_number("threads", threads, 0, MOST_THREADS)
+    seed = whole_number("seed", seed, 0, LARGEST_SEED)
+    callable_or_none("progress", progress)
     if not budget > 0.0:
         raise ValueError(f"budget: {budget} s; must be positive")
-    chosen = Model.named(base) if isinstance(base, str) else base
+    if isinstance(bank, str):
+        raise ValueError(f"bank: {bank!r}; expected a list of names, such as ['string_friction']")
+    chosen = model_of("base", base)
+    held = list_of("holdout", holdout)
+    _check_distinct([*given, *held])
+    unused = [recording.name for recording in held if _core.comparable_windows(recording, chosen) == 0]
     text, model = _core.diagnose(
-        given, chosen, list(holdout), list(bank), budget, seed, 1 if threads == 1 else 2, progress
+        given, chosen, held, list(bank), budget, seed, 1 if threads == 1 else 2, progress
     )
-    return Diagnosis(json.loads(text), model)
+    result = json.loads(text)
+    result["fit"]["holdout_unused"] = unused
+    return Diagnosis(result, chosen if result["headline"] == "INSUFFICIENT_DATA" else model)
+
+
+def _check_distinct(recordings: Sequence[Recording]) -> None:
+    """Raise ValueError where two hold the same samples, which would count as evidence twice."""
+    for a, b in combinations(recordings, 2):
+        times, in_a, in_b = np.intersect1d(a.time, b.time, assume_unique=True, return_indices=True)
+        if len(times) > 1 and all(
+            np.array_equal(getattr(a, track)[in_a], getattr(b, track)[in_b], equal_nan=True)
+            for track in ("left", "right", "diabolo")
+        ):
+            raise ValueError(
+                f"recordings: '{a.name}' and '{b.name}' hold the same {len(times)} samples, from "
+                f"{times[0]:g} to {times[-1]:g} s; expected each once, since it would count as evidence twice"
+            )

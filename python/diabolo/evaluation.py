@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import HorizonScore, Model, Recording
+from .checks import LARGEST_SEED, MOST_THREADS, callable_or_none, list_of, model_of, whole_number
 from .rollout import Rollout
 
 DEFAULT_MODELS = ("published", "paper", "consistent")
@@ -19,6 +20,9 @@ SCHEMA = "diabolo.evaluation/1"
 
 ALL_RECORDINGS = "all recordings"
 """The name under which HorizonRow gives the errors over several recordings together."""
+
+RESERVED_NAMES = ("baseline", "program", "printed")
+"""What else stands beside the models in a table."""
 
 
 class Excerpt(NamedTuple):
@@ -96,18 +100,28 @@ def evaluate(
 
         evaluate(load_recording("throw_1.csv")).rows[0].error  # [m]
     """
-    given = [recordings] if isinstance(recordings, (Recording, Excerpt)) else list(recordings)
+    given = list_of("recordings", recordings, (Recording, Excerpt))
     if not given:
         raise ValueError("recordings: none; at least one expected")
-    wanted = [models] if isinstance(models, (Model, str)) else list(models)
     if start not in ("fair", "published"):
         raise ValueError(f"start: '{start}'; expected 'fair' or 'published'")
-    chosen = [Model.named(model) if isinstance(model, str) else model for model in wanted]
+    wanted = [models] if isinstance(models, (Model, str)) else models
+    chosen = [model_of("models", model) for model in wanted]
+    if not chosen:
+        raise ValueError("models: none; at least one expected")
     for index, model in enumerate(chosen):
         if any(other.name == model.name for other in chosen[:index]):
             raise ValueError(f"models: two are named '{model.name}'; their results could not be told apart")
+<<<<<<< HEAD
     if threads < 0:
         raise ValueError(f"threads: {threads}; expected 0 (all cores) or more")
+=======
+        if model.name in RESERVED_NAMES:
+            raise ValueError(f"models: one is named '{model.name}'; so is what the models are compared with")
+    threads = whole_number("threads", threads, 0, MOST_THREADS)
+    seed = whole_number("seed", seed, 0, LARGEST_SEED)
+    callable_or_none("progress", progress)
+>>>>>>> fix-c
     report = progress or (lambda fraction: None)
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
@@ -142,13 +156,18 @@ def predict(
     row: where to start; by default the first one from which the authors' program could.
     start: as for `evaluate`. Rows before the start are NaN; `time` is that of the recording.
     """
-    chosen = Model.named(model) if isinstance(model, str) else model
-    states, string_states = _core.predict(recording, chosen, row, start)
+    if row is not None:
+        row = whole_number("row", row, 0, len(recording) - 1)
+    states, string_states = _core.predict(recording, model_of("model", model), row, start)
     return Rollout(np.asarray(recording.time), states, string_states)
 
 
 def position_errors(recording: Recording, predicted: Rollout) -> NDArray[np.float64]:
     """Distance from the recorded to the predicted diabolo [m], shape (N,); NaN where one is missing."""
+    if len(predicted.states) != len(recording):
+        raise ValueError(
+            f"predicted: {len(predicted.states)} rows; expected {len(recording)}, the recording's"
+        )
     distance: NDArray[np.float64] = np.linalg.norm(predicted.states[:, :3] - recording.diabolo, axis=1)
     return distance
 
@@ -159,13 +178,13 @@ def _whole(take: Recording | Excerpt) -> Recording:
 
 def _labels(given: list[Recording | Excerpt]) -> list[str]:
     """Names of the recordings, with the rows where they are not all; equal ones are numbered."""
-    labels: list[str] = []
+    labels = [ALL_RECORDINGS]  # taken
     for take in given:
         rows = "" if isinstance(take, Recording) else f":{take.first}-{take.last}"
         name = (take if isinstance(take, Recording) else take.recording).name + rows
         same = sum(label == name or label.startswith(f"{name} (") for label in labels)
         labels.append(f"{name} ({same + 1})" if same else name)
-    return labels
+    return labels[1:]
 
 
 def _table(

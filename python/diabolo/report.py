@@ -39,7 +39,7 @@ def check(path: str | Path) -> None:
             import_module(name)
     except ModuleNotFoundError as error:
         raise ValueError(
-            f"{path}: to make a report, install {error.name} (pip install 'diabolo[plot]')"
+            f"{path}: to make a report, install {error.name} (pip install '.[plot]' in the project's root)"
         ) from error
 
 
@@ -198,9 +198,11 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         for row in zip(horizons, before, after, intervals, strict=False)
         if None not in row[:2] and row[0] > 0
     ]
+    unused = fit.get("holdout_unused") or []
+    left = f" Held out, but without a start that could be compared: {_joined(unused)}." if unused else ""
     if not rows:
         return {
-            "sentence": "There is no held-out error: nothing could be predicted and compared.",
+            "sentence": f"There is no held-out error: nothing could be predicted and compared.{left}",
             "rows": [],
         }
     horizon, base, augmented, interval = rows[-1]
@@ -233,7 +235,13 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
     ]
     tile_label = f"error after {quantity(horizon, 's')}, data not fitted"
     picture = _picture(_error_figure(rows))
-    return {"sentence": sentence, "rows": table, "tile": tile, "tile_label": tile_label, "picture": picture}
+    return {
+        "sentence": sentence + left,
+        "rows": table,
+        "tile": tile,
+        "tile_label": tile_label,
+        "picture": picture,
+    }
 
 
 def _improvement(gain: float, interval: Any) -> str:

@@ -11,10 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import Model, Parameters, TipMotion
+from .checks import MOST_THREADS, list_of, whole_number
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters
 AnyStringState: TypeAlias = StringState | int | str
+
+MOST_STEPS = 10**12
+MOST_FRAMES = 10**8
+"""Of all rollouts of a batch together: 6 GB."""
 
 
 class Rollout(NamedTuple):
@@ -72,14 +77,11 @@ def rollout(
         fall = rollout(Parameters(), [0, 0, -0.4, 0, 0, 0, 100], tips, steps=1000)
         fall.states[-1]  # a second later
     """
-    models = [_model(one) for one in ([model] if isinstance(model, (Model, Parameters)) else model)]
-    motions = [tips] if isinstance(tips, TipMotion) else list(tips)
-    for i, motion in enumerate(motions):
-        if not isinstance(motion, TipMotion):
-            raise TypeError(f"tips[{i}]: {type(motion).__name__}; expected TipMotion")
+    models = [_model(one) for one in list_of("model", model, (Model, Parameters))]
+    motions = list_of("tips", tips, (TipMotion,))
     states = np.asarray(initial, dtype=np.float64)
     codes = _codes(string_state)
-    if states.ndim not in (1, 2) or states.shape[-1] != 7:
+    if states.ndim not in (1, 2) or states.shape[-1] != 7 or states.size == 0:
         raise ValueError(f"initial: shape {states.shape}; expected (7,) or (N, 7)")
     axes = np.asarray(axis, dtype=np.float64)
     if axes.ndim not in (1, 2) or axes.shape[-1] != 3:
@@ -88,8 +90,7 @@ def rollout(
         raise ValueError("axis: expected unit vectors")
     if not models or not motions:
         raise ValueError("rollout: an empty sequence of models or tip motions; expected one or N")
-    if record_every < 1:
-        raise ValueError(f"record_every: {record_every}; must be at least 1")
+    record_every = whole_number("record_every", record_every, 1, MOST_STEPS)
 
     batched = (
         states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or _is_sequence(model) or _is_sequence(tips)
@@ -101,7 +102,7 @@ def rollout(
         "model": len(models),
         "tips": len(motions),
     }
-    size = 0 if 0 in sizes.values() else max(sizes.values())
+    size = max(sizes.values())
     for name, given in sizes.items():
         if given not in (1, size):
             raise ValueError(f"{name}: {given} given for {size} rollouts; expected 1 or {size}")
@@ -109,10 +110,13 @@ def rollout(
     start = motions[0].begin if begin is None else float(begin)
     _check_times(start, dt, steps)
     if steps is None:
-        steps = _whole_steps(min(motion.end for motion in motions) - start, dt)
-        steps -= steps % record_every
-    if steps < 0 or steps % record_every != 0:
+        steps = _steps_between(start, min(motion.end for motion in motions), dt, record_every)
+    if steps % record_every != 0:
         raise ValueError(f"steps: {steps}; expected a multiple of record_every, which is {record_every}")
+    if (frames := size * (steps // record_every)) > MOST_FRAMES:
+        raise ValueError(
+            f"rollout: {frames} frames; expected at most {MOST_FRAMES}, by a larger record_every"
+        )
 
     records, record_states = _core.rollout(
         models,
@@ -123,7 +127,7 @@ def rollout(
         dt,
         steps,
         record_every,
-        _checked_threads(threads),
+        whole_number("threads", threads, 0, MOST_THREADS),
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     return Rollout(time, records, record_states) if batched else Rollout(time, records[0], record_states[0])
@@ -163,9 +167,7 @@ def rollout_gradient(
     start = tips.begin if begin is None else float(begin)
     _check_times(start, dt, steps)
     if steps is None:
-        steps = _whole_steps(tips.end - start, dt)
-    if steps < 0:
-        raise ValueError(f"steps: {steps}; must not be negative")
+        steps = _steps_between(start, tips.end, dt, 1)
     final, final_string_state, derivatives = _core.rollout_gradient(
         _model(model),
         _core.State(state[:3], state[3:6], float(state[6]), string_state, axis),
@@ -174,7 +176,7 @@ def rollout_gradient(
         start,
         dt,
         steps,
-        _checked_threads(threads),
+        whole_number("threads", threads, 0, MOST_THREADS),
     )
     return RolloutGradient(final, StringState(final_string_state), derivatives)
 
@@ -192,13 +194,18 @@ def _check_times(begin: float, dt: float, steps: int | None) -> None:
         raise ValueError(f"begin: {begin} s; must be within 1e9 s")
     if not 1e-9 <= dt <= 1e3:
         raise ValueError(f"dt: {dt} s; must be within 1e-9 and 1e3 s")
-    if steps is not None and not 0 <= steps <= 10**12:
-        raise ValueError(f"steps: {steps}; must be within 0 and 1e12")
+    if steps is not None:
+        whole_number("steps", steps, 0, MOST_STEPS)
 
 
-def _whole_steps(duration: float, dt: float) -> int:
-    """As many steps as fit; a step that misses the end by rounding only does fit."""
-    return max(0, int(duration / dt + 1e-6))
+def _steps_between(begin: float, end: float, dt: float, multiple: int) -> int:
+    """As many steps as fit, a multiple of `multiple`; one that misses the end by rounding only does fit."""
+    steps = int((end - begin) / dt + 1e-6)
+    if steps < multiple:
+        raise ValueError(
+            f"begin: {begin} s; the tips end at {end} s, before the first frame; give steps for tips at rest"
+        )
+    return steps - steps % multiple
 
 
 def _codes(string_state: AnyStringState | ArrayLike) -> NDArray[np.uint8]:
@@ -215,9 +222,3 @@ def _codes(string_state: AnyStringState | ArrayLike) -> NDArray[np.uint8]:
     if given.dtype.kind not in "iu" or np.any(given < 0) or np.any(given > max(StringState)):
         raise ValueError(f"string_state: {given}; expected names or numbers of StringState")
     return given.astype(np.uint8)
-
-
-def _checked_threads(threads: int) -> int:
-    if threads < 0:
-        raise ValueError(f"threads: {threads}; expected 0 (all cores) or more")
-    return threads

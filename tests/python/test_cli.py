@@ -282,9 +282,10 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
         (("evaluate", "played.csv", "--starts", "often"), "--starts often: expected first, or every=SECONDS"),
         (("evaluate", "played.csv", "--starts", "every=0"), "--starts every=0: expected"),
         (("evaluate", "played.csv", "--starts", "every=nan"), "--starts every=nan: expected"),
-        (("evaluate", "played.csv", "--threads", "-1"), "--threads -1: expected 0 or more"),
+        (("evaluate", "played.csv", "--starts", "every=1e-9"), "--starts every=1e-9: expected"),
+        (("evaluate", "played.csv", "--threads", "-1"), "--threads: -1; expected a whole number from 0"),
         (("evaluate", "played.csv", "--threads", "many"), "invalid int value: 'many'"),
-        (("evaluate", "played.csv", "--seed", "-1"), "--seed -1: expected 0 or more"),
+        (("evaluate", "played.csv", "--seed", "-1"), "--seed: -1; expected a whole number from 0"),
         (("evaluate", "played.csv", "--json", "no/out.json"), "no/out.json: there is no folder"),
         (("evaluate", "played.csv", "--json", "."), ".: a directory; expected the name of a file"),
         (("evaluate", "played.csv", "--json", "/dev/null"), "/dev/null: a device or a pipe; expected a file"),
@@ -292,7 +293,10 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
         (("evaluate", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
         (("info", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
         (("evaluate", "played.csv:0-99999999999999999999"), "played.csv:0-99999999999999999999: there is no"),
-        (("evaluate", "played.csv", "--seed", str(10**20)), f"--seed {10**20}: expected less than"),
+        (
+            ("evaluate", "played.csv", "--seed", str(10**20)),
+            f"--seed: {10**20}; expected a whole number from 0",
+        ),
         (("evaluate", "played.csv", "--plot", "out.doc"), "out.doc: expected a name that ends in .png"),
         (
             ("evaluate", "played.csv", "--json", "a.png", "--plot", "a.png"),
@@ -342,7 +346,7 @@ def test_without_matplotlib_a_sentence_says_so(command: Command, tidy: Path) -> 
     for arguments in (("evaluate", "played.csv", "--plot", "out.png"), ("demo",)):
         done = command(*arguments, env={"PYTHONPATH": f"{tidy.parent}:{os.environ.get('PYTHONPATH', '')}"})
         assert done.returncode == 2
-        assert "install matplotlib (pip install 'diabolo[plot]')" in done.stderr
+        assert "install matplotlib (pip install '.[plot]' in the project's root)" in done.stderr
         assert not (tidy.parent / "out.png").exists()
 
 
@@ -374,6 +378,27 @@ def test_a_closed_pipe_is_no_error(tidy: Path) -> None:
     assert process.stderr.read() == b""
     process.stderr.close()
     assert process.wait() == 0
+
+
+@pytest.mark.parametrize(
+    ("redirection", "complaint"),
+    [(">&-", "standard output is closed"), ("> /dev/full", "standard output: No space left on device")],
+)
+def test_output_that_cannot_be_printed_is_told(tidy: Path, redirection: str, complaint: str) -> None:
+    done = subprocess.run(
+        ["sh", "-c", f'"{sys.executable}" -m diabolo info "{tidy}" {redirection}'],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 2
+    assert complaint in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_it_works_without_standard_error(tidy: Path) -> None:
+    done = subprocess.run(
+        ["sh", "-c", f'"{sys.executable}" -m diabolo evaluate "{tidy}" 2>&-'], capture_output=True, text=True
+    )
+    assert done.returncode == 0 and "consistent" in done.stdout
 
 
 def long_evaluation(tidy: Path) -> list[str | Path]:

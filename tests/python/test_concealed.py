@@ -333,7 +333,30 @@ def test_the_command_says_what_is_missing(
     assert "expected a sealed batch" in capsys.readouterr().err
     assert main(["prove", "seal", "../elsewhere", *sources]) == 2
     assert "expected a name of letters" in capsys.readouterr().err
+    for wrong, complaint in (
+        (["quick", *sources, "--plant", "/bin/true"], "/bin/true: another program; expected the plant's"),
+        (["quick", *sources, "--plant", __file__], f"{__file__}: the plant's program is not there"),
+        (["run", "first", *sources, "--minutes", "nan"], "--minutes: nan; expected more than 0"),
+        (["run", "first", *sources, "--minutes", "-1"], "--minutes: -1.0; expected more than 0"),
+        (["quick", "--sources", str(ROOT / "python/diabolo/cli")], "cli: the sources of the proof are not"),
+    ):
+        assert main(["prove", *wrong]) == 2
+        error = capsys.readouterr().err
+        assert complaint in error and error.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("text", ["", "import nowhere_to_be_found", "from . import nothing", "Places = "])
+def test_the_command_refuses_other_sources(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, text: str
+) -> None:
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    folder = tmp_path / f"other_sources_{abs(hash(text))}"
+    folder.mkdir()
+    (folder / "commands.py").write_text(text)
+    assert main(["prove", "--sources", str(folder)]) == 2
+    error = capsys.readouterr().err
+    assert f"{folder}: not the sources of the proof" in error and error.count("\n") == 1
 
 
 def test_a_score_is_json(keys: list[dict[str, Any]]) -> None:

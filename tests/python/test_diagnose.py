@@ -2,14 +2,18 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
 import diabolo
+import numpy as np
 import pytest
-from diabolo import Diagnosis, Model, Recording, diagnose, load_recording
+from conftest import make_recording
+from diabolo import Calibration, Diagnosis, Model, Recording, RecordingError, diagnose, load_recording
 from diabolo.cli import main
 from diabolo.cli.demo import packaged_recordings
+from diabolo.report import report_html
 
 
 @pytest.fixture(scope="module")
@@ -104,6 +108,53 @@ def test_too_little_is_an_answer(played: Recording) -> None:
     assert answer.headline == "INSUFFICIENT_DATA"
     assert "windows" in answer.sentence
     assert answer.effects == []
+    assert answer.model == Model.named("consistent")
+
+
+def lost_from(recording: Recording, row: int, *tracks: str) -> Recording:
+    """The recording with tracks that end at a row."""
+    kept = {name: np.array(getattr(recording, name)) for name in ("left", "right", "diabolo")}
+    for name in tracks:
+        kept[name][row:] = np.nan
+    return Recording(recording.time, *kept.values(), recording.rate, name="lost")
+
+
+def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
+    copy = Recording(played.time, played.left, played.right, played.diabolo, played.rate, name="copy")
+    for takes, held in (
+        ([played, copy], []),
+        ([played], [copy]),
+        ([played, copy.cut(100, 200)], []),
+        ([played.cut(0, 240)], [copy.cut(200, 400)]),
+    ):
+        with pytest.raises(ValueError, match=r"'played' and 'copy' hold the same [0-9]+ samples"):
+            diagnose(takes, holdout=held)
+    assert diagnose([played.cut(0, 40), copy.cut(40, 80)]).headline == "INSUFFICIENT_DATA"
+
+
+def test_a_holdout_without_windows_is_told(played: Recording) -> None:
+    other = make_recording("throw")
+    unseen = lost_from(other, 5, "diabolo")
+    result = diagnose(played.cut(0, 60), holdout=[other, unseen]).result
+    assert result["fit"]["holdout_unused"] == ["lost"]
+    assert "could be compared: lost." in report_html(result)
+
+
+def test_an_unusable_holdout_is_refused_before_the_fit(played: Recording) -> None:
+    def fail(step: str, fraction: float) -> None:
+        raise AssertionError(step)
+
+    with pytest.raises(RecordingError, match='"lost"'):
+        diagnose(played, holdout=lost_from(make_recording("throw"), 0, "left"), progress=fail)
+
+
+def test_the_command_holds_out_rows(short: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    other = short.parent / "other.csv"
+    make_recording("throw").save(other)
+    assert main(["diagnose", str(short), "--holdout", f"{other}:0-8", f"{other}:10-200"]) == 0
+    assert "without a start that could be compared: other" in capsys.readouterr().out
+    assert main(["diagnose", str(other), "--holdout", f"{other}:0-80"]) == 2
+    assert "'other' and 'other' hold the same 81 samples" in capsys.readouterr().err
 
 
 def test_bad_input_is_named(played: Recording) -> None:
@@ -111,8 +162,22 @@ def test_bad_input_is_named(played: Recording) -> None:
         diagnose([])
     with pytest.raises(ValueError, match="expected published, paper or consistent"):
         diagnose(played, "ours")
-    with pytest.raises(ValueError, match="threads: -1"):
-        diagnose(played, threads=-1)
+    for change, text in (
+        ({"threads": -1}, "threads: -1"),
+        ({"threads": 1.5}, "threads: 1.5; expected a whole number"),
+        ({"threads": 10**30}, "threads: 10"),
+        ({"seed": -1}, "seed: -1; expected a whole number"),
+        ({"seed": 2**70}, "seed: 11805"),
+        ({"progress": 3}, "progress: 3; expected a function"),
+        ({"bank": "string_friction"}, "bank: 'string_friction'; expected a list"),
+        ({"base": 3}, "base: 3; expected a Model"),
+        ({"recordings": "swing.csv"}, "recordings: 'swing.csv'; expected Recording"),
+        ({"recordings": [None]}, r"recordings\[0\]: None; expected Recording"),
+        ({"recordings": 3}, "recordings: 3; expected Recording"),
+        ({"holdout": "swing.csv"}, "holdout: 'swing.csv'; expected Recording"),
+    ):
+        with pytest.raises(ValueError, match=text):
+            diagnose(**{"recordings": played, **change})
     with pytest.raises(ValueError, match="budget: 0"):
         diagnose(played, budget=0.0)
 
@@ -133,11 +198,83 @@ def test_the_command_writes_report_result_and_model(
 
 
 @pytest.mark.parametrize(
+    ("option", "output"),
+    [("--base", "out/model.json"), ("--calibration", "out/diagnosis.json"), ("--base", "base.json")],
+)
+def test_the_command_overwrites_no_input(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], option: str, output: str
+) -> None:
+    given = tmp_path / output
+    given.parent.mkdir(exist_ok=True)
+    kind = Model.named("consistent") if option == "--base" else Calibration.published()
+    given.write_text(kind.to_json())
+    before = given.read_bytes()
+    take = str(packaged_recordings()[0])
+    out = ["--out", str(given.parent)] if given.parent != tmp_path else ["--json", str(given)]
+    assert main(["diagnose", take, option, str(given), *out]) == 2
+    assert f"{given}: this file is read already" in capsys.readouterr().err
+    assert given.read_bytes() == before and list(given.parent.iterdir()) == [given]
+
+
+@pytest.fixture
+def short(tmp_path: Path, played: Recording) -> Path:
+    """Too short to decide anything, so diagnosed at once."""
+    path = tmp_path / "short.csv"
+    played.cut(0, 60).save(path)
+    return path
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), ValueError("no report")])
+def test_an_end_while_writing_leaves_the_older_set(
+    short: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException
+) -> None:
+    def fail(result: dict[str, Any]) -> str:
+        raise error
+
+    out = short.parent / "deep" / "out"
+    assert main(["diagnose", str(short), "--out", str(out)]) == 0
+    before = {path: path.read_bytes() for path in out.iterdir()}
+    monkeypatch.setattr("diabolo.cli.diagnose.report_html", fail)
+    assert main(["diagnose", str(short), "--seed", "2", "--out", str(out)]) != 0
+    assert {path: path.read_bytes() for path in out.iterdir()} == before
+    assert main(["diagnose", str(short), "--out", str(short.parent / "other" / "out")]) != 0
+    assert not (short.parent / "other").exists()
+
+
+@pytest.mark.parametrize("missing", ["jinja2", "matplotlib"])
+def test_a_missing_library_is_told_before_the_work(
+    short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], missing: str
+) -> None:
+    monkeypatch.setattr("diabolo.cli.diagnose.run_diagnosis", None)
+    monkeypatch.setitem(sys.modules, missing, None)
+    assert main(["diagnose", str(short), "--out", str(short.parent / "out")]) == 2
+    assert f"install {missing} (pip install '.[plot]'" in capsys.readouterr().err
+    assert not (short.parent / "out").exists()
+
+
+@pytest.mark.parametrize("option", ["--out /proc/diagnosis", "--json /proc/r.json", f"--json {'r' * 300}"])
+def test_an_output_that_cannot_be_is_told_before_the_work(
+    short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], option: str
+) -> None:
+    monkeypatch.setattr("diabolo.cli.diagnose.run_diagnosis", None)
+    assert main(["diagnose", str(short), *option.split()]) == 2
+    error = capsys.readouterr().err
+    assert option.split()[1] in error and error.count("\n") == 1
+
+
+def test_bad_input_makes_no_folder(short: Path) -> None:
+    assert main(["diagnose", "nothing.csv", "--out", str(short.parent / "new" / "out")]) == 2
+    assert not (short.parent / "new").exists()
+
+
+@pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
         (["nothing.csv"], "nothing.csv: there is no such file"),
         (["TAKE", "--base", "ours"], "model ours: no such file"),
         (["TAKE", "--seed", "-1"], "--seed: -1"),
+        (["TAKE", "--threads", "-1"], "--threads: -1"),
+        (["TAKE", "--budget", "nan"], "--budget: nan s"),
         (["TAKE", "--out", "TAKE"], "a file; expected a folder"),
     ],
 )

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: MIT
 from __future__ import annotations
 
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import diabolo
@@ -79,6 +84,9 @@ def test_several_recordings_are_put_together(played: Recording) -> None:
 def test_recordings_of_the_same_name_are_told_apart(played: Recording) -> None:
     rows = evaluate([played, played, played], "paper", starts_every=1.0, horizons=[0.5]).horizons
     assert [row.recording for row in rows] == ["played", "played (2)", "played (3)", "all recordings"]
+    together = make_recording(seconds=2.0, name="all recordings")
+    rows = evaluate([played, together], "paper", starts_every=1.0, horizons=[0.5]).horizons
+    assert [row.recording for row in rows] == ["played", "all recordings (2)", "all recordings"]
 
 
 def test_seed_and_threads(played: Recording) -> None:
@@ -119,8 +127,26 @@ def test_bad_input_is_named(played: Recording) -> None:
         evaluate(played, starts_every=0.0)
     with pytest.raises(ValueError, match="horizon: -1 s"):
         evaluate(played, starts_every=0.1, horizons=[-1.0])
-    with pytest.raises(ValueError, match="threads: -1"):
-        evaluate(played, threads=-1)
+    for change, text in (
+        ({"threads": -1}, "threads: -1"),
+        ({"threads": 1.5}, "threads: 1.5; expected a whole number"),
+        ({"threads": 10**30}, "threads: 10"),
+        ({"seed": -1}, "seed: -1"),
+        ({"seed": 2**70}, "seed: 11805"),
+        ({"progress": 3}, "progress: 3; expected a function"),
+        ({"recordings": "swing.csv"}, "recordings: 'swing.csv'; expected Recording or Excerpt"),
+        ({"recordings": [None]}, r"recordings\[0\]: None; expected Recording or Excerpt"),
+        ({"models": []}, "models: none; at least one expected"),
+        ({"models": [None]}, "models: None; expected a Model"),
+        ({"models": Model(name="baseline")}, "models: one is named 'baseline'"),
+    ):
+        with pytest.raises(ValueError, match=text):
+            evaluate(**{"recordings": played, **change})
+    for row in (-1, 10**30, 0.5):
+        with pytest.raises(ValueError, match=f"row: .*; expected a whole number from 0 to {len(played) - 1}"):
+            predict(played, row=row)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="predicted: 101 rows; expected 481"):
+        position_errors(played, predict(played.cut(0, 100)))
     unseen = Recording(played.time, played.left, played.right, played.diabolo * np.nan, 120.0, name="unseen")
     with pytest.raises(ValueError, match='"unseen": no two successive rows with the diabolo'):
         evaluate(unseen)
@@ -137,3 +163,18 @@ def test_the_published_program_is_repeated(real_recordings: Path) -> None:
     for row in rows:
         assert row.error is not None
         assert row.error == pytest.approx(row.program_error, rel=0.02)
+
+
+@pytest.mark.parametrize("work", [evaluate, predict])
+def test_ctrl_c_ends_one_long_prediction(played: Recording, work: Callable[[Recording, str], object]) -> None:
+    stretch = 20_000.0
+    long = Recording(
+        played.time * stretch, played.left, played.right, played.diabolo, played.rate / stretch, name="long"
+    )
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))  # needs the interpreter's lock
+    timer.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        work(long, "consistent")
+    assert time.monotonic() - begin < 5.0
+    timer.join()

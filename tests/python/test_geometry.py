@@ -70,6 +70,8 @@ def test_dropouts_stay_dropouts() -> None:
     track = np.array([[0.0, 0.0, 0.5], [np.nan, 0.0, 0.5]])
     assert np.isnan(spheroid.path_length(track)).tolist() == [False, True]
     assert np.isnan(spheroid.closest_point(track)).all(axis=1).tolist() == [False, True]
+    with pytest.raises(ValueError, match="points: infinite at row 1; expected finite numbers, or NaN"):
+        spheroid.closest_point([[0.0, 0.0, 0.5], [np.inf, 0.0, 0.5]])
 
 
 def test_spheroid_tells_its_measures() -> None:

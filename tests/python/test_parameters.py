@@ -102,6 +102,7 @@ def test_changes_of_rules_count_in_comparisons() -> None:
         ({"masss": 1.0}, TypeError, "no field 'masss'"),
         ({"mass": "heavy"}, TypeError, "mass: 'heavy'; expected a number"),
         ({"string_law": 3}, TypeError, "string_law: 3; expected a str"),
+        ({"planar": None}, TypeError, "planar: None; expected True or False"),
         ({"plane_normal": [1.0, 0.0]}, ValueError, r"plane_normal: shape \(2,\); expected \(3,\)"),
         ({"planar": True, "plane_normal": [1.0, 1.0, 0.0]}, ValueError, "unit vector"),
     ],
@@ -112,5 +113,8 @@ def test_bad_fields_are_named(fields: dict[str, Any], error: type[Exception], te
 
 
 def test_unknown_attributes_are_refused() -> None:
+    with pytest.raises(TypeError):
+        Parameters().planar = None  # type: ignore[assignment]
+    assert Parameters(planar=np.False_) == Parameters()
     with pytest.raises(AttributeError):
         Parameters().masss = 1.0  # type: ignore[attr-defined]

@@ -37,6 +37,7 @@ def test_states_are_built_and_changed() -> None:
         ({"position": np.zeros(3), "spin": np.nan}, "spin: nan rad/s"),
         ({"position": np.zeros(3), "string_state": "gone"}, "string_state: 'gone'; expected 'on_string'"),
         ({"position": np.zeros(3), "string_state": 3}, "string_state: 3; expected"),
+        ({"position": np.zeros(3), "string_state": 2**70}, "string_state: 1180591620717411303424; expected"),
     ],
 )
 def test_bad_states_are_refused(arguments: dict[str, object], text: str) -> None:

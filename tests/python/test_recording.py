@@ -17,6 +17,7 @@ from diabolo import (
     RecordingError,
     StickFlex,
     TipMotion,
+    load_recording,
     rollout,
 )
 
@@ -223,3 +224,77 @@ def test_the_real_recordings_are_read(real_recordings: Path) -> None:
         recording = Recording.load(path)
         assert recording.rate == 120.0 and recording.diabolo_valid.mean() > 0.9
         assert np.nanmax(recording.spin()) > 50.0
+
+
+def test_an_inconsistent_state_is_refused(played: Recording) -> None:
+    rebuild, arguments, state = played.__reduce_ex__(2)[:3]
+    for broken, text in (
+        (state[:-1], "a state of 14 items; expected 15"),
+        ((*state[:-1], [0, 1]), "2 frame numbers and 481 times"),
+        ((state[0].ravel()[:-1], *state[1:]), r"left: shape \(481, 3\); expected \(480, 3\)"),
+    ):
+        with pytest.raises(ValueError, match=text):
+            rebuild(*arguments).__setstate__(broken)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("string_length", 1e300),
+        ("string_length", 0.01),
+        ("mass", 1e3),
+        ("axle_radius", 1.0),
+        ("diameter", 1e300),
+        ("length", 1e-3),
+    ],
+)
+def test_sizes_out_of_range_name_file_and_field(
+    played: Recording, motive_file: Path, tmp_path: Path, field: str, value: float
+) -> None:
+    played.save(tmp_path / "played.csv")
+    calibration = json.loads(Calibration.published().to_json())
+    for path, content in (
+        (tmp_path / "played.json", json.loads((tmp_path / "played.json").read_text())),
+        (tmp_path / "calibration.json", calibration),
+    ):
+        sizes = content["diabolo"].get("properties", content["diabolo"])
+        (content if field == "string_length" else sizes)[field] = value
+        path.write_text(json.dumps(content))
+    with pytest.raises(RecordingError, match=rf"played\.json: (diabolo\.)?{field} \[k?[gm]\] .*; expected "):
+        load_recording(tmp_path / "played.csv")
+    with pytest.raises(RecordingError, match=rf"calibration\.json: (diabolo\.)?{field} \[k?[gm]\]"):
+        Calibration.load(tmp_path / "calibration.json")
+
+
+def test_a_body_cannot_be_two(tmp_path: Path) -> None:
+    calibration = json.loads(Calibration.published().to_json())
+    calibration["right"]["body"] = ["other", calibration["left"]["body"]]
+    (tmp_path / "calibration.json").write_text(json.dumps(calibration))
+    with pytest.raises(RecordingError, match=r'left\.body and right\.body are both "stick_left"'):
+        Calibration.load(tmp_path / "calibration.json")
+
+
+def test_a_recording_lasts_a_day_at_most(played: Recording, tmp_path: Path) -> None:
+    def stretched(factor: float) -> Recording:
+        return Recording(
+            played.time * factor, played.left, played.right, played.diabolo, played.rate / factor
+        )
+
+    stretched(20_000.0).save(tmp_path / "long.csv")
+    with pytest.raises(RecordingError, match="from the first sample to the last; expected a day at most"):
+        stretched(30_000.0)
+    lines = (tmp_path / "long.csv").read_text().splitlines()
+    last = lines[-1].split(",", 1)
+    for hours in range(1, 4):
+        lines.append(f"{float(last[0]) + 3000.0 * hours},{last[1]}")
+    (tmp_path / "long.csv").write_text("\n".join(lines) + "\n")
+    with pytest.raises(RecordingError, match=r"long\.csv, line 485: time .* more than a day after the first"):
+        load_recording(tmp_path / "long.csv")
+
+
+def test_a_name_that_cannot_be_is_not_called_missing(played: Recording, tmp_path: Path) -> None:
+    path = tmp_path / ("r" * 300 + ".csv")
+    with pytest.raises(RecordingError, match="the file cannot be reached: File name too long"):
+        load_recording(path)
+    with pytest.raises(RecordingError, match="the file cannot be written there: File name too long"):
+        played.save(path)

@@ -145,8 +145,11 @@ TEST_CASE("Unusable calibrations are refused") {
   CHECK(says([](Calibration& c) { c.world_yaw = kNaN; }) == "c: the world's yaw must be finite");
   CHECK(says([](Calibration& c) { c.world_offset.z() = 1e9; }) ==
         "c: world.offset [m] must be finite and within 100 m");
-  CHECK(says([](Calibration& c) { c.string_length = 0.0; }) ==
-        "c: string_length [m] 0; expected a finite number > 0");
+  CHECK(says([](Calibration& c) { c.diabolo.bodies.push_back("stick_right"); }) ==
+        "c: right.body and diabolo.body are both \"stick_right\"; expected different rigid bodies");
+  CHECK(says([](Calibration& c) { c.properties.axle_radius = 1.0; }) ==
+        "c: diabolo.axle_radius [m] 1; expected 1e-04 to 0.1");
+  CHECK(says([](Calibration& c) { c.string_length = 0.0; }) == "c: string_length [m] 0; expected 0.05 to 20");
 }
 
 TEST_CASE("The published processed files are reproduced to 1e-11 m") {

@@ -47,12 +47,12 @@ TEST_CASE("What may be left out is read where it is there") {
   text = replaced(text, "\"left\"", "\"string_length\": 1.7, \"left\"");
   text = replaced(
       text, "[-2, 0, 0]",
-      "[-2, 0, 0], \"properties\": {\"mass\": 1, \"diameter\": 2, \"length\": 3, \"axle_radius\": 4}");
+      "[-2, 0, 0], \"properties\": {\"mass\": 1, \"diameter\": 0.2, \"length\": 0.3, \"axle_radius\": 0.04}");
   const Calibration calibration = read_calibration(text, "c.json");
   CHECK((calibration.left.axis - Eigen::Vector3d(0.0, 0.6, 0.8)).norm() < 1e-15);
   CHECK(calibration.string_length == 1.7);
-  CHECK(calibration.properties.diameter == 2.0);
-  CHECK(calibration.properties.axle_radius == 4.0);
+  CHECK(calibration.properties.diameter == 0.2);
+  CHECK(calibration.properties.axle_radius == 0.04);
 }
 
 TEST_CASE("Calibrations that are written read back") {

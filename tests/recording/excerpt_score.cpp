@@ -57,6 +57,15 @@ TEST_CASE("A diabolo at rest on resting tips costs the baseline and the consiste
   CHECK(score.baseline_error < 1e-9);
 }
 
+TEST_CASE("A score can be called off") {
+  Recording recording = test::with_tips(200, test::beating_tips(3, 10.0));
+  recording = test::played_by(consistent_model(), recording, test::hanging(recording, kBaselineStringLength));
+  int asked = 0;
+  const Watch watch{.progress = {}, .cancelled = [&] { return ++asked > 3; }};
+  CHECK_THROWS_AS(score_excerpts(recording, consistent_model(), watch), Cancelled);
+  CHECK(asked == 4);
+}
+
 TEST_CASE("Where a play takes place changes no score, nor which way it faces while the string is held") {
   const Recording tips = test::with_tips(300, test::beating_tips(11, 0.5));
   const Recording recording =

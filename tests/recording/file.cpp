@@ -48,7 +48,10 @@ TEST_CASE("What cannot be read or written is named") {
   CHECK(complaint([&] { FilesToWrite().add(here, "x"); }) == here + ": a directory; expected a file");
   const std::string nowhere = (folder / "nowhere/a.csv").string();
   CHECK(complaint([&] { FilesToWrite().add(nowhere, "x"); }) ==
-        nowhere + ": the file cannot be written there");
+        nowhere + ": the file cannot be written there: No such file or directory");
+  const std::string endless = (folder / std::string(300, 'a')).string();
+  CHECK(complaint([&] { read_file(endless); }) ==
+        endless + ": the file cannot be reached: File name too long");
   CHECK(folder.entries() == 0);
 }
 

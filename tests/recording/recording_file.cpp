@@ -52,7 +52,7 @@ TEST_CASE("Missing and wrong metadata are named") {
   CHECK(says_of("\"mass\"", "\"length\": 1, \"mass\"") == "play.json: field \"length\" is there twice");
   CHECK(complaint([] {
           write_metadata({kRedDiabolo, kNaN, 100.0});
-        }) == "recording: string_length [m] nan; expected a finite number > 0");
+        }) == "recording: string_length [m] nan; expected 0.05 to 20");
 }
 
 TEST_CASE("Motive and tidy recordings are told apart by content") {

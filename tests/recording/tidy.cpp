@@ -125,7 +125,7 @@ TEST_CASE("Times have to increase at the stated rate") {
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, kNaN}) ==
         "play.csv: rate nan Hz; expected more than 0, at most 1e6");
   CHECK(says(tidy_text(), {kBlueDiabolo, 0.0, 100.0}) ==
-        "play.csv: string_length [m] 0; expected a finite number > 0");
+        "play.csv: string_length [m] 0; expected 0.05 to 20");
 }
 
 TEST_CASE("A file cut off inside a line is refused") {

@@ -89,6 +89,16 @@ inline void check_calibration(const Calibration& calibration, const std::string&
   check("left", calibration.left);
   check("right", calibration.right);
   check("diabolo", calibration.diabolo);
+  const auto differ = [&where](const char* name, const BodyPoint& part, const char* other_name,
+                               const BodyPoint& other) {
+    for (const std::string& body : part.bodies)
+      if (std::ranges::count(other.bodies, body) > 0)
+        throw RecordingError(where + ": " + name + ".body and " + other_name + ".body are both " +
+                             shown(body) + "; expected different rigid bodies");
+  };
+  differ("left", calibration.left, "right", calibration.right);
+  differ("left", calibration.left, "diabolo", calibration.diabolo);
+  differ("right", calibration.right, "diabolo", calibration.diabolo);
   if (!std::isfinite(calibration.world_yaw)) throw RecordingError(where + ": the world's yaw must be finite");
   if (!(calibration.world_offset.cwiseAbs().array() <= kLargestCoordinate).all())
     throw RecordingError(where + ": world.offset [m] must be finite and within 100 m");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "diabolo/parameters.hpp"
 #include "diabolo/recording/error.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/recording/text.hpp"
@@ -23,6 +24,12 @@ inline constexpr double kLargestTime = 1e9;
 
 /// Longest gap between two rows [s]; predictions may run through it, so that it must not be without end.
 inline constexpr double kLongestGap = 3600.0;
+
+/// Longest recording [s]: a day; predictions run through all of it.
+inline constexpr double kLongestRecording = 86400.0;
+
+/// Cups of a diabolo that are believed [m].
+inline constexpr double kSmallestCup = 0.01, kLargestCup = 1.0;
 
 /// Normalises a quaternion whose norm is within kQuaternionTolerance of 1; false, and no change, beyond it.
 /// One that is unit to rounding stays as it is, bit for bit, so that files round-trip.
@@ -51,18 +58,26 @@ inline void check_rate(double rate, const Eigen::VectorXd& time, const std::stri
                          " s");
 }
 
-/// Throws RecordingError unless mass, sizes and string length are finite numbers above zero.
+/// Throws RecordingError unless the sizes of the cups are believable, and mass, axle and string length such
+/// as Parameters allow.
 inline void check_properties(const DiaboloProperties& properties, double string_length,
                              const std::string& where) {
-  const auto check = [&where](const char* field, double value) {
-    if (!(value > 0.0 && std::isfinite(value)))
-      throw RecordingError(where + ": " + field + " " + shown(value) + "; expected a finite number > 0");
+  const auto check = [&where](const std::string& field, double value, double minimum, double maximum) {
+    if (!(value >= minimum && value <= maximum))
+      throw RecordingError(where + ": " + field + " " + shown(value) + "; expected " + shown(minimum) +
+                           " to " + shown(maximum));
   };
-  check("diabolo.mass [kg]", properties.mass);
-  check("diabolo.diameter [m]", properties.diameter);
-  check("diabolo.length [m]", properties.length);
-  check("diabolo.axle_radius [m]", properties.axle_radius);
-  check("string_length [m]", string_length);
+  check("diabolo.diameter [m]", properties.diameter, kSmallestCup, kLargestCup);
+  check("diabolo.length [m]", properties.length, kSmallestCup, kLargestCup);
+  Parameters<double> parameters;
+  parameters.mass = properties.mass;
+  parameters.axle_radius = properties.axle_radius;
+  parameters.string_length = string_length;
+  Parameters<double>::for_each(parameters, [&](const ParameterInfo& info, double value) {
+    const std::string owner = info.name == "string_length" ? "" : "diabolo.";
+    check(owner + std::string(info.name) + " [" + std::string(info.unit) + "]", value, info.minimum,
+          info.maximum);
+  });
 }
 
 /// Throws RecordingError unless the track has `size` samples: believable where valid, NaN in dropouts.
@@ -113,6 +128,9 @@ inline void check_recording(const Recording& recording) {
       throw RecordingError(where + ", sample " + std::to_string(i) + ": time " + shown(recording.time[i]) +
                            " s comes " + shown(recording.time[i] - recording.time[i - 1]) +
                            " s after the one before; expected a gap of an hour at most");
+  if (size > 0 && recording.time[size - 1] - recording.time[0] > kLongestRecording)
+    throw RecordingError(where + ": " + shown(recording.time[size - 1] - recording.time[0]) +
+                         " s from the first sample to the last; expected a day at most");
   check_rate(recording.rate, recording.time, where);
   check_properties(recording.properties, recording.string_length, where);
   check_track(recording.left, size, where + ", left tip");

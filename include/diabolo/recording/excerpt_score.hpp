@@ -12,6 +12,7 @@
 #include "diabolo/recording/evaluation_step.hpp"
 #include "diabolo/recording/model.hpp"
 #include "diabolo/recording/paper_table.hpp"
+#include "diabolo/recording/parallel.hpp"
 #include "diabolo/recording/start_state.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/rollout.hpp"
@@ -50,8 +51,9 @@ inline Eigen::Index first_start(const Recording& recording, const StartStates& s
 
 /// Scores the recording by the recipe of the paper's table: one rollout from the published start at the first
 /// row where that is known, steps of kEvaluationStep, mean Euclidean distance at the first sample at or after
-/// each row but the last one. Throws RecordingError where it has no row to start from or to compare.
-inline ExcerptScore score_excerpt(const Recording& recording, const Model& model) {
+/// each row but the last one. Throws RecordingError where it has no row to start from or to compare, and
+/// Cancelled.
+inline ExcerptScore score_excerpt(const Recording& recording, const Model& model, const Watch& watch = {}) {
   check_recording(recording);
   const RecordedTips tips(recording, model.interpolation);
   const Eigen::VectorXd& times = tips.times();
@@ -84,6 +86,7 @@ inline ExcerptScore score_excerpt(const Recording& recording, const Model& model
   rollout(predictor_for(model, recording), starts.at(Start::kPublished, score.start_row),
           *tips.motion(score.start_row, recording.size() - 1), steps,
           [&](std::size_t step, double time, const State<double>& state, const StepStatus<double>&) {
+            if (watch.cancelled && watch.cancelled()) throw Cancelled();
             if (!score.diverged && !is_in_world(state.position)) score.diverged = time - start_time;
             for (; next < rows.size() && steps_until(times[rows[next]] - start_time) <= step; ++next) {
               error_sum += (state.position - recording.diabolo.position.col(rows[next])).norm();
@@ -99,12 +102,13 @@ inline ExcerptScore score_excerpt(const Recording& recording, const Model& model
 
 /// The excerpt of the paper's table that this take is or contains, if any, and then the take as a whole
 /// unless it is that excerpt.
-inline std::vector<ExcerptScore> score_excerpts(const Recording& recording, const Model& model) {
+inline std::vector<ExcerptScore> score_excerpts(const Recording& recording, const Model& model,
+                                                const Watch& watch = {}) {
   std::vector<ExcerptScore> scores;
   if (const PaperExcerpt* excerpt = paper_excerpt(recording.name);
       excerpt != nullptr && excerpt->rows < recording.size())
-    scores.push_back(score_excerpt(cut(recording, 0, excerpt->rows - 1), model));
-  scores.push_back(score_excerpt(recording, model));
+    scores.push_back(score_excerpt(cut(recording, 0, excerpt->rows - 1), model, watch));
+  scores.push_back(score_excerpt(recording, model, watch));
   return scores;
 }
 

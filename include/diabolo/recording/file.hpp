@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -23,13 +24,17 @@ using File = std::unique_ptr<std::FILE, FileCloser>;
 inline std::string read_file(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::none)  // such as in a folder that may not be entered
+    throw RecordingError(path.string() + ": the file cannot be reached: " + error.message());
   if (!std::filesystem::exists(status)) throw RecordingError(path.string() + ": there is no such file");
   if (std::filesystem::is_directory(status))
     throw RecordingError(path.string() + ": a directory; expected a file");
   if (!std::filesystem::is_regular_file(status))
     throw RecordingError(path.string() + ": a device or a pipe; expected a file");
   const File file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw RecordingError(path.string() + ": the file cannot be opened for reading");
+  if (!file)
+    throw RecordingError(
+        path.string() + ": the file cannot be opened for reading: " + std::generic_category().message(errno));
   std::string content(std::filesystem::file_size(path, error), '\0');
   if (error || std::fread(content.data(), 1, content.size(), file.get()) != content.size())
     throw RecordingError(path.string() + ": the file cannot be read");
@@ -50,12 +55,15 @@ class FilesToWrite {
 
   /// Throws RecordingError where the content cannot be written (no such folder, disk full).
   void add(const std::filesystem::path& path, std::string_view content) {
-    if (std::filesystem::is_directory(path))
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
       throw RecordingError(path.string() + ": a directory; expected a file");
     std::filesystem::path temporary = path;
     temporary += ".tmp" + std::to_string(std::random_device()());
     File file(std::fopen(temporary.c_str(), "wbx"));
-    if (!file) throw RecordingError(path.string() + ": the file cannot be written there");
+    if (!file)
+      throw RecordingError(path.string() +
+                           ": the file cannot be written there: " + std::generic_category().message(errno));
     pending_.push_back({temporary, path});
     const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
     if (std::fclose(file.release()) != 0 || !written)

@@ -211,6 +211,9 @@ class MotiveReader {
     if (i > 0 && time - take_.time[i - 1] > kLongestGap)
       csv_.fail("time " + shown(time) + " s comes more than an hour after " + shown(take_.time[i - 1]) +
                 " s; expected one take a file");
+    if (i > 0 && time - take_.time[0] > kLongestRecording)
+      csv_.fail("time " + shown(time) + " s comes more than a day after the first, " + shown(take_.time[0]) +
+                " s; expected one take a file");
     const long number = static_cast<long>(frame);
     if (i > 0 && (number <= take_.frame.back() || time <= take_.time[i - 1]))
       csv_.fail("frame " + shown(frame) + " at " + shown(time) + " s does not come after frame " +

@@ -112,6 +112,9 @@ class TidyReader {
     if (i > 0 && time - recording.time[i - 1] > kLongestGap)
       csv_.fail("time " + shown(time) + " s comes more than an hour after " + shown(recording.time[i - 1]) +
                 " s; expected one play a file");
+    if (i > 0 && time - recording.time[0] > kLongestRecording)
+      csv_.fail("time " + shown(time) + " s comes more than a day after the first, " +
+                shown(recording.time[0]) + " s; expected one play a file");
     recording.time[i] = time;
   }
 

@@ -53,12 +53,15 @@ def make_parser() -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit status: 0, 2 for bad input, 130 after Ctrl-C."""
     try:
+        if sys.stdout is None:
+            raise ValueError("standard output is closed; there would be nowhere to print to")
         parsed = make_parser().parse_args(arguments)
         parsed.run(parsed)
         sys.stdout.flush()
     except (ValueError, ArithmeticError, OSError) as error:
-        if isinstance(error, BrokenPipeError):  # such as `diabolo info TAKE.csv | head -1`
+        if isinstance(error, OSError) and error.filename is None:  # of what is printed
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):  # such as `diabolo info TAKE.csv | head -1`
             return 0
         print(f"diabolo: {_sentence(error)}", file=sys.stderr)
         return 2
@@ -69,6 +72,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _sentence(error: Exception) -> str:
-    if isinstance(error, OSError) and error.filename is not None:
-        return f"{error.filename}: {error.strerror}"
+    if isinstance(error, OSError):
+        return f"{error.filename or 'standard output'}: {error.strerror}"
     return " ".join(str(error).split())

@@ -83,7 +83,8 @@ def progress_steps() -> Iterator[Callable[[str, float], None]]:
     from tqdm import tqdm  # type: ignore[import-untyped]
 
     layout = "{percentage:3.0f} %|{bar}| {elapsed} {desc}"
-    with tqdm(total=1.0, bar_format=layout, leave=False, disable=None, file=sys.stderr) as bar:
+    disable = sys.stderr is None or None  # None: where it is no terminal
+    with tqdm(total=1.0, bar_format=layout, leave=False, disable=disable, file=sys.stderr) as bar:
 
         def report(step: str, fraction: float) -> None:
             bar.set_description_str(step, refresh=False)

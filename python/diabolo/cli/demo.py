@@ -42,15 +42,12 @@ def run(arguments: argparse.Namespace) -> None:
     from . import plots
 
     folder = Path(arguments.out)
-    if folder.exists() and not folder.is_dir():
-        raise ValueError(f"{folder}: a file; expected a folder")
     trajectory, errors = folder / "trajectory.png", folder / "errors.png"
     plots.check(trajectory)
     paths = packaged_recordings()
     if not paths:
         raise ValueError("this installation of diabolo came without its recordings")
-    folder.mkdir(parents=True, exist_ok=True)
-    files.check_outputs([arguments.json, trajectory, errors], paths)
+    files.check_outputs([arguments.json, trajectory, errors], paths, folder)
     recordings = [load_recording(path) for path in paths]
     excerpts = [Excerpt(take, 0, len(take) - 1) for take in recordings]
     models = [Model.named(name) for name in DEFAULT_MODELS]
@@ -58,8 +55,9 @@ def run(arguments: argparse.Namespace) -> None:
     horizons = evaluate.evaluate_excerpts(excerpts, models, starts_every=0.1)
     whole = next(take for take in recordings if take.name == SHOWN)
     shown = whole.cut(0, round(SHOWN_SECONDS * whole.rate))
-    plots.draw_trajectory(trajectory, shown, {model.name: predict(shown, model) for model in models})
-    plots.draw_errors(errors, horizons, excerpts, models)
+    with files.made_folder(folder):
+        plots.draw_trajectory(trajectory, shown, {model.name: predict(shown, model) for model in models})
+        plots.draw_errors(errors, horizons, excerpts, models)
     files.write_json(arguments.json, Evaluation(table.rows, horizons.horizons).to_dict())
     if arguments.json != files.STDOUT:
         together = [row for row in horizons.horizons if row.recording == ALL_RECORDINGS]

@@ -6,12 +6,15 @@ from __future__ import annotations
 import argparse
 import hashlib
 import time
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from .._core import Model, load_recording
+from .._core import Model, Recording
+from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import Diagnosis
 from ..diagnosis import diagnose as run_diagnosis
+from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..report import check as check_report
 from ..report import report_html
 from . import files
@@ -57,7 +60,7 @@ def add_parser(commands: Any) -> None:
         nargs="+",
         default=[],
         metavar="RECORDING",
-        help="recordings that nothing is fitted to, to compare on",
+        help="recordings, or rows of them as above, that nothing is fitted to, to compare on",
     )
     parser.add_argument("--json", metavar="FILE", help="write the result as JSON; - is standard output")
     parser.add_argument(
@@ -71,22 +74,25 @@ def add_parser(commands: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    if not 0 <= arguments.seed < 2**63:
-        raise ValueError(f"--seed: {arguments.seed}; must be at least 0 and less than 2^63")
+    whole_number("--threads", arguments.threads, 0, MOST_THREADS)
+    whole_number("--seed", arguments.seed, 0, LARGEST_SEED)
+    if not arguments.budget > 0.0:
+        raise ValueError(f"--budget: {arguments.budget} s; expected more than 0")
     folder = None if arguments.out is None else Path(arguments.out)
-    if folder is not None and folder.exists() and not folder.is_dir():
-        raise ValueError(f"{folder}: a file; expected a folder")
     outputs: list[Path | str | None] = [arguments.json]
     if folder is not None:
         outputs += [folder / name for name in (MODEL_FILE, REPORT_FILE, RESULT_FILE)]
         check_report(folder / REPORT_FILE)
-        folder.mkdir(parents=True, exist_ok=True)
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
-    files.check_outputs(outputs, inputs)
+    settings = [arguments.calibration] if arguments.calibration else []
+    settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
+    files.check_outputs(outputs, [*inputs, *settings], folder)
     calibration = read_calibration(arguments.calibration)
-    excerpts = [read_excerpt(text, calibration) for text in arguments.recordings]
-    takes = [excerpt.recording.cut(excerpt.first, excerpt.last) for excerpt in excerpts]
-    held = [load_recording(path, calibration) for path in arguments.holdout]
+    takes, held = (
+        [_cut(read_excerpt(text, calibration)) for text in given]
+        for given in (arguments.recordings, arguments.holdout)
+    )
+    hashes = [_input(path) for path in inputs]
     begin = time.monotonic()
     with progress_steps() as report:
         diagnosis = run_diagnosis(
@@ -100,11 +106,15 @@ def run(arguments: argparse.Namespace) -> None:
         )
     result = diagnosis.result
     result["seconds"] = time.monotonic() - begin
-    result["inputs"] = [_input(path) for path in inputs]
-    if folder is not None:
-        result["model"] = MODEL_FILE
-        _write(folder, diagnosis.model, result)
-    files.write_json(arguments.json, result)
+    result["inputs"] = hashes
+    result["model"] = None if folder is None else MODEL_FILE
+    texts = {} if folder is None else _texts(folder, diagnosis.model, result)
+    if arguments.json not in (None, files.STDOUT):
+        texts[Path(arguments.json)] = files.json_text(result)
+    with nullcontext() if folder is None else files.made_folder(folder):
+        files.write_texts(texts)
+    if arguments.json == files.STDOUT:
+        files.write_json(arguments.json, result)
     if arguments.json != files.STDOUT:
         print(text_of(diagnosis))
         if folder is not None:
@@ -127,7 +137,14 @@ def text_of(diagnosis: Diagnosis) -> str:
     ]
     if shown:
         lines.append(f"  mean error on {fit['heldout']} left out, after " + "; ".join(shown))
+    if fit["holdout_unused"]:
+        names = ", ".join(fit["holdout_unused"])
+        lines.append(f"  held out, but without a start that could be compared: {names}")
     return "\n".join(lines)
+
+
+def _cut(excerpt: Excerpt) -> Recording:
+    return excerpt.recording.cut(excerpt.first, excerpt.last)
 
 
 def _value(parameter: dict[str, Any]) -> str:
@@ -141,7 +158,9 @@ def _input(path: str) -> dict[str, str]:
     return {"file": Path(path).name, "sha256": hashlib.sha256(Path(path).read_bytes()).hexdigest()}
 
 
-def _write(folder: Path, model: Model, result: dict[str, Any]) -> None:
-    model.save(folder / MODEL_FILE)
-    files.write_text(folder / REPORT_FILE, report_html(result))
-    files.write_json(str(folder / RESULT_FILE), result)
+def _texts(folder: Path, model: Model, result: dict[str, Any]) -> dict[Path, str]:
+    return {
+        folder / MODEL_FILE: model.to_json(),
+        folder / REPORT_FILE: report_html(result),
+        folder / RESULT_FILE: files.json_text(result),
+    }

@@ -7,6 +7,7 @@ import argparse
 from typing import Any
 
 from .._core import Model
+from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..evaluation import DEFAULT_HORIZONS, DEFAULT_MODELS, Evaluation, Excerpt, TableRow, evaluate
 from . import files
 from .arguments import (
@@ -20,6 +21,8 @@ from .arguments import (
     split_excerpt,
 )
 from .tables import format_table
+
+SHORTEST_BETWEEN_STARTS = 1e-3  # a step of the prediction [s]
 
 TABLE_NOTE = """\
 mean distance between predicted and recorded diabolo [m]; one prediction from the first row, as in the paper
@@ -72,11 +75,8 @@ def add_parser(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     starts_every = parse_starts(arguments.starts)
-    for name in ("threads", "seed"):
-        if getattr(arguments, name) < 0:
-            raise ValueError(f"--{name} {getattr(arguments, name)}: expected 0 or more")
-        if getattr(arguments, name) >= 2**31:
-            raise ValueError(f"--{name} {getattr(arguments, name)}: expected less than {2**31}")
+    whole_number("--threads", arguments.threads, 0, MOST_THREADS)
+    whole_number("--seed", arguments.seed, 0, LARGEST_SEED)
     models = [read_model(text) for text in arguments.model or DEFAULT_MODELS]
     inputs = [split_excerpt(text)[0] for text in arguments.recordings]
     inputs += [text for text in arguments.model or () if text not in DEFAULT_MODELS]
@@ -106,8 +106,11 @@ def parse_starts(text: str) -> float | None:
         seconds = float(text.removeprefix("every="))
     except ValueError:
         seconds = 0.0
-    if not text.startswith("every=") or not 0.0 < seconds < float("inf"):
-        raise ValueError(f"--starts {text}: expected first, or every=SECONDS as in every=0.1")
+    if not text.startswith("every=") or not SHORTEST_BETWEEN_STARTS <= seconds < float("inf"):
+        raise ValueError(
+            f"--starts {text}: expected first, or every=SECONDS as in every=0.1, "
+            f"at least {SHORTEST_BETWEEN_STARTS:g}"
+        )
     return seconds
 
 

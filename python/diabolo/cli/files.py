@@ -6,16 +6,23 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 STDOUT = "-"
 
 
-def check_outputs(outputs: Iterable[str | Path | None], inputs: Iterable[str | Path]) -> None:
-    """Raise ValueError, before any work is done, where an output could not be written or is also an input."""
+def check_outputs(
+    outputs: Iterable[str | Path | None], inputs: Iterable[str | Path], folder: Path | None = None
+) -> None:
+    """Raise ValueError, before any work is done, where an output could not be written or is also an input.
+
+    folder: need not be there yet. Nothing is left behind.
+    """
+    if folder is not None and folder.exists() and not folder.is_dir():
+        raise ValueError(f"{folder}: a file; expected a folder")
     taken = {}
     for given in inputs:
         path = Path(given)
@@ -30,38 +37,70 @@ def check_outputs(outputs: Iterable[str | Path | None], inputs: Iterable[str | P
             raise ValueError(f"{path}: a directory; expected the name of a file to write")
         if path.exists() and not path.is_file():
             raise ValueError(f"{path}: a device or a pipe; expected a file ({STDOUT} is standard output)")
-        if not path.absolute().parent.is_dir():
+        if path.parent != folder and not path.absolute().parent.is_dir():
             raise ValueError(f"{path}: there is no folder {path.absolute().parent} to write into")
         if path.resolve() in taken:
             raise ValueError(f"{path}: this file is {taken[path.resolve()]} already; choose another name")
         taken[path.resolve()] = "written"
+        with made_folder(path.parent), _said_of(path):
+            _temporary(path).touch()
+            _temporary(path).unlink()
+
+
+@contextmanager
+def made_folder(folder: Path) -> Iterator[None]:
+    """A folder, made with its parents; those that were made and end up empty go again."""
+    made = [path for path in (folder, *folder.parents) if not path.exists()]
+    try:
+        with _said_of(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+        yield
+    finally:
+        for path in made:
+            with suppress(OSError):  # it is not empty, or was never made
+                path.rmdir()
 
 
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[Path]:
     """A temporary name of the same ending, which becomes `path` once all is written to it."""
     final = Path(path)
-    temporary = final.with_name(f".{final.stem}.{os.getpid()}.tmp{final.suffix}")
+    temporary = _temporary(final)
     try:
-        yield temporary
-        os.replace(temporary, final)
-    except OSError as error:
-        raise ValueError(f"{final}: cannot be written ({error.strerror})") from error
+        with _said_of(final):
+            yield temporary
+            os.replace(temporary, final)
     finally:
         temporary.unlink(missing_ok=True)
 
 
-def write_text(path: str | Path, text: str) -> None:
-    with whole_file(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+def write_texts(texts: Mapping[Path, str]) -> None:
+    """Several files, which appear together once all are written."""
+    with ExitStack() as replacing:
+        for path, text in texts.items():
+            replacing.enter_context(whole_file(path)).write_text(text, encoding="utf-8")
 
 
 def write_json(path: str | Path | None, value: dict[str, Any]) -> None:
     """To a file, to standard output for "-", or nowhere for None."""
-    if path is None:
-        return
-    text = json.dumps(value, indent=2, allow_nan=False) + "\n"
     if path == STDOUT:
-        sys.stdout.write(text)
-    else:
-        write_text(path, text)
+        sys.stdout.write(json_text(value))
+    elif path is not None:
+        write_texts({Path(path): json_text(value)})
+
+
+def json_text(value: dict[str, Any]) -> str:
+    return json.dumps(value, indent=2, allow_nan=False) + "\n"
+
+
+def _temporary(path: Path) -> Path:
+    return path.with_name(f".{path.stem}.{os.getpid()}.tmp{path.suffix}")
+
+
+@contextmanager
+def _said_of(path: Path) -> Iterator[None]:
+    """Errors of the system become a sentence about `path`."""
+    try:
+        yield
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be written ({error.strerror})") from error

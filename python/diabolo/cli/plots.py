@@ -28,7 +28,9 @@ def check(path: str | Path) -> None:
     try:
         from matplotlib.figure import Figure
     except ModuleNotFoundError as error:
-        raise ValueError(f"{path}: to draw it, install matplotlib (pip install 'diabolo[plot]')") from error
+        raise ValueError(
+            f"{path}: to draw it, install matplotlib (pip install '.[plot]' in the project's root)"
+        ) from error
     known = Figure().canvas.get_supported_filetypes()
     if Path(path).suffix.removeprefix(".") not in known:
         raise ValueError(f"{path}: expected a name that ends in .png, .pdf or .svg")

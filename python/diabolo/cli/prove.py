@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from ..checks import LARGEST_SEED, whole_number
 from . import files
 from .arguments import add_command, progress_steps
 
@@ -59,7 +60,13 @@ def add_parser(commands: Any) -> None:
         if name in ("run", "score"):
             _add_tool(action, suppress=True)
         if name == "run":
-            action.add_argument("--minutes", metavar="M", type=float, help="begin no new case after so long")
+            action.add_argument(
+                "--minutes",
+                metavar="M",
+                type=float,
+                default=math.inf,
+                help="begin no new case after so long",
+            )
         if name == "score":
             _add_json(action, suppress=True)
         if name == "page":
@@ -130,7 +137,13 @@ def load_commands(sources: Path) -> Any:
             "them by --sources"
         )
     sys.path.insert(0, str(sources.absolute().parent))
-    return importlib.import_module(f"{sources.absolute().name}.commands")
+    try:
+        commands = importlib.import_module(f"{sources.absolute().name}.commands")
+    except (ImportError, SyntaxError) as error:
+        raise ValueError(f"{sources}: not the sources of the proof ({error})") from error
+    if not hasattr(commands, "Places"):
+        raise ValueError(f"{sources}: not the sources of the proof (its commands.py is another)")
+    return commands
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -138,21 +151,22 @@ def run(arguments: argparse.Namespace) -> None:
     commands = load_commands(sources)
     cases = {"quick": QUICK_CASES, "seal": SEALED_CASES}.get(arguments.what, 0)
     cases = arguments.cases if arguments.cases is not None else cases
-    if arguments.what in ("quick", "seal") and not 1 <= cases <= 9999:
-        raise ValueError(f"--cases: {cases}; expected 1 to 9999")
-    if not 1 <= arguments.jobs <= 256:
-        raise ValueError(f"--jobs: {arguments.jobs}; expected 1 to 256")
-    if not 0 <= arguments.seed < 2**63:
-        raise ValueError(f"--seed: {arguments.seed}; must be at least 0 and less than 2^63")
+    if arguments.what in ("quick", "seal"):
+        whole_number("--cases", cases, 1, 9999)
+    whole_number("--jobs", arguments.jobs, 1, 256)
+    whole_number("--seed", arguments.seed, 0, LARGEST_SEED)
+    minutes = getattr(arguments, "minutes", math.inf)
+    if not minutes > 0.0:
+        raise ValueError(f"--minutes: {minutes}; expected more than 0")
     files.check_outputs([arguments.json], [])
     with progress_steps() as report:
         places = commands.Places(sources, Path(BUILD), Path(arguments.plant), report)
-        status = _act(commands, places, arguments, cases)
+        status = _act(commands, places, arguments, cases, minutes)
     if status != 0:
         raise SystemExit(status)
 
 
-def _act(commands: Any, places: Any, arguments: argparse.Namespace, cases: int) -> int:
+def _act(commands: Any, places: Any, arguments: argparse.Namespace, cases: int, minutes: float) -> int:
     json_file = None if arguments.json is None else Path(arguments.json)
     what = arguments.what
     if what == "quick":
@@ -160,7 +174,6 @@ def _act(commands: Any, places: Any, arguments: argparse.Namespace, cases: int) 
     elif what == "seal":
         status = commands.seal_batch(places, arguments.name, cases, arguments.jobs)
     elif what == "run":
-        minutes = math.inf if arguments.minutes is None else arguments.minutes
         status = commands.run_batch(places, arguments.name, arguments.tool, minutes)
     elif what == "score":
         status = commands.score_batch(places, arguments.name, arguments.tool, json_file)

@@ -29,8 +29,10 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
   fields.expect_text("schema", kRecordingSchema);
   fields.expect_text("units", "SI");
   fields.expect_text("frame", kRecordingFrame);
-  return {properties_from_json(fields.object("diabolo")), fields.positive("string_length"),
-          fields.positive("rate")};
+  const TidyMetadata metadata{properties_from_json(fields.object("diabolo")),
+                              fields.positive("string_length"), fields.positive("rate")};
+  check_properties(metadata.properties, metadata.string_length, file_name);
+  return metadata;
 }
 
 /// The text of the JSON file beside a tidy CSV; see read_metadata().
