@@ -36,6 +36,10 @@ const char* doc_of(const StringMass<double>&) {
   return R"(A string that weighs something: while it is loose, half of it hangs on the diabolo.)";
 }
 
+const char* doc_of(const LandingRestitution<double>&) {
+  return R"(A catch that bounces: of the rate at which a string that comes taut would stretch, so much is given back.)";
+}
+
 const char* doc_of(const Air<double>&) {
   return R"(Air that holds the diabolo back: a = -(linear_drag + quadratic_drag |u|) u, u = v - wind.)";
 }

@@ -66,7 +66,7 @@ def diagnose(
     bank: names of what may be claimed, such as "string_friction"; by default everything known. What no
         measurement is without stays free in every fit.
     budget: no new refit begins after so many seconds.
-    seed: of the bootstrap intervals. threads: 0 takes all that help; the result does not depend on it.
+    seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.
     progress: called with the name of the step and the fraction done.
 
         diagnose(load_recording("swing.csv")).sentence
@@ -89,7 +89,7 @@ def diagnose(
     _check_distinct([*given, *held])
     unused = [recording.name for recording in held if _core.comparable_windows(recording, chosen) == 0]
     text, model = _core.diagnose(
-        given, chosen, held, list(bank), budget, seed, 1 if threads == 1 else 2, progress
+        given, chosen, held, list(bank), budget, seed, threads, progress
     )
     result = json.loads(text)
     result["fit"]["holdout_unused"] = unused

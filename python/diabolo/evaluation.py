@@ -112,16 +112,11 @@ def evaluate(
     for index, model in enumerate(chosen):
         if any(other.name == model.name for other in chosen[:index]):
             raise ValueError(f"models: two are named '{model.name}'; their results could not be told apart")
-<<<<<<< HEAD
-    if threads < 0:
-        raise ValueError(f"threads: {threads}; expected 0 (all cores) or more")
-=======
         if model.name in RESERVED_NAMES:
             raise ValueError(f"models: one is named '{model.name}'; so is what the models are compared with")
     threads = whole_number("threads", threads, 0, MOST_THREADS)
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
->>>>>>> fix-c
     report = progress or (lambda fraction: None)
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])

@@ -27,7 +27,7 @@ struct DiagnosisOptions {
   std::vector<std::string> bank;    ///< names of the candidates; empty: all
   double budget = 1e9;              ///< no new refit begins after it [s]
   std::uint64_t seed = 1;           ///< of the bootstrap
-  int threads = 2;                  ///< 1 or 2; the result is the same
+  int threads = 0;                  ///< 0: one for every processor; the result is the same
 };
 
 /// How a diagnosis is watched: the name of the step, and the fraction done of it all.
@@ -259,8 +259,7 @@ template <class D = detail::FitDual>
 Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options = {},
                    const DiagnosisWatch& watch = {}) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
-  if (options.threads < 1 || options.threads > 2)
-    throw std::invalid_argument("threads: " + std::to_string(options.threads) + "; must be 1 or 2");
+  check_threads(options.threads);
   long swapped = 0, frames = 0;
   for (Recording& recording : recordings) {
     swapped += static_cast<long>(unswap(recording).count);

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/parallel.hpp"
 #include "diabolo/recording/baseline.hpp"
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/evaluation_step.hpp"
 #include "diabolo/recording/model.hpp"
 #include "diabolo/recording/paper_table.hpp"
-#include "diabolo/recording/parallel.hpp"
 #include "diabolo/recording/start_state.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/rollout.hpp"

@@ -70,7 +70,7 @@ def add_parser(commands: Any) -> None:
         "--budget", metavar="SECONDS", type=float, default=1e9, help="begin no new refit after so long"
     )
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the intervals; default: 1")
-    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all that help")
+    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
 
 
 def run(arguments: argparse.Namespace) -> None:
