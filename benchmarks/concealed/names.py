@@ -13,12 +13,15 @@ PHYSICS: dict[str, tuple[str, ...]] = {
     "stick_flex": (ON_STRING,),
     "string_wrap": (ON_STRING,),
     "string_mass": (ON_STRING, LOOSE),
+    "landing_restitution": (ON_STRING, LOOSE),
     "air_drag_linear": ANY_MODE,
     "air_drag_quadratic": ANY_MODE,
     "wind": ANY_MODE,
     "magnus_lift": ANY_MODE,
     "spin_drag": ANY_MODE,
     "axle_drag": ANY_MODE,
+    "spin_coupling": ANY_MODE,
+    "gravity_magnitude": ANY_MODE,
 }
 
 MEASUREMENT = (

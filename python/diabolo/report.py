@@ -227,9 +227,9 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
     table = [
         [
             quantity(row[0], "s"),
-            quantity(row[1], "m"),
-            quantity(row[2], "m"),
-            "not known" if None in row[1:] else quantity(row[1] - row[2], "m", row[3]),
+            _millimetres(row[1]),
+            _millimetres(row[2]),
+            "not known" if None in row[1:] else _millimetres(row[1] - row[2], row[3]),
         ]
         for row in rows
     ]
@@ -242,6 +242,12 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         "tile_label": tile_label,
         "picture": picture,
     }
+
+
+def _millimetres(length: float | None, interval: Any = None) -> str:
+    """For columns, whose numbers compare at a glance only in one unit."""
+    ends = [None if end is None else 1e3 * end for end in interval] if interval else None
+    return quantity(None if length is None else 1e3 * length, "mm", ends)
 
 
 def _improvement(gain: float, interval: Any) -> str:
