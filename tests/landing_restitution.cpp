@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "diabolo/dual.hpp"
 #include "effect_scene.hpp"
 
 using namespace effect_scene;
@@ -87,4 +88,26 @@ TEST_CASE("a taut string feels no restitution") {
   const State<double> with = run(bouncy, scene.start, tips, 0.02, 20),
                       without = run(Full(Numbers()), scene.start, tips, 0.02, 20);
   CHECK(with.position == without.position);
+}
+
+TEST_CASE("the derivative by the coefficient is the bounce's own") {
+  using D = Dual<double, 1>;
+  const auto height = []<class Scalar>(const Scalar& coefficient) {
+    typename FullPredictor<Scalar>::Set set;
+    set.template get<LandingRestitution>().coefficient = coefficient;
+    const FullPredictor<Scalar> model(Parameters<Scalar>(), set);
+    const Drop scene = drop_from(0.1);
+    State<Scalar> state;
+    state.position = scene.state.position.cast<Scalar>();
+    state.string_state = StringState::kLoose;
+    Tips<Scalar> tips;
+    tips.left = scene.tips.left.cast<Scalar>();
+    tips.right = scene.tips.right.cast<Scalar>();
+    for (int i = 0; i < 180; ++i) model.step(state, tips, tips, Scalar(1e-3));
+    return Scalar(state.position.z());
+  };
+  const D at = height(D::variable(0.5, 0));
+  CHECK(at.value == height(0.5));
+  CHECK(at.gradient[0] == Approx((height(0.5 + 1e-6) - height(0.5 - 1e-6)) / 2e-6).epsilon(1e-6));
+  CHECK(at.gradient[0] > 0.03);
 }

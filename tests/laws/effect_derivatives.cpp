@@ -17,7 +17,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr int kFields = 17;
+constexpr int kFields = 18;
 using D = Dual<double, kFields>;
 using Outputs = Eigen::Matrix<double, 7, 1>;  ///< position, velocity, spin
 
@@ -70,6 +70,7 @@ std::array<double, kFields> at_work() {
   set("stick_flex.compliance", 1.0 / 500.0);
   set("stick_flex.damping", 1.0);
   set("string_mass.linear_density", 2e-2);
+  set("landing_restitution.coefficient", 1e-3);
   return x;
 }
 
@@ -150,8 +151,12 @@ double change_of(int k) {
   return (bends ? 1e-4 : 1e-3) * std::abs(at_work()[static_cast<std::size_t>(k)]);
 }
 
-/// Acts while the string is loose only: a millimetre's fall does not show it. See string_mass.cpp.
-bool of_loose_string(int k) { return field_names()[static_cast<std::size_t>(k)].starts_with("string_mass"); }
+/// Acts while the string is loose, or as it comes taut, only: a millimetre's fall does not show it. See
+/// string_mass.cpp and landing_restitution.cpp.
+bool of_loose_string(int k) {
+  const std::string name = field_names()[static_cast<std::size_t>(k)];
+  return name.starts_with("string_mass") || name.starts_with("landing_restitution");
+}
 
 Play hanging_play(Random& random) {
   Play play;
@@ -213,8 +218,8 @@ TEST_CASE("derivatives by every field, all effects at work, in flight") {
       const Outputs difference = central(play, x, k, 1e-3 * std::abs(x[static_cast<std::size_t>(k)]));
       CAPTURE(episode, name);
       CHECK((jacobian.col(k) - difference).norm() < 1e-6 * difference.norm() + 1e-8);
-      const bool of_string =
-          name.starts_with("string_") || name.starts_with("finite_axle") || name.starts_with("stick_flex");
+      const bool of_string = name.starts_with("string_") || name.starts_with("finite_axle") ||
+                             name.starts_with("stick_flex") || name.starts_with("landing_restitution");
       CHECK((jacobian.col(k).norm() == 0.0) == of_string);
     }
   }
