@@ -24,6 +24,9 @@ PHYSICS: dict[str, tuple[str, ...]] = {
     "gravity_magnitude": ANY_MODE,
 }
 
+# Of these, what no plant conceals: to claim it is wrong.
+NEVER_AT_WORK = ("landing_restitution", "spin_coupling", "gravity_magnitude")
+
 MEASUREMENT = (
     "gravity_tilt",
     "length_scale",

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'comparable_windows', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'LandingRestitution', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'comparable_windows', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -306,6 +306,14 @@ class Parameters:
         """
     @thin_slack.setter
     def thin_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def wraps(self) -> float:
+        """
+        whole turns of the string around the axle beyond the pass under it [1]; within [0.0, 5.0]
+        """
+    @wraps.setter
+    def wraps(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
 class StringElasticity:
     """
@@ -707,6 +715,42 @@ class StringMass:
     @linear_density.setter
     def linear_density(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
+class LandingRestitution:
+    """
+    A catch that bounces: of the rate at which a string that comes taut would stretch, so much is given back.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> LandingRestitution:
+        ...
+    def __deepcopy__(self, memo: dict) -> LandingRestitution:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def coefficient(self) -> float:
+        """
+        of the string's rate of stretch that a catch gives back [1]; within [0.0, 1.0]
+        """
+    @coefficient.setter
+    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
 class Model:
     """
     Everything that decides a prediction.
@@ -724,6 +768,7 @@ class Model:
     air: Air
     finite_axle: FiniteAxle
     gravity_tilt: GravityTilt
+    landing_restitution: LandingRestitution
     magnus_lift: MagnusLift
     name: str
     own_axle_radius: bool

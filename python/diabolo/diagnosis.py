@@ -88,9 +88,7 @@ def diagnose(
     held = list_of("holdout", holdout)
     _check_distinct([*given, *held])
     unused = [recording.name for recording in held if _core.comparable_windows(recording, chosen) == 0]
-    text, model = _core.diagnose(
-        given, chosen, held, list(bank), budget, seed, threads, progress
-    )
+    text, model = _core.diagnose(given, chosen, held, list(bank), budget, seed, threads, progress)
     result = json.loads(text)
     result["fit"]["holdout_unused"] = unused
     return Diagnosis(result, chosen if result["headline"] == "INSUFFICIENT_DATA" else model)
