@@ -49,9 +49,12 @@ TEST_CASE("drag points against the velocity through the air, with the stated siz
     state.velocity = random.vector(5.0);
     const Vector through = state.velocity - Vector(air.wind_x, air.wind_y, 0.0);
     const double speed = through.norm();
-    const Vector drag = air.acceleration(state, Tips<double>(), Numbers());
+    const Vector drag = air.acceleration(state, Tips<double>(), 1e-3, Numbers());
     CHECK(drag.norm() == Approx(speed * air.linear_drag + speed * speed * air.quadratic_drag));
     CHECK(drag.dot(through) == Approx(-drag.norm() * speed));
+    // A step of seconds leaves the diabolo floating along, and does not turn it back.
+    const Vector stopping = air.acceleration(state, Tips<double>(), 1e3, Numbers()) * 1e3;
+    CHECK((stopping + through).norm() < 1e-12 * speed);
   }
 }
 

@@ -22,7 +22,8 @@ template <class Scalar>
 struct Wind : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "wind";
   Scalar push{0};  ///< along x [m/s^2]
-  Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
+  Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&, const Scalar&,
+                               const Parameters<Scalar>&) const {
     return {push, Scalar(0), Scalar(0)};
   }
   template <class Self, class Visitor>
@@ -67,7 +68,10 @@ template <class Scalar>
 struct SpinDrag : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "spin_drag";
   Scalar deceleration{0};  ///< [rad/s^2]
-  Scalar spin_acceleration(const State<Scalar>&, const Parameters<Scalar>&) const { return -deceleration; }
+  Scalar spin_acceleration(const Scalar&, const State<Scalar>&, const Scalar&,
+                           const Parameters<Scalar>&) const {
+    return -deceleration;
+  }
   template <class Self, class Visitor>
   static void for_each(Self& self, Visitor&& visit) {
     visit(ParameterInfo{"deceleration", "rad/s^2", 0.0, 100.0, "of the spin"}, self.deceleration);

@@ -7,13 +7,13 @@
 
 namespace diabolo {
 
-/// A step of the lanes that the string holds; the others fly freely. `kMayStretch` false leaves the spring
-/// out.
+/// A step of the lanes that the string holds; the others fly freely, and so do those where an inextensible
+/// string does not reach from tip to tip. `kMayStretch` false leaves the spring out.
 template <bool kMayStretch, class Scalar>
 StringStepResult<Scalar> advance_captured(const StringStep<Scalar>& step, const Mask<Scalar>& captured) {
   if constexpr (kMayStretch)
     if (!is_constant_zero(step.compliance)) return advance_on_string<true>(step, captured);
-  return advance_on_string<false>(step, captured);
+  return advance_on_string<false>(step, captured && !step.overstretched());
 }
 
 /// A step in which some lane is in flight. A diabolo that falls through the plane of the tips is caught

@@ -81,10 +81,9 @@ class Predictor {
   /// then the state is as it was.
   bool usual_string_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                          const Scalar& dt, const StringNow<Scalar>& string) const {
-    if (state.string_state != StringState::kOnString || plane_.active || overstretched(end, string.length))
-      return false;
+    if (state.string_state != StringState::kOnString || plane_.active) return false;
     const PlaneProjector<Scalar> no_plane;
-    const Vector3<Scalar> outer = effects_.acceleration(state, begin, parameters_);
+    const Vector3<Scalar> outer = effects_.acceleration(state, begin, dt, parameters_);
     const StringStep<Scalar> step{state.position,
                                   state.velocity,
                                   outer,
@@ -96,6 +95,7 @@ class Predictor {
                                   string.compliance,
                                   string.damping_time,
                                   no_plane};
+    if (step.overstretched()) return false;
     StringStepResult<Scalar> result;
     if (!(elastic(string) ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
       return false;
@@ -109,7 +109,7 @@ class Predictor {
                                                    const StringNow<Scalar>& string) const {
     StepStatus<Scalar> status;
     const Vector3<Scalar> velocity = plane_(state.velocity);
-    const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, parameters_));
+    const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, dt, parameters_));
     const StringStep<Scalar> step{state.position,
                                   velocity,
                                   outer,
@@ -131,7 +131,7 @@ class Predictor {
       state.string_state = slack_string_state(state.string_state, state.position, result.slack,
                                               result.gradient_squared, end.left, end.right, parameters_);
     status.snapped_taut = result.snapped_taut;
-    status.overstretched = overstretched(end, string.length);
+    status.overstretched = step.overstretched();
     if (any(status.overstretched)) hold(state, end, dt, captured && status.overstretched, string);
     return status;
   }
@@ -158,16 +158,12 @@ class Predictor {
     assign_where(result.taut, state.string_state, StringState::kOnString);
   }
 
-  static Mask<Scalar> overstretched(const Tips<Scalar>& tips, const Scalar& length) {
-    return squared_norm<Scalar>(tips.left - tips.right) >= length * length;
-  }
-
   /// The paper's and the published program's rules.
   StepStatus<Scalar> pull_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                                const Scalar& dt, const StringNow<Scalar>& string) const {
     const Mask<Scalar> was_on_string = is(state.string_state, StringState::kOnString);
     const Vector3<Scalar> velocity = plane_(state.velocity);
-    const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, parameters_));
+    const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, dt, parameters_));
     const StringStep<Scalar> step{state.position,
                                   velocity,
                                   outer,

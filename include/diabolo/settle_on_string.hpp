@@ -13,11 +13,14 @@ void settle_on_string(State<Scalar>& state, const Tips<Scalar>& tips, const Scal
                       const PlaneProjector<Scalar>& plane) {
   const StringPath<Scalar> path(state.position, tips);
   const Scalar gap = path.length() - length;
-  const Mask<Scalar> taut = (squared_norm(state.string_acceleration) > Scalar(0)) &&
-                            (absolute<Scalar>(gap) < Scalar(1e-4) * length);
   const Vector3<Scalar> gradient = plane(path.gradient());
-  const Scalar move = select(taut, Scalar(gap / (squared_norm(gradient) + tiny<Scalar>())), Scalar(0));
-  state.position = state.position - gradient * move;
+  const Scalar square = squared_norm(gradient);
+  // Near a straight string the path grows with the square of the distance from it: a gap that is large
+  // against the gradient is no matter of first order.
+  const Mask<Scalar> taut = (squared_norm(state.string_acceleration) > Scalar(0)) &&
+                            (absolute<Scalar>(gap) < Scalar(1e-4) * square * length);
+  const Scalar move = select(taut, Scalar(gap / (square + tiny<Scalar>())), Scalar(0));
+  state.position = state.position - plane(gradient * move);
 }
 
 }  // namespace diabolo

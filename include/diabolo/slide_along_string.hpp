@@ -18,11 +18,13 @@ template <class Scalar>
   for (int i = 0; i < 12; ++i) {
     const StringPath<Scalar> path(position, step.end);
     const Vector3<Scalar> gradient = step.plane(path.gradient());
-    const Scalar beyond = path.length() - length;
+    // As the length is convex it is beyond by no more than this; rounding, by a straight string, may say so.
+    const Scalar most = norm<Scalar>(gradient) * norm<Scalar>(move);
+    const Scalar beyond = maximum(minimum(Scalar(path.length() - length), most), Scalar(-most));
     if (i > 1 && all(beyond <= step.tolerance())) break;
     position = position - gradient * Scalar(beyond / (squared_norm(gradient) + Scalar(1e-12)));
   }
-  return position;
+  return step.plane.on(from, position);
 }
 
 }  // namespace diabolo

@@ -42,6 +42,11 @@ struct StringStep {
     return velocity + acceleration * t;
   }
 
+  /// Whether the string is straight from tip to tip at the end, or shorter than their distance.
+  [[gnu::always_inline]] inline Mask<Scalar> overstretched() const {
+    return squared_norm<Scalar>(end.left - end.right) >= string_length * string_length;
+  }
+
   /// How far the path length may be from the string's [m].
   Scalar tolerance() const { return Scalar(constraint_tolerance<Scalar>()) * string_length; }
 

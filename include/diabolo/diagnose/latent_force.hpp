@@ -20,7 +20,7 @@ struct LatentForce : NeutralEffect<Scalar> {
   Scalar spin_string{0};      ///< ON_STRING, against the spin [rad/s^2]
   Scalar spin_free{0};        ///< off the string, against the spin [rad/s^2]
 
-  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips,
+  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips, const Scalar&,
                                const Parameters<Scalar>&) const {
     const Vector3<Scalar> zero = Vector3<Scalar>::Constant(Scalar(0));
     if (is(state.string_state, StringState::kOnString)) {
@@ -34,10 +34,11 @@ struct LatentForce : NeutralEffect<Scalar> {
            Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical);
   }
 
-  Scalar spin_acceleration(const State<Scalar>& state, const Parameters<Scalar>&) const {
+  Scalar spin_acceleration(const Scalar& spin, const State<Scalar>& state, const Scalar&,
+                           const Parameters<Scalar>&) const {
     using std::tanh;
     const Scalar& rate = is(state.string_state, StringState::kOnString) ? spin_string : spin_free;
-    return -(rate * tanh(state.spin));
+    return -(rate * tanh(spin));
   }
 
   /// Calls `visit(info, field)` for every field.

@@ -21,10 +21,12 @@ struct Air : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(linear_drag) && is_constant_zero(quadratic_drag); }
 
-  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>&,
+  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>&, const Scalar& dt,
                                const Parameters<Scalar>&) const {
     const Vector3<Scalar> through_air = state.velocity - Vector3<Scalar>(wind_x, wind_y, Scalar(0));
-    return through_air * Scalar(-(linear_drag + quadratic_drag * norm(through_air)));
+    // No step takes more than all of the velocity through the air.
+    const Scalar rate = linear_drag + quadratic_drag * norm(through_air);
+    return through_air * Scalar(-minimum(rate, Scalar(Scalar(1) / dt)));
   }
 
   /// Calls `visit(info, field)` for every field.

@@ -49,13 +49,15 @@ struct Contact {
 
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
 /// from this, holds its parameters (amplitude zero by default: then it changes no bit of the result) and
-/// hides neutral() and the hooks that it needs. All hooks are const, allocate nothing and know no time.
+/// hides neutral() and the hooks that it needs. All hooks are const, allocate nothing and know no time but
+/// the step's length dt [s].
 template <class Scalar>
 struct NeutralEffect {
   /// Whether all amplitudes are zero, in every lane and with every derivative; then nobody asks the hooks.
   bool neutral() const { return false; }
-  /// Acceleration beside gravity and string [m/s^2].
-  Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
+  /// Acceleration beside gravity and string, its mean over a step from the given state [m/s^2].
+  Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&, const Scalar& /*dt*/,
+                               const Parameters<Scalar>&) const {
     return Vector3<Scalar>::Constant(Scalar(0));
   }
   /// Where the string's strands begin, relative to the given tips at the beginning of a step; the same for
@@ -76,8 +78,12 @@ struct NeutralEffect {
                           const Scalar& /*dt*/, const Parameters<Scalar>&) const {
     return {};
   }
-  /// Rate of change of the spin beside the string's [rad/s^2].
-  Scalar spin_acceleration(const State<Scalar>&, const Parameters<Scalar>&) const { return Scalar(0); }
+  /// Rate of change of the given spin [rad/s] beside the string's, its mean over a step [rad/s^2]. The spin
+  /// is what string and other effects have made of the state's.
+  Scalar spin_acceleration(const Scalar& /*spin*/, const State<Scalar>&, const Scalar& /*dt*/,
+                           const Parameters<Scalar>&) const {
+    return Scalar(0);
+  }
 };
 
 /// Any number of effects at once; the predictor asks the set, the set asks those effects that have the hook,
@@ -103,12 +109,12 @@ struct EffectSet {
   }
 
   /// Gravity and all accelerations [m/s^2].
-  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& given,
+  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& given, const Scalar& dt,
                                const Parameters<Scalar>& parameters) const {
     Vector3<Scalar> sum(Scalar(0), Scalar(0), Scalar(-parameters.gravity));
     each([&]<class Effect>(const Effect& effect) {
       if constexpr (!std::is_same_v<decltype(&Effect::acceleration), decltype(&Neutral::acceleration)>)
-        sum = sum + effect.acceleration(state, given, parameters);
+        sum = sum + effect.acceleration(state, given, dt, parameters);
     });
     return sum;
   }
@@ -175,7 +181,7 @@ struct EffectSet {
     each([&]<class Effect>(const Effect& effect) {
       if constexpr (!std::is_same_v<decltype(&Effect::spin_acceleration),
                                     decltype(&Neutral::spin_acceleration)>)
-        spin += effect.spin_acceleration(state, parameters) * dt;
+        spin += effect.spin_acceleration(spin, state, dt, parameters) * dt;
     });
     return spin;
   }

@@ -17,7 +17,7 @@ struct GravityTilt : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(x) && is_constant_zero(y); }
 
-  Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&,
+  Vector3<Scalar> acceleration(const State<Scalar>&, const Tips<Scalar>&, const Scalar&,
                                const Parameters<Scalar>& parameters) const {
     using std::sqrt;
     const Scalar square = x * x + y * y;

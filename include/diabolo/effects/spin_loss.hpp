@@ -9,7 +9,7 @@ namespace diabolo {
 
 /// What slows the spin beside the string: dw/dt = -air w|w| - axle sign(w). Air acts on the cups all the time
 /// (a disc in turbulent flow: some 5e-5 1/rad for the paper's diabolos); `axle` is a constant torque over the
-/// moment of inertia, such as that of a bearing, its sign smoothed within 1 rad/s.
+/// moment of inertia, such as that of a bearing, until the spin rests. Each is exact over a step.
 template <class Scalar>
 struct SpinLoss : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "spin_loss";
@@ -18,9 +18,12 @@ struct SpinLoss : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(air) && is_constant_zero(axle); }
 
-  Scalar spin_acceleration(const State<Scalar>& state, const Parameters<Scalar>&) const {
-    using std::tanh;
-    return -(air * state.spin * absolute(state.spin)) - axle * tanh(state.spin);
+  Scalar spin_acceleration(const Scalar& spin, const State<Scalar>&, const Scalar& dt,
+                           const Parameters<Scalar>&) const {
+    const Scalar kept = Scalar(1) / (Scalar(1) + air * absolute(spin) * dt);
+    const Scalar braking = select(spin < Scalar(0), Scalar(-axle), axle);
+    const Scalar stopping = kept * spin / dt;  // the deceleration that leaves no spin
+    return -(air * absolute(spin) * kept * spin) - select(absolute(stopping) < axle, stopping, braking);
   }
 
   /// Calls `visit(info, field)` for every field.

@@ -18,7 +18,7 @@ struct StringMass : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(linear_density); }
 
-  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>&,
+  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>&, const Scalar&,
                                const Parameters<Scalar>& parameters) const {
     const Scalar weight =
         parameters.gravity * linear_density * parameters.string_length / (Scalar(2) * parameters.mass);
