@@ -146,12 +146,13 @@ class Predictor {
     Vector3<Scalar> velocity = result.velocity;
     effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
     velocity = step.plane(velocity);
-    state.position = result.position;
+    Vector3<Scalar> position = result.position;
     // The change of velocity happens over the step: the mean of what it was before and after counts.
     if constexpr (Set::kTouches)
       if (effects_.touches())
-        state.position = slide_along_string<Scalar>(step, result.position,
-                                                    (velocity - result.velocity) * Scalar(Scalar(0.5) * dt));
+        position = slide_along_string<Scalar>(step, position,
+                                              (velocity - result.velocity) * Scalar(Scalar(0.5) * dt));
+    state.position = step.plane.on(step.position, position);
     state.velocity = velocity * dissipation(parameters_, dt, result.taut);
     state.spin = spin;
     state.string_acceleration = result.string_acceleration;

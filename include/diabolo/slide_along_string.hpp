@@ -24,7 +24,7 @@ template <class Scalar>
     if (i > 1 && all(beyond <= step.tolerance())) break;
     position = position - gradient * Scalar(beyond / (squared_norm(gradient) + Scalar(1e-12)));
   }
-  return step.plane.on(from, position);
+  return position;
 }
 
 }  // namespace diabolo

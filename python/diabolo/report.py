@@ -193,9 +193,10 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
     horizons, before = fit.get("horizons_s") or [], fit.get("base_error_m") or []
     after = fit.get("augmented_error_m") or [None] * len(before)
     intervals = fit.get("improvement_ci95_m") or [None] * len(before)
+    starts = fit.get("start_error_m") or [None] * len(before)
     rows = [
         row
-        for row in zip(horizons, before, after, intervals, strict=False)
+        for row in zip(horizons, before, after, intervals, starts, strict=False)
         if None not in row[:2] and row[0] > 0
     ]
     unused = fit.get("holdout_unused") or []
@@ -205,7 +206,7 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
             "sentence": f"There is no held-out error: nothing could be predicted and compared.{left}",
             "rows": [],
         }
-    horizon, base, augmented, interval = rows[-1]
+    horizon, base, augmented, interval, start = rows[-1]
     held_out = {
         "recordings": "whole recordings that the fit did not see",
         "blocks": "stretches of the recordings that the fit did not see",
@@ -224,12 +225,15 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         )
         sentence = f"{where} goes from {quantity(base, 'm')} to {quantity(augmented, 'm')}{share}{windows}. "
         sentence += _improvement(base - augmented, interval)
+        if start is not None:
+            sentence += f" The noise of the starts alone would make {quantity(start, 'm')}."
     table = [
         [
             quantity(row[0], "s"),
             _millimetres(row[1]),
             _millimetres(row[2]),
-            "not known" if None in row[1:] else _millimetres(row[1] - row[2], row[3]),
+            "not known" if None in row[1:4] else _millimetres(row[1] - row[2], row[3]),
+            _millimetres(row[4]),
         ]
         for row in rows
     ]
@@ -398,6 +402,10 @@ def _error_figure(rows: list[Any]) -> Figure:
     high = [factor * (r[1] - r[3][0]) for r in sure]
     label = "95 % of the improvement"
     axes.fill_between([r[0] for r in sure], low, high, color=AFTER, alpha=0.2, lw=0, label=label)
+    starts = [row for row in rows if row[4] is not None]
+    if starts:
+        made = [factor * r[4] for r in starts]
+        axes.plot([r[0] for r in starts], made, ":", color=BEFORE, lw=1.6, label="noise of the starts")
     axes.set(
         xlabel="time predicted ahead [s]", ylabel=f"position error [{unit}]", ylim=(0, None), xlim=(0, None)
     )

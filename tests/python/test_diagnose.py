@@ -37,6 +37,7 @@ def test_the_friction_of_the_plant_is_named_and_helps(found: Diagnosis) -> None:
     at = fit["horizons_s"].index(0.5)
     assert fit["augmented_error_m"][at] < 0.25 * fit["base_error_m"][at]
     assert fit["improvement_ci95_m"][0][0] > 0.0
+    assert 0.0 < fit["start_error_m"][at] < fit["augmented_error_m"][at]
 
 
 def test_the_result_is_of_its_schema(found: Diagnosis) -> None:

@@ -21,6 +21,8 @@ struct HeldOut {
   std::vector<double> horizons{0.1, 0.25, 0.5, 1.0};  ///< [s]
   std::vector<std::optional<double>> base_error, augmented_error;  ///< mean distances [m]
   std::vector<std::optional<Interval>> improvement_ci95;           ///< of base less augmented [m]
+  /// What the start's noise alone would put the augmented model off by, mean [m].
+  std::vector<std::optional<double>> start_error;
   std::size_t windows = 0;
 };
 
@@ -79,17 +81,21 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
   options.horizons = result.horizons;
   options.threads = threads;
   const std::size_t horizons = options.horizons.size();
-  std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons);
+  std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons),
+      start_errors(horizons);
   for (const HeldOutRecording& held : recordings) {
     const HorizonTask plain(held.recording, base, options);
     const HorizonTask better(corrected(held.recording, held.at),
                              augmented_model(physics, held.at, "augmented"), options);
     const std::size_t count = plain.size();
     assert(better.size() == count);  // windows depend on times and dropouts, which corrected() leaves
+    const StartNoise noise = start_noise(held.recording);
     std::vector<std::vector<WindowError>> without(count), with(count);
+    std::vector<std::vector<double>> scatter(count);
     for_each_index(count, threads, watch, [&](std::size_t i) {
       without[i] = plain.errors(i);
       with[i] = better.errors(i);
+      scatter[i] = better.scatter(i, noise, seed);
     });
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t h = 0; h < horizons; ++h) {
@@ -98,6 +104,7 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
         base_errors[h].push_back(a.model);
         augmented_errors[h].push_back(b.model);
         gains[h].push_back(a.model - b.model);
+        if (std::isfinite(scatter[i][h])) start_errors[h].push_back(scatter[i][h]);
       }
   }
   std::mt19937_64 generator(seed);
@@ -106,6 +113,8 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     result.windows = std::max(result.windows, gains[h].size());
     result.base_error.push_back(any ? std::optional(mean_of(base_errors[h])) : std::nullopt);
     result.augmented_error.push_back(any ? std::optional(mean_of(augmented_errors[h])) : std::nullopt);
+    result.start_error.push_back(start_errors[h].empty() ? std::nullopt
+                                                         : std::optional(mean_of(start_errors[h])));
     const std::size_t overlap =
         1 + static_cast<std::size_t>(std::ceil(options.horizons[h] / options.starts_every));
     const std::optional<ErrorSummary> gain = summarize(gains[h], overlap, generator);

@@ -132,10 +132,11 @@ inline Json ladder_of(const Finding& f) {
 }
 
 inline Json heldout_of(const HeldOut& h) {
-  Json base = Json::array(), augmented = base, improvement = base;
+  Json base = Json::array(), augmented = base, improvement = base, start = base;
   for (std::size_t i = 0; i < h.base_error.size(); ++i) {
     base.push_back(number_or_null(h.base_error[i]));
     augmented.push_back(number_or_null(h.augmented_error[i]));
+    start.push_back(number_or_null(h.start_error[i]));
     improvement.push_back(h.improvement_ci95[i]
                               ? Json({h.improvement_ci95[i]->low, h.improvement_ci95[i]->high})
                               : Json(nullptr));
@@ -145,6 +146,7 @@ inline Json heldout_of(const HeldOut& h) {
           {"base_error_m", base},
           {"augmented_error_m", augmented},
           {"improvement_ci95_m", improvement},
+          {"start_error_m", start},
           {"windows", h.windows}};
 }
 
