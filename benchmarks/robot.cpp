@@ -3,6 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -10,8 +12,9 @@
 #include <random>
 #include <vector>
 
-#include <diabolo/robot/ease_posture.hpp>
+#include <diabolo/robot/build_seed_grid.hpp>
 #include <diabolo/robot/inverse_near.hpp>
+#include <diabolo/robot/stick_map.hpp>
 
 #include "support/heap.hpp"
 
@@ -128,6 +131,44 @@ void stick_task_in_closed_form(benchmark::State& state) {
   });
 }
 BENCHMARK(stick_task_in_closed_form);
+
+/// Looking up the seed and solving, nominal arm or calibrated; `p99_us` and `worst_us` of single calls.
+void seed_grid_look_up(benchmark::State& state, bool calibrated) {
+  StickArm arm = paper_arm(Side::kRight);
+  if (calibrated) {
+    Ur5eCalibration calibration = nominal_calibration();
+    for (LinkCalibration& link : calibration) {
+      link.y += 1e-3;
+      link.roll += 1e-3;
+    }
+    arm.chain = ur5e_from_calibration<double>(calibration);
+  }
+  const StickMap map(arm, build_seed_grid(arm, paper_box(arm)));
+  const GridBox& box = map.grid().box();
+  std::vector<Vector3<double>> points;
+  for (const Joints<double>& q : drawn()) {
+    const Vector3<double> share = (q.head<3>().array() / (2.0 * kPi) + 0.5).matrix();
+    points.emplace_back(box.lower + Vector3<double>(share.cwiseProduct(box.upper - box.lower)));
+  }
+  std::vector<double> times(100000);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    benchmark::DoNotOptimize(map.at(points[i % 1024]));
+    times[i] = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  }
+  measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(map.at(points[i])); });
+  std::ranges::sort(times);
+  state.counters["p99_us"] = times[times.size() * 99 / 100];
+  state.counters["worst_us"] = times.back();
+}
+BENCHMARK_CAPTURE(seed_grid_look_up, nominal, false);
+BENCHMARK_CAPTURE(seed_grid_look_up, calibrated, true);
+
+void build_a_seed_grid(benchmark::State& state) {
+  const StickArm arm = paper_arm(Side::kRight);
+  for (auto _ : state) benchmark::DoNotOptimize(build_seed_grid(arm, paper_box(arm)));
+}
+BENCHMARK(build_a_seed_grid)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace diabolo

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 
 #include "diabolo/robot/chain.hpp"
 #include "diabolo/robot/small_solve.hpp"
@@ -33,6 +35,7 @@ Refined<Scalar> refine_pose(const Chain<Scalar>& chain, const Pose<Scalar>& flan
                             const Joints<Scalar>& seed, int most_steps = 6) {
   Refined<Scalar> result;
   result.joints = seed;
+  bool slopes_lag = !std::floating_point<Scalar>;  // the derivatives are those of the step before
   for (;; ++result.steps) {
     const Pose<Scalar> now = chain.forward(result.joints);
     const Matrix3<Scalar> turn = flange.rotation * Matrix3<Scalar>(now.rotation.transpose());
@@ -44,9 +47,11 @@ Refined<Scalar> refine_pose(const Chain<Scalar>& chain, const Pose<Scalar>& flan
     // At half a turn the small-angle error vanishes too.
     const bool opposite = plain(turn(0, 0)) + plain(turn(1, 1)) + plain(turn(2, 2)) < 2.0;
     result.converged = result.error <= refined_within<Scalar>() && !opposite;
-    if (result.converged || result.steps == most_steps || !std::isfinite(result.error)) return result;
+    if ((result.converged && !slopes_lag) || result.steps == most_steps || !std::isfinite(result.error))
+      return result;
     if (!solve_in_place<Scalar, 6>(chain.jacobian(result.joints, Vector3<Scalar>::Constant(Scalar(0))), step))
       return result;
+    slopes_lag = slopes_lag && !result.converged;
     double largest = 0;
     for (int i = 0; i < kJointCount; ++i) largest = std::max(largest, std::abs(plain(step[i])));
     const Scalar share = Scalar(largest > kLongestStep ? kLongestStep / largest : 1.0);

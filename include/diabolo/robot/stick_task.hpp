@@ -111,12 +111,15 @@ Refined<Scalar> refine_tip(const Chain<Scalar>& chain, const Vector3<Scalar>& ta
                            const Vector3<Scalar>& tip, const Joints<Scalar>& seed, int most_steps = 6) {
   Refined<Scalar> result;
   result.joints = seed;
+  bool slopes_lag = !std::floating_point<Scalar>;  // the derivatives are those of the step before
   for (;; ++result.steps) {
     Vector3<Scalar> step = target - chain.forward(result.joints) * tip;
     result.error = 0;
     for (int i = 0; i < 3; ++i) result.error = std::max(result.error, std::abs(plain(step[i])));
     result.converged = result.error <= refined_within<Scalar>();
-    if (result.converged || result.steps == most_steps || !std::isfinite(result.error)) return result;
+    if ((result.converged && !slopes_lag) || result.steps == most_steps || !std::isfinite(result.error))
+      return result;
+    slopes_lag = slopes_lag && !result.converged;
     const PointJacobian<Scalar> by_joint = chain.point_jacobian(result.joints, tip);
     Matrix3<Scalar> slopes;
     slopes << by_joint.col(0), by_joint.col(1) - by_joint.col(3), by_joint.col(2) - by_joint.col(3);
