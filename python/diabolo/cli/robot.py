@@ -38,8 +38,8 @@ def _add_check(actions: Any) -> None:
         summary="say whether two arms can play a plan, where not and why",
         text="Say whether two arms can play a motion of the stick tips from rest to rest: whether both tips\n"
         "are within reach, how much slower than planned the joints' limits ask for, and how close the arms\n"
-        "come. PLAN.csv has the columns time, left_x, left_y, left_z, right_x, right_y, right_z (s, m, world\n"
-        "frame: x forward, y left, z up), as a tidy recording has; a Motive export is read as a recording.",
+        "come. PLAN.csv has the columns time, left_x, left_y, left_z, right_x, right_y, right_z (s, m,\n"
+        "world frame: x forward, y left, z up), as a tidy recording has; a Motive export is a recording.",
         example="  diabolo robot check plan.csv\n"
         "  diabolo robot check throw_1.csv --shift 0.4 0 0.1 --height 0.75 --spacing 1.05",
     )
@@ -74,8 +74,8 @@ def _add_grid(actions: Any) -> None:
         "grid",
         run=run_grid,
         summary="build an arm's IK seed grid, and tell how fast it lets the tip go",
-        text="Build the IK seed grid of an arm over the paper's box, and print how fast the tip may go before\n"
-        "a joint exceeds pi rad/s, height by height: in the slowest direction, and along x, y and z.",
+        text="Build the IK seed grid of an arm over the paper's box, and print how fast the tip may go\n"
+        "before a joint exceeds pi rad/s, height by height: in the slowest direction, and along x, y and z.",
         example="  diabolo robot grid right --out right.csv",
     )
     parser.add_argument("side", choices=("left", "right"), help="which arm")
