@@ -5,7 +5,7 @@
 set -euo pipefail
 
 readonly WANTED="a C++20 compiler, CMake 3.25, Ninja, Eigen 3.4, nlohmann-json, Python 3.10 with venv and headers; \
-for tests Catch2 and CLI11, for benchmarks Google Benchmark, for lint and fuzzing clang, clang-tidy and its runtime libraries"
+for tests Catch2, CLI11 and Orocos KDL, for benchmarks Google Benchmark, for lint and fuzzing clang, clang-tidy and its runtime libraries"
 python=${PYTHON:-python3}
 
 has_command() { command -v "$1" >/dev/null 2>&1; }
@@ -38,10 +38,14 @@ missing_packages() {
       has_python || echo python3-venv
       has_python_headers || echo python3-dev
       ;;
-    test) has_header catch2/catch_all.hpp || has_header catch2/catch.hpp || echo catch2 ;;
+    test)
+      has_header catch2/catch_all.hpp || has_header catch2/catch.hpp || echo catch2
+      has_header kdl/chain.hpp || echo liborocos-kdl-dev
+      ;;
     plant) has_header CLI/CLI.hpp || echo libcli11-dev ;;
     bench)
       has_header benchmark/benchmark.h || echo libbenchmark-dev
+      has_header kdl/chain.hpp || echo liborocos-kdl-dev
       has_command valgrind || echo valgrind
       ;;
     lint)

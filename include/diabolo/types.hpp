@@ -38,6 +38,12 @@ inline Scalar dot(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
 }
 
 template <class Scalar>
+inline Vector3<Scalar> cross(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+  return {Scalar(a[1] * b[2] - a[2] * b[1]), Scalar(a[2] * b[0] - a[0] * b[2]),
+          Scalar(a[0] * b[1] - a[1] * b[0])};
+}
+
+template <class Scalar>
 inline Scalar squared_norm(const Vector3<Scalar>& a) {
   return dot(a, a);
 }

@@ -46,9 +46,6 @@ struct LatentForce : NeutralEffect<Scalar> {
   static void for_each(Self&, Visitor&&) {}
 
  private:
-  static Vector3<Scalar> cross(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
   /// Of length one; shorter than that below 1e-3, smoothly, down to nothing.
   static Vector3<Scalar> unit(const Vector3<Scalar>& v) {
     using std::sqrt;

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from .. import __version__
-from . import convert, demo, diagnose, evaluate, info, prove, simulate
+from . import convert, demo, diagnose, evaluate, info, prove, robot, simulate
 
 DESCRIPTION = """\
 Simulate diabolo play, and find out how far a simulation is off.
@@ -45,7 +45,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"diabolo {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
-    for command in (demo, evaluate, diagnose, simulate, info, convert, prove):
+    for command in (demo, evaluate, diagnose, simulate, info, convert, robot, prove):
         command.add_parser(commands)
     return parser
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "diabolo/robot/joint_limits.hpp"
+#include "diabolo/robot/smooth_step.hpp"
+#include "diabolo/sticks.hpp"
+
+namespace diabolo {
+
+/// Where both stick tips are [m, world].
+struct TipPair {
+  Vector3<double> left, right;
+};
+
+/// A motion of the tips one tick apart, from its first instant to its last. For `rest` seconds its clock
+/// starts up from standstill, where `from_rest`, and always runs down to it at the end: arms that get nothing
+/// new come to rest on the motion's own curve. That takes half of `rest` longer at each of these ends. Throws
+/// std::invalid_argument where the motion is shorter than that takes, or the times do not fit.
+inline std::vector<TipPair> tips_to_rest(const TipMotion<double>& motion, double from, double rest,
+                                         bool from_rest) {
+  const double length = motion.end() - from;
+  const double starting = from_rest ? rest : 0.0;
+  if (!(rest > 0) || !std::isfinite(rest))
+    throw std::invalid_argument("rest: " + std::to_string(rest) + " s; must be finite and > 0");
+  if (!(length >= 0.5 * (rest + starting)) || !(from >= motion.begin()))
+    throw std::invalid_argument(
+        "tip motion: from " + std::to_string(from) + " to " + std::to_string(motion.end()) +
+        " s; must last " + std::to_string(0.5 * (rest + starting)) +
+        " s or more, time to start and stop, and not begin before " + std::to_string(motion.begin()) + " s");
+  const double duration = length + 0.5 * (rest + starting);
+  std::vector<TipPair> path(static_cast<std::size_t>(std::ceil(duration / kTick - 1e-9)) + 1);
+  std::size_t hint = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double time = static_cast<double>(i) * kTick, left_over = duration - time;
+    double clock = from + time - 0.5 * starting;
+    if (time < starting) clock = from + starting * smooth_ramp(time / starting);
+    if (left_over < rest) clock = motion.end() - rest * smooth_ramp(std::max(left_over, 0.0) / rest);
+    const Tips<double> tips = motion.at(clock, hint);
+    path[i] = {tips.left, tips.right};
+  }
+  return path;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo robot`: whether two arms can play a plan, and what their seed grids are like."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._core import SeedGrid, StickArm, StickMap, TipMotion, check_plan, load_recording, load_tip_plan
+from . import files
+from .arguments import add_command
+from .tables import format_table
+
+SAMPLES = 20  # along each side of a grid's box, for the map of speeds
+
+
+def add_parser(commands: Any) -> None:
+    parser = commands.add_parser(
+        "robot",
+        help="see what two UR5e with sticks can play",
+        description="What two UR5e with sticks, mounted as in the paper or otherwise, can play.",
+        allow_abbrev=False,
+    )
+    actions = parser.add_subparsers(metavar="ACTION", required=True)
+    _add_check(actions)
+    _add_grid(actions)
+
+
+def _add_check(actions: Any) -> None:
+    parser = add_command(
+        actions,
+        "check",
+        run=run_check,
+        summary="say whether two arms can play a plan, where not and why",
+        text="Say whether two arms can play a motion of the stick tips from rest to rest: whether both tips\n"
+        "are within reach, how much slower than planned the joints' limits ask for, and how close the arms\n"
+        "come. PLAN.csv has the columns time, left_x, left_y, left_z, right_x, right_y, right_z (s, m,\n"
+        "world frame: x forward, y left, z up), as a tidy recording has; a Motive export is a recording.",
+        example="  diabolo robot check plan.csv\n"
+        "  diabolo robot check throw_1.csv --shift 0.4 0 0.1 --height 0.75 --spacing 1.05",
+    )
+    parser.add_argument("plan", metavar="PLAN.csv", help="the motion of the tips")
+    _add_mounts(parser)
+    parser.add_argument(
+        "--shift",
+        metavar=("X", "Y", "Z"),
+        nargs=3,
+        type=float,
+        default=[0.0, 0.0, 0.0],
+        help="move the whole plan by that much [m]",
+    )
+    parser.add_argument(
+        "--speed", metavar="W", type=float, help="of the joints at most [rad/s]; default 0.95 pi"
+    )
+    parser.add_argument("--acceleration", metavar="A", type=float, help="at most [rad/s^2]; default 15")
+    parser.add_argument("--jerk", metavar="J", type=float, help="at most [rad/s^3]; default 500")
+    parser.add_argument(
+        "--clearance",
+        metavar="D",
+        type=float,
+        default=0.10,
+        help="between the arms at least [m]; default 0.1",
+    )
+    parser.add_argument("--json", metavar="FILE", help="write what was found as JSON; - is standard output")
+
+
+def _add_grid(actions: Any) -> None:
+    parser = add_command(
+        actions,
+        "grid",
+        run=run_grid,
+        summary="build an arm's IK seed grid, and tell how fast it lets the tip go",
+        text="Build the IK seed grid of an arm over the paper's box, and print how fast the tip may go\n"
+        "before a joint exceeds pi rad/s, height by height: in the slowest direction, and along x, y and z.",
+        example="  diabolo robot grid right --out right.csv",
+    )
+    parser.add_argument("side", choices=("left", "right"), help="which arm")
+    _add_mounts(parser)
+    parser.add_argument("--out", metavar="GRID.csv", help="write its key points there")
+
+
+def _add_mounts(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--height", metavar="H", type=float, default=0.70, help="of the bases [m]; default 0.7"
+    )
+    parser.add_argument(
+        "--spacing", metavar="S", type=float, default=1.10, help="between the bases [m]; default 1.1"
+    )
+    parser.add_argument(
+        "--forward", metavar="X", type=float, default=0.0, help="x of the bases [m]; default 0"
+    )
+
+
+def run_check(arguments: argparse.Namespace) -> None:
+    files.check_outputs([arguments.json], [arguments.plan])
+    limits = {
+        name: value
+        for name in ("speed", "acceleration", "jerk")
+        if (value := getattr(arguments, name)) is not None
+    }
+    if not math.isfinite(arguments.clearance):
+        raise ValueError(f"--clearance {arguments.clearance}: expected a finite number")
+    motion = _shifted(_read(arguments.plan), arguments.shift)
+    found = check_plan(
+        _map("left", arguments),
+        _map("right", arguments),
+        motion,
+        least_clearance=arguments.clearance,
+        **limits,
+    )
+    for trouble in found["troubles"]:
+        trouble["tip_m"] = trouble["tip_m"].tolist()
+    files.write_json(arguments.json, {"schema": "diabolo.robot_check/1", "file": arguments.plan, **found})
+    if arguments.json != files.STDOUT:
+        print(text_of(arguments.plan, found))
+
+
+def run_grid(arguments: argparse.Namespace) -> None:
+    files.check_outputs([arguments.out], [])
+    solver = _map(arguments.side, arguments)
+    grid = solver.grid
+    if arguments.out:
+        grid.save(arguments.out)
+    lower, upper = grid.lower, grid.upper
+    axes = [np.linspace(lower[k], upper[k], SAMPLES) for k in range(3)]
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    slopes = solver.slopes(points)  # (x, y, z, 6, 3)
+    slowest = math.pi / np.linalg.norm(slopes, axis=-1).max(axis=-1)
+    along = math.pi / np.abs(slopes).max(axis=-2)
+    misses = np.linalg.norm(solver.arm.tip_position(grid.seed(points)) - points, axis=-1)
+    print(
+        f"{arguments.side} arm: {' x '.join(map(str, grid.knots))} key points from "
+        f"({', '.join(f'{x:.3f}' for x in lower)}) to ({', '.join(f'{x:.3f}' for x in upper)}) m; "
+        f"seeds miss the tip by {1e3 * misses.mean():.1f} mm on average, {1e3 * misses.max():.1f} mm at most"
+    )
+    print(f"steepest: {math.pi / slowest.min():.2f} rad/m\n")
+    print("speed of the tip at pi rad/s [m/s], least and median")
+    rows = []
+    for k in range(0, SAMPLES, 3):
+        cells = [f"{axes[2][k]:.3f}"]
+        for speed in (slowest[:, :, k], *(along[:, :, k, axis] for axis in range(3))):
+            cells += [f"{speed.min():.2f}", f"{np.median(speed):.2f}"]
+        rows.append(cells)
+    print(format_table(["z [m]", "slowest", "", "along x", "", "along y", "", "along z", ""], rows))
+
+
+def text_of(name: str, found: dict[str, Any]) -> str:
+    lines = [f"{name}: {'can be played' if found['playable'] else 'cannot be played'}"]
+    if found["as_played_s"] is not None:
+        ratio = found["as_played_s"] / found["as_planned_s"]
+        pace = (
+            "as fast as planned"
+            if ratio < 1.0005
+            else (
+                f"{ratio:.2f} times slower on the whole, {found['worst_factor']:.2f} times "
+                f"at {found['worst_at_s']:.2f} s"
+            )
+        )
+        lines.append(f"within the limits of the joints {pace}: {found['as_played_s']:.2f} s")
+        lines.append(f"closest to each other: {found['nearest_parts']}, {found['least_clearance_m']:.3f} m")
+    if found["troubles"]:
+        rows = [
+            [
+                f"{trouble['from_s']:.3f}",
+                f"{trouble['to_s']:.3f}",
+                trouble["who"],
+                ", ".join(f"{x:.3f}" for x in trouble["tip_m"]),
+                trouble["why"],
+            ]
+            for trouble in found["troubles"]
+        ]
+        lines += ["", format_table(["from [s]", "to [s]", "who", "first tip [m]", "why"], rows)]
+    return "\n".join(lines)
+
+
+def _map(side: str, arguments: argparse.Namespace) -> StickMap:
+    arm = StickArm(side, height=arguments.height, spacing=arguments.spacing, forward=arguments.forward)
+    return StickMap(arm, SeedGrid.build(arm))
+
+
+def _read(path: str) -> TipMotion:
+    if Path(path).is_file():
+        with open(path, encoding="utf-8-sig", errors="replace") as file:
+            if file.readline(80).lstrip('"').startswith("Format Version"):
+                return TipMotion.of_recording(load_recording(path))
+    return load_tip_plan(path)
+
+
+def _shifted(motion: TipMotion, shift: list[float]) -> TipMotion:
+    if not all(math.isfinite(x) for x in shift):
+        raise ValueError(f"--shift {' '.join(map(str, shift))}: expected finite numbers")
+    if not any(shift):
+        return motion
+    return TipMotion(motion.times, motion.left + shift, motion.right + shift, motion.interpolation)
