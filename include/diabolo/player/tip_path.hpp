@@ -60,15 +60,15 @@ class TipPath {
   /// Position [m] and its first three derivatives, at a time [s] within the path or at its ends.
   std::array<TipColumn<Scalar>, 4> derivatives_at(double time) const {
     std::size_t hint = 0;
-    const TipPiece<Scalar>& piece = piece_at(time, hint);
+    const TipPiece<Scalar>& piece = piece_at(Scalar(time), hint);
     const Scalar s = Scalar(time) - piece.begin;
     return piece.at(minimum(maximum(s, Scalar(0)), piece.duration));
   }
 
   /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
-  Tips<Scalar> at(double time, std::size_t& hint) const {
+  Tips<Scalar> at(const Scalar& time, std::size_t& hint) const {
     const TipPiece<Scalar>& piece = piece_at(time, hint);
-    const Scalar s = Scalar(time) - piece.begin;
+    const Scalar s = time - piece.begin;
     const bool before = any(s < Scalar(0)), after = any(s > piece.duration);
     const Scalar u = before ? Scalar(0) : after ? piece.duration : s;
     const TipColumn<Scalar> value = ((piece.c[3] * u + piece.c[2]) * u + piece.c[1]) * u + piece.c[0];
@@ -85,7 +85,7 @@ class TipPath {
 
   Tips<Scalar> at(double time) const {
     std::size_t hint = 0;
-    return at(time, hint);
+    return at(Scalar(time), hint);
   }
 
   /// Goes on with another path, moved in time to this one's end.
@@ -112,9 +112,9 @@ class TipPath {
  private:
   Scalar end_of(std::size_t i) const { return pieces_[i].begin + pieces_[i].duration; }
 
-  const TipPiece<Scalar>& piece_at(double time, std::size_t& hint) const {
-    if (hint >= pieces_.size() || any(pieces_[hint].begin > Scalar(time))) hint = 0;
-    while (hint + 1 < pieces_.size() && all(pieces_[hint + 1].begin <= Scalar(time))) ++hint;
+  const TipPiece<Scalar>& piece_at(const Scalar& time, std::size_t& hint) const {
+    if (hint >= pieces_.size() || any(pieces_[hint].begin > time)) hint = 0;
+    while (hint + 1 < pieces_.size() && all(pieces_[hint + 1].begin <= time)) ++hint;
     return pieces_[hint];
   }
 
