@@ -5,22 +5,19 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "diabolo/player/authors_motions.hpp"
 #include "diabolo/player/goals.hpp"
 #include "diabolo/player/motion_unknowns.hpp"
 #include "diabolo/recording/baseline.hpp"
 #include "diabolo/state.hpp"
 
 namespace diabolo {
-
-/// The length of the authors' string on their robots, for which their motions were made [m].
-inline constexpr double kAuthorsStringLength = 1.58;
 
 /// A figure of play: a seed motion of the tips, what the solver may change of it, and what it shall lead to.
 /// It starts and ends with the tips at rest.
@@ -37,7 +34,7 @@ struct ActionOptions {
   double pace = 1.0;             ///< its speed, likewise
   double height = 0.5;           ///< of hops over the start, of throws above the tips [m]
   double sideways = 0.3;         ///< of swings and throws to the side, to the left [m]
-  std::optional<double> spin{};  ///< to be gained by a cycle of acceleration [rad/s]; needs string friction
+  std::optional<double> spin{};  ///< to be gained in a cycle of acceleration [rad/s]
 
   /// Throws std::invalid_argument where one is out of its range.
   void validate() const {
@@ -58,45 +55,12 @@ struct ActionOptions {
 inline constexpr std::array<std::string_view, 8> kActionNames{
     "linear_acceleration", "circular_acceleration", "swing", "hop", "throw", "side_throw", "catch", "stop"};
 
-namespace detail {
-
-/// Both tips across the player, x being `forward`.
-inline TipColumn<double> tips_column(double forward, double left_y, double left_z, double right_y,
-                                     double right_z) {
-  TipColumn<double> column;
-  column << forward, left_y, left_z, forward, right_y, right_z;
-  return column;
-}
-
-/// A motion from `home` through offsets of it at the given times [s].
-inline StickSpline<double> through(const TipColumn<double>& home, const std::vector<double>& times,
-                                   const std::vector<TipColumn<double>>& offsets, double size, double pace) {
-  StickSpline<double> spline;
-  spline.points.push_back(home);
-  double before = 0.0;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    spline.points.push_back(home + offsets[i] * size);
-    spline.durations.push_back((times[i] - before) / pace);
-    before = times[i];
-  }
-  return spline;
-}
-
-/// Offsets that both tips make together (y, z), and apart from each other.
-inline std::vector<TipColumn<double>> together(std::initializer_list<std::array<double, 3>> moves) {
-  std::vector<TipColumn<double>> offsets;
-  for (const auto& [y, z, apart] : moves) offsets.push_back(tips_column(0.0, y + apart, z, y - apart, z));
-  return offsets;
-}
-
-}  // namespace detail
-
 /// Where the tips start a figure whose name is one of kActionNames, for a string of the given length: the
 /// authors' poses, scaled with the string; left over right [m].
 inline TipColumn<double> home_pose(std::string_view action, double string_length) {
   const double s = string_length / kAuthorsStringLength;
   if (action == "linear_acceleration")
-    return detail::tips_column(0.55, 0.1 * s, 1.25 + 0.2 * s, -0.1 * s, 1.25 - 0.2 * s);
+    return detail::tips_column(0.55, 0.265 * s, 1.25 + 0.076 * s, -0.265 * s, 1.25 - 0.076 * s);
   if (action == "circular_acceleration") return detail::tips_column(0.55, 0.21 * s, 1.25, -0.28 * s, 1.25);
   if (action == "throw" || action == "side_throw")
     return detail::tips_column(0.55, 0.25 * s, 1.25, -0.25 * s, 1.25);
@@ -113,61 +77,42 @@ inline State<double> hanging_state(const TipColumn<double>& tips, double string_
   return state;
 }
 
-/// The authors' linear acceleration: the right hand pulls up while the left one sinks, and back.
+namespace detail {
+
+/// Long pulls of the right hand against short returns. (Found by RandomWalk and GradientSearch with a string
+/// friction of 0.25: at 60 rad/s a cycle gains 8 rad/s.)
 inline StickSpline<double> linear_acceleration_seed(const TipColumn<double>& home, double size, double pace) {
-  return detail::through(
-      home, {0.25, 0.5, 0.9, 1.2},
-      {detail::tips_column(0.0, -0.05, -0.15, 0.05, 0.2), detail::tips_column(0.0, 0.0, -0.3, 0.0, 0.4),
-       detail::tips_column(0.0, -0.05, -0.15, 0.05, 0.2), TipColumn<double>::Zero()},
+  return through(
+      home, {0.241, 0.457, 0.574, 0.736, 0.964, 1.146},
+      {tips_column(0.0, -0.172, -0.218, 0.08, 0.155), tips_column(0.0, -0.176, -0.332, 0.101, 0.326),
+       tips_column(0.0, -0.155, -0.272, -0.163, 0.535), tips_column(0.0, 0.041, -0.083, -0.188, 0.532),
+       tips_column(0.0, 0.161, 0.247, 0.073, 0.062), TipColumn<double>::Zero()},
       size, pace);
 }
 
-/// The authors' circular acceleration: the hands follow each other around, the diabolo runs below them.
+/// The hands go around, and the diabolo up on the left, over to the right and down. (Found likewise: repeated
+/// without looking, it keeps its circle and gains 2 rad/s a round.)
 inline StickSpline<double> circular_acceleration_seed(const TipColumn<double>& home, double size,
                                                       double pace) {
-  return detail::through(
-      home, {0.35, 0.65, 0.95, 1.25, 1.55, 1.85},
-      {detail::tips_column(0.0, -0.061, 0.1801, -0.042, 0.2),
-       detail::tips_column(0.0, 0.0592, 0.382, -0.24, 0.3),
-       detail::tips_column(0.0, 0.2619, 0.344, -0.41, 0.2),
-       detail::tips_column(0.0, 0.31, 0.15914, -0.371, 0.0),
-       detail::tips_column(0.0, 0.141, 0.03543, -0.163, -0.076), TipColumn<double>::Zero()},
+  return through(
+      home, {0.161, 0.445, 0.576, 1.325, 1.55, 1.893},
+      {tips_column(0.0, -0.0243, 0.1578, -0.012, 0.2493), tips_column(0.0, 0.0361, 0.3838, -0.2466, 0.1779),
+       tips_column(0.0, 0.1431, 0.277, -0.4334, 0.1898), tips_column(0.0, 0.2928, 0.2459, -0.2918, -0.0578),
+       tips_column(0.0, 0.1391, 0.0536, -0.0783, -0.0711), TipColumn<double>::Zero()},
       size, pace);
 }
 
-/// The authors' vertical throw: both hands part in three strides, level with each other.
-inline StickSpline<double> authors_throw_seed(const TipColumn<double>& home) {
-  return detail::through(home, {0.4, 0.8, 0.92},
-                         detail::together({{0.0, 0.0, 0.2}, {0.0, 0.0, 0.65}, {0.0, 0.0, 0.731}}), 1.0, 1.0);
+/// States of that circle on its way, relative to the middle of the tips at rest, and its last one.
+inline void add_circle(const Vector3<double>& middle, const Vector3<double>& rest, double scale,
+                       Goals& goals) {
+  for (const auto& [y, z] : {std::array{0.24, -0.25}, {-0.1, -0.04}, {-0.33, -0.36}})
+    goals.waypoints.push_back(
+        Waypoint{middle + Vector3<double>(0.0, y, z) * scale, Vector3<double>::Zero(), 0.3});
+  const double speed = 1.1 * std::sqrt(scale);
+  goals.final_state = Waypoint{rest, Vector3<double>(0.0, speed, 0.0), 1.0, 0.3, 0.3};
+  goals.tolerances.position = 0.08 * scale;
+  goals.tolerances.taut = 0.6;
 }
-
-/// The authors' horizontal impulse, which prepares others: both hands sway from side to side.
-inline StickSpline<double> horizontal_impulse_seed(const TipColumn<double>& home) {
-  return detail::through(
-      home, {0.9, 1.4, 2.0, 2.8, 3.5},
-      detail::together(
-          {{0.23, 0.0, 0.0}, {0.12, 0.0, 0.0}, {-0.12, 0.0, 0.0}, {0.23, 0.0, 0.0}, {0.0, 0.0, 0.0}}),
-      1.0, 1.0);
-}
-
-/// The authors' goals of a round of circular acceleration, base and four more states, scaled with the string
-/// about the middle of the tips.
-inline std::vector<Waypoint> circle_goals(double string_length) {
-  const double s = string_length / kAuthorsStringLength;
-  const auto state = [s](double y, double z, double vy, double vz) {
-    Waypoint w;
-    w.position = {0.55, s * y, 1.25 + s * (z - 1.27)};
-    w.velocity = {0.0, std::sqrt(s) * vy, std::sqrt(s) * vz};
-    w.position_weight = 1.0;
-    w.velocity_weight = 0.1;
-    w.direction_weight = 0.1;
-    return w;
-  };
-  return {state(0.2618, 0.71991, -0.5, 1.0), state(0.1618, 0.91991, -1.0, 0.1),
-          state(-0.3382, 0.91991, -0.5, -0.5), state(-0.4382, 0.71991, 1.0, -0.5)};
-}
-
-namespace detail {
 
 /// The hands sink, part quickly while they rise, and give way at the end, lest the string catch the diabolo
 /// as it leaves; faster for higher throws, leaning to where it shall come down. (Found by GradientSearch from
@@ -191,8 +136,10 @@ inline StickSpline<double> throw_seed(const TipColumn<double>& home, double stri
 /// of that length. Throws std::invalid_argument where there is none of that name, or an option is out of its
 /// range. For "catch" see catch_action().
 inline Action action_named(std::string_view name, const TipColumn<double>& tips, const State<double>& start,
-                           double string_length, const ActionOptions& options) {
-  options.validate();
+                           double string_length, const ActionOptions& wanted) {
+  wanted.validate();
+  ActionOptions options = wanted;
+  options.pace /= std::sqrt(string_length / 1.45);  // longer pendulums are slower
   const double s = options.size * string_length / kAuthorsStringLength;
   const Vector3<double> middle = 0.5 * (tips.head<3>() + tips.tail<3>());
   const Vector3<double> rest = lowest_point(tips.head<3>(), tips.tail<3>(), string_length);
@@ -203,14 +150,15 @@ inline Action action_named(std::string_view name, const TipColumn<double>& tips,
   const auto spin_up = [&] {
     if (options.spin)
       action.goals.spin = Target{start.spin + (start.spin < 0.0 ? -*options.spin : *options.spin), 0.02};
-    action.goals.taut = 0.3;
+    action.goals.taut = 0.1;
   };
   if (name == "linear_acceleration") {
-    action.seed = linear_acceleration_seed(tips, s, options.pace);
+    action.seed = detail::linear_acceleration_seed(tips, options.size * string_length / 1.45, options.pace);
+    action.goals.tolerances.taut = 0.6;
     spin_up();
   } else if (name == "circular_acceleration") {
-    action.seed = circular_acceleration_seed(tips, s, options.pace);
-    action.goals.waypoints = circle_goals(string_length);
+    action.seed = detail::circular_acceleration_seed(tips, options.size * string_length / 1.45, options.pace);
+    detail::add_circle(middle, rest, options.size * string_length / 1.45, action.goals);
     spin_up();
   } else if (name == "swing") {
     const double lean = 0.3 * options.sideways;

@@ -24,10 +24,13 @@ struct SplineStart {
   TipColumn<Scalar> acceleration = TipColumn<Scalar>::Constant(Scalar(0));  ///< [m/s^2]
 };
 
+/// How soon the acceleration that a spline goes on from gives way to its own [s].
+inline constexpr double kSettling = 0.06;
+
 /// A motion of the stick tips by control points: piecewise cubics with continuous velocity and acceleration,
 /// one for each stick and coordinate (paper, section III-B). It starts at rest, or goes on from a given
-/// velocity and acceleration (one more point in the middle of the first interval, not a control point, then
-/// makes the acceleration right).
+/// velocity and acceleration (one more point kSettling after the first, or in the middle of a short interval,
+/// not a control point, then makes the acceleration right).
 template <class Scalar>
 struct StickSpline {
   Scalar begin{0};                        ///< time of the first point [s]
@@ -119,9 +122,12 @@ TipPath<Scalar> path_of(const StickSpline<Scalar>& spline) {
   Column first = detail::spline_column<Scalar>(zero, loop ? 1.0 : 0.0), last = first;
   if (spline.start) {
     first.template head<6>() = spline.start->velocity;
-    h.front() = h.front() * Scalar(0.5);
-    h.insert(h.begin(), h.front());
-    const TipColumn<Scalar> between = (spline.points[0] + spline.points[1]) * Scalar(0.5);
+    const Scalar settling = minimum(Scalar(h[0] * Scalar(0.5)), Scalar(kSettling)),
+                 share_of = settling / h[0];
+    h.front() = h.front() - settling;
+    h.insert(h.begin(), settling);
+    const TipColumn<Scalar> between =
+        spline.points[0] + TipColumn<Scalar>(spline.points[1] - spline.points[0]) * share_of;
     y.insert(y.begin() + 1, detail::spline_column<Scalar>(between, 1.0));
   }
   std::vector<Column> m = detail::curvatures(h, y, first, last);
