@@ -37,21 +37,23 @@ TEST_CASE("the authors' goals of a circle are theirs on a string of their length
   CHECK(goals[1].position.z() - goals[0].position.z() == Approx(0.2));
 }
 
-TEST_CASE(
-    "the authors' throw never leaves the string by the published rules, but does by the consistent ones") {
+TEST_CASE("the authors' throw never leaves the string by the published rules, which lose momentum") {
   const TipColumn<double> home = detail::tips_column(0.55, 0.05, 1.25, -0.05, 1.25);
-  TipPath<double> path = path_of(authors_throw(home));
+  const TipPath<double> path = path_of(authors_throw(home));
+  double fastest[2] = {0.0, 0.0};
   for (const bool consistent : {false, true}) {
     Parameters<double> parameters =
         consistent ? Parameters<double>::consistent() : Parameters<double>::published();
     parameters.string_length = kAuthorsStringLength;
     const State<double> start = hanging_state(home, kAuthorsStringLength, 100.0);
-    const Play<double> result = play(Predictor<double>(parameters), start, path, {.dt = 1e-3, .flight = 1.0});
-    bool flew = false;
-    for (const PlayInstant<double>& instant : result.instants)
-      flew = flew || instant.state.string_state == StringState::kFlying;
-    CHECK(flew == consistent);
+    for (const PlayInstant<double>& instant :
+         play(Predictor<double>(parameters), start, path, {.dt = 1e-3, .flight = 1.0}).instants) {
+      fastest[consistent] = std::max(fastest[consistent], instant.state.velocity.z());
+      if (!consistent) CHECK(instant.state.string_state != StringState::kFlying);
+    }
   }
+  INFO(fastest[0] << " and " << fastest[1] << " m/s");
+  CHECK(fastest[1] > 1.1 * fastest[0]);
 }
 
 TEST_CASE("every action keeps the limits from its home and scales with the string") {
