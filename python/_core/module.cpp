@@ -19,4 +19,5 @@ PYBIND11_MODULE(_core, module) {
   bind_gradient(module);
   bind_evaluation(module);
   bind_diagnosis(module);
+  bind_player(module);
 }
