@@ -90,7 +90,9 @@ def test_throw_and_catch(height: float) -> None:
 
 
 def test_cycles_go_on_from_each_other() -> None:
-    model = Model(Parameters(spin_coupling=0.0), string_friction=StringFriction(coefficient=0.25, spin_gain=3.4))
+    model = Model(
+        Parameters(spin_coupling=0.0), string_friction=StringFriction(coefficient=0.25, spin_gain=3.4)
+    )
     played = diabolo.plan_action("linear_acceleration", model, cycles=3, spin=60.0)
     assert len(played.plans) == 3
     assert played.states[-1, 6] > 70.0

@@ -32,8 +32,8 @@ def add_parser(commands: Any) -> None:
         "plan",
         run=run,
         summary="find stick motions for a figure of play",
-        text="Find a motion of the stick tips that makes the diabolo do what is wanted, by derivatives\n"
-        "through the prediction, and write it with what it leads to: as a tidy recording, a picture and a page.",
+        text="Find a motion of the stick tips that makes the diabolo do what is wanted, and write it with\n"
+        "what it leads to: as a tidy recording, a picture and a page.",
         example="  diabolo plan throw_and_catch --goal height=0.6 --out throw.csv --html throw.html\n"
         "  diabolo plan linear_acceleration --cycles 4 --model diagnosis/model.json --plot plan.png",
     )
@@ -149,7 +149,8 @@ def wanted_states(played: PlannedPlay) -> list[Waypoint]:
 def summary(played: PlannedPlay, model: str) -> dict[str, Any]:
     """The figures, for JSON of the schema diabolo.plan/1."""
     flying = played.string_states == StringState.FLYING
-    above = played.states[:, 2] - 0.5 * (played.left[:, 2] + played.right[:, 2])
+    release = played.path.derivatives(np.array([played.plans[0].path.end]))[0][0]
+    above = played.states[:, 2] - 0.5 * (release[2] + release[5])  # the tips at the throw's end
     return {
         "schema": SCHEMA,
         "action": played.action,
