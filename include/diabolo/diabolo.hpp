@@ -6,6 +6,7 @@
 #include "diabolo/dual.hpp"
 #include "diabolo/effects/all.hpp"
 #include "diabolo/pack.hpp"
+#include "diabolo/player/player.hpp"
 #include "diabolo/recording/calibration.hpp"
 #include "diabolo/recording/evaluation.hpp"
 #include "diabolo/recording/motive.hpp"

@@ -29,10 +29,11 @@ struct Steps {
 
 /// Predicts `steps` from `state`, the tips following `motion`, and calls `visit(index, time, state, status)`
 /// after each step with index 1 .. count. The caller keeps what it needs; nothing is stored. Returns the last
-/// state. Throws std::invalid_argument when dt is not positive and finite.
-template <class Scalar, template <class> class... Effects, class Visitor>
+/// state. `motion` is a TipMotion, or anything else that has its at(time, hint). Throws std::invalid_argument
+/// when dt is not positive and finite.
+template <class Scalar, template <class> class... Effects, class Motion, class Visitor>
 State<Scalar> rollout(const Predictor<Scalar, Effects...>& predictor, State<Scalar> state,
-                      const TipMotion<Scalar>& motion, const Steps& steps, Visitor&& visit) {
+                      const Motion& motion, const Steps& steps, Visitor&& visit) {
   steps.validate();
   std::size_t hint = 0;
   Tips<Scalar> now = motion.at(steps.begin, hint);
@@ -46,9 +47,9 @@ State<Scalar> rollout(const Predictor<Scalar, Effects...>& predictor, State<Scal
 }
 
 /// The same without looking at what lies between.
-template <class Scalar, template <class> class... Effects>
+template <class Scalar, template <class> class... Effects, class Motion>
 State<Scalar> rollout(const Predictor<Scalar, Effects...>& predictor, const State<Scalar>& state,
-                      const TipMotion<Scalar>& motion, const Steps& steps) {
+                      const Motion& motion, const Steps& steps) {
   return rollout(predictor, state, motion, steps,
                  [](std::size_t, double, const State<Scalar>&, const auto&) {});
 }

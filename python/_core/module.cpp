@@ -19,5 +19,6 @@ PYBIND11_MODULE(_core, module) {
   bind_gradient(module);
   bind_evaluation(module);
   bind_diagnosis(module);
+  bind_player(module);
   bind_robot(module);
 }

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from .. import __version__
-from . import convert, demo, diagnose, evaluate, info, prove, robot, simulate
+from . import convert, demo, diagnose, evaluate, info, plan, prove, robot, simulate, view
 
 DESCRIPTION = """\
-Simulate diabolo play, and find out how far a simulation is off.
+Simulate and plan diabolo play, and find out how far a simulation is off.
 
 A recording is a file that holds the motion of the two stick tips and of the diabolo: an export of OptiTrack
 Motive, or a tidy CSV with a JSON file beside it.
@@ -25,6 +25,7 @@ begin here:
   diabolo info TAKE.csv                what is in a recording
   diabolo evaluate TAKE.csv            how far the models are off on it
   diabolo diagnose TAKE.csv --out out  what they leave out, and how much better they get with it
+  diabolo plan throw_and_catch         stick motions for a figure of play
 """
 
 
@@ -45,7 +46,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"diabolo {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
-    for command in (demo, evaluate, diagnose, simulate, info, convert, robot, prove):
+    for command in (demo, evaluate, diagnose, plan, simulate, view, robot, info, convert, prove):
         command.add_parser(commands)
     return parser
 

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import Model, Recording, baseline
+from ..enums import StringState
 from ..evaluation import ALL_RECORDINGS, Evaluation, Excerpt, HorizonRow, position_errors, predict
+from ..player import PlannedPlay
 from ..rollout import Rollout
 from .files import whole_file
 
@@ -65,6 +67,38 @@ def draw_trajectory(path: str | Path, recording: Recording, predictions: dict[st
     sideways.set(title="sideways", xlabel="time [s]", ylabel="y [m]")
     height.set(title="height", xlabel="time [s]", ylabel="z [m]")
     figure.suptitle(f"{recording.name}: the diabolo, measured and predicted from its first row")
+    _save(figure, path)
+
+
+def draw_plan(path: str | Path, played: PlannedPlay) -> None:
+    """Planned tips and diabolo, seen from behind the player; heights, and what the tips do, over time."""
+    figure, axes = _panels(4, columns=4, width=4.2)
+    side, height, speed, acceleration = axes
+    time = played.time
+    for name, tip, color in (("left", played.left, "tab:red"), ("right", played.right, "tab:blue")):
+        side.plot(tip[:, 1], tip[:, 2], color=color, linewidth=1.2, label=f"{name} tip")
+        height.plot(time, tip[:, 2], color=color, linewidth=1.0)
+    side.plot(played.states[:, 1], played.states[:, 2], label="diabolo", **MEASURED_STYLE)
+    for goals in played.wanted:
+        for goal in [*goals.waypoints, *([goals.final_state] if goals.final_state else [])]:
+            side.plot(goal.position[1], goal.position[2], "o", color="tab:green", ms=6)
+    side.set(title="seen from behind the player", xlabel="y, to the left [m]", ylabel="z, up [m]")
+    side.set_aspect("equal", adjustable="datalim")
+    side.invert_xaxis()
+    side.legend(fontsize="small")
+    height.plot(time, played.states[:, 2], **MEASURED_STYLE)
+    flying = np.where(played.string_states == StringState.FLYING, played.states[:, 2], np.nan)
+    height.plot(time, flying, color="tab:orange", linewidth=3.0, label="flying")
+    height.set(title="height", xlabel="time [s]", ylabel="z [m]")
+    height.legend(fontsize="small")
+    instants = np.linspace(played.path.begin, played.path.end, 1000)
+    motion = played.path.derivatives(instants)
+    for name, columns, color in (("left", slice(0, 3), "tab:red"), ("right", slice(3, 6), "tab:blue")):
+        speed.plot(instants, np.linalg.norm(motion[1][:, columns], axis=1), color=color, label=f"{name} tip")
+        acceleration.plot(instants, np.linalg.norm(motion[2][:, columns], axis=1), color=color)
+    speed.set(title="speed of the tips", xlabel="time [s]", ylabel="[m/s]")
+    acceleration.set(title="acceleration of the tips", xlabel="time [s]", ylabel="[m/s$^2$]")
+    figure.suptitle(f"{played.action}: {played.answer}")
     _save(figure, path)
 
 

@@ -113,7 +113,7 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
     # Where a tip is missing, the one that the prediction went by in its place.
     left, right, _, _ = TipMotion.of_recording(take, model.interpolation).at(take.time - take.time[0])
     return (
-        _recording(
+        played_recording(
             take.name,
             take.time,
             np.where(take.left_valid[:, np.newaxis], take.left, left),
@@ -155,10 +155,10 @@ def on_motion(
     codes = np.concatenate([[np.uint8(StringState.ON_STRING)], result.string_states])
     p = model.parameters
     properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
-    return _recording(title, time, left, right, states, RATE, properties, length), codes
+    return played_recording(title, time, left, right, states, RATE, properties, length), codes
 
 
-def _recording(
+def played_recording(
     name: str,
     time: NDArray[np.float64],
     left: NDArray[np.float64],

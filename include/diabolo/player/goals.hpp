@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "diabolo/scalar.hpp"
+
+namespace diabolo {
+
+/// A state of the diabolo that is wanted, and how much each cost of the paper counts (section III-B).
+struct Waypoint {
+  Vector3<double> position = Vector3<double>::Zero();  ///< [m]
+  Vector3<double> velocity = Vector3<double>::Zero();  ///< [m/s]
+  double position_weight = 1.0;                        ///< of the Euclidean distance [1/m]
+  double velocity_weight = 0.0;   ///< of the difference of the velocities' magnitudes [s/m]
+  double direction_weight = 0.0;  ///< of the angle between the velocities [1/rad]
+};
+
+/// A wanted number.
+struct Target {
+  double value;
+  double weight = 1.0;
+};
+
+/// A place where a throw comes down: on its way down through the height z, [m].
+struct Landing {
+  Vector3<double> position;
+  double weight = 1.0;
+};
+
+/// What a plan shall achieve. Goals that are not given do not count.
+struct Goals {
+  std::vector<Waypoint> waypoints;      ///< on the way, in this order
+  std::optional<Waypoint> final_state;  ///< at the end
+  std::optional<Target> spin;           ///< at the end [rad/s]; weight per rad/s
+  /// The string pulls at least kLeastPull throughout: the diabolo neither leaves it nor hops; weight of the
+  /// share that is missing (root mean square over the time).
+  std::optional<double> taut;
+  std::optional<Target> apex;      ///< of the flight that the motion ends in, above the resting tips [m]
+  std::optional<Landing> landing;  ///< of that flight
+  std::optional<double> caught;  ///< the flight ends on the string; weight of the distance by which it misses
+  /// Up to which cost, without its weight, a goal counts as reached.
+  struct Tolerances {
+    double position = 0.02;   ///< [m], also of flights
+    double velocity = 0.15;   ///< [m/s]
+    double direction = 0.15;  ///< [rad]
+    double spin = 2.0;        ///< [rad/s]
+    double taut = 0.25;       ///< share
+  } tolerances{};
+
+  /// Whether the motion ends in a flight.
+  bool throws() const { return apex || landing; }
+
+  /// Throws std::invalid_argument where a weight is negative, a number is not finite, or goals exclude each
+  /// other.
+  void validate() const {
+    const auto check = [](const std::string& name, const Waypoint& w) {
+      if (!w.position.allFinite() || !w.velocity.allFinite())
+        throw std::invalid_argument(name + ": position and velocity must be finite");
+      if (!(w.position_weight >= 0.0) || !(w.velocity_weight >= 0.0) || !(w.direction_weight >= 0.0))
+        throw std::invalid_argument(name + ": weights must not be negative");
+    };
+    for (std::size_t i = 0; i < waypoints.size(); ++i) check("waypoint " + std::to_string(i), waypoints[i]);
+    if (final_state) check("final state", *final_state);
+    if (spin && !std::isfinite(spin->value)) throw std::invalid_argument("spin goal: must be finite");
+    if (apex && !(apex->value > 0.0)) throw std::invalid_argument("apex goal: must lie above the tips");
+    if (landing && !landing->position.allFinite())
+      throw std::invalid_argument("landing goal: must be finite");
+    if (throws() && taut) throw std::invalid_argument("goals: a throw cannot keep the string taut");
+    if (waypoints.empty() && !final_state && !spin && !taut && !throws() && !caught)
+      throw std::invalid_argument("goals: none; at least one expected");
+  }
+};
+
+/// Least acceleration of the diabolo by a string that counts as taut [m/s^2].
+inline constexpr double kLeastPull = 1.5;
+
+/// How far a play is off one goal. The cost is the weight times the norm of the parts; the parts are smooth,
+/// so that a solver can follow their derivatives, and their norm is the paper's cost.
+template <class Scalar>
+struct GoalError {
+  std::string name;
+  double weight;
+  double tolerance;  ///< of the norm
+  std::vector<Scalar> parts;
+  bool held = true;  ///< whether what must hold besides does, such as that the diabolo was caught
+
+  double size() const {
+    double sum = 0.0;
+    for (const Scalar& part : parts) {
+      const double value = static_cast<double>(value_of(part));
+      sum += value * value;
+    }
+    return std::sqrt(sum);
+  }
+};
+
+}  // namespace diabolo

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "diabolo/dual.hpp"
+#include "diabolo/player/least_squares.hpp"
+#include "diabolo/player/plan.hpp"
+
+namespace diabolo {
+
+/// Follows the derivatives: Levenberg and Marquardt's method on smooth residuals, whose derivatives by all
+/// control points and times flow, as dual numbers, through spline, prediction and its events. Limits enter as
+/// residuals that grow beyond them; if the end still breaks one, the motion goes back towards the best one
+/// that keeps them, so far as it must.
+struct GradientSearch {
+  int iterations = 30;        ///< each a prediction with derivatives
+  double least_gain = 2e-3;   ///< an iteration that gains a smaller share of the residual ends the search
+  double good_enough = 2e-6;  ///< so does a smaller sum of squared residuals
+
+  /// Other paces of the seed, tried in turn while a goal is missed.
+  std::vector<double> other_paces{1.15, 0.87};
+
+  template <template <class> class... Effects>
+  Plan operator()(const PlanProblem<Effects...>& problem, const Budget& budget) const {
+    problem.validate();
+    std::vector<Predictor<D, Effects...>> duals;
+    for (const auto& model : problem.models) duals.push_back(predictor_in<D>(model));
+    int evaluations = 0;
+    Plan best = from(problem, duals, problem.seed, budget, evaluations);
+    for (const double pace : other_paces) {
+      if (best.reached || budget.spent(evaluations)) break;
+      StickSpline<double> seed = problem.seed;
+      for (double& duration : seed.durations) duration /= pace;
+      Plan other = from(problem, duals, seed, budget, evaluations);
+      if (other.reached || other.cost < best.cost) best = std::move(other);
+    }
+    best.evaluations = evaluations;
+    return best;
+  }
+
+ private:
+  static constexpr int kChunk = 28;  ///< derivatives carried along at once
+  using D = Dual<double, kChunk, float>;
+
+  template <template <class> class... Effects>
+  Plan from(const PlanProblem<Effects...>& problem, const std::vector<Predictor<D, Effects...>>& duals,
+            const StickSpline<double>& wanted_seed, const Budget& budget, int& evaluations) const {
+    const double length = problem.string_length();
+    const StickSpline<double> seed = kept_seed(wanted_seed, problem.limits, length);
+    const MotionUnknowns unknowns(seed, problem.freedom);
+    PlanResiduals<Effects...> residuals(problem, unknowns);
+    std::vector<double> bounds, x(unknowns.size(), 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) bounds.push_back(unknowns.bound(i));
+    double sum = INFINITY;
+    const auto value = [&](const std::vector<double>& at) {
+      ++evaluations;
+      sum = 0.0;
+      for (const double part : residuals(problem.models, at)) sum += part * part;
+      return sum;
+    };
+    const auto linearize = [&](const std::vector<double>& at) {
+      ++evaluations;
+      return linearization(residuals, duals, at);
+    };
+    const auto stop = [&] { return budget.spent(evaluations) || sum < good_enough; };
+    residuals.dt = problem.dt;
+    least_squares(x, bounds, iterations, 2.0, least_gain, value, linearize, stop);
+    // Limits that still give way become harder.
+    const auto kept = [&] { return keeps(path_of(unknowns.motion(x)), problem.limits, length); };
+    for (int round = 0; round < 3 && !budget.spent(evaluations) && !kept(); ++round) {
+      residuals.weight *= 5.0;
+      residuals.inside += 0.01;
+      sum = INFINITY;
+      least_squares(x, bounds, 6, 0.5, least_gain, value, linearize, stop);
+    }
+    const StickSpline<double> found = unknowns.motion(x);
+    const auto towards = [&](double share) { return detail::between(seed, found, share); };
+    const double share = detail::kept_share(problem.limits, length, towards);
+    Plan plan = judged(problem, towards(share), evaluations);
+    if (share == 1.0) return plan;
+    Plan stayed = judged(problem, seed, evaluations);
+    return stayed.cost < plan.cost ? stayed : plan;
+  }
+
+  template <template <class> class... Effects>
+  static Linearization linearization(const PlanResiduals<Effects...>& residuals,
+                                     const std::vector<Predictor<D, Effects...>>& models,
+                                     const std::vector<double>& x) {
+    Linearization result;
+    for (std::size_t first = 0; first < x.size(); first += kChunk) {
+      const std::size_t count = std::min<std::size_t>(kChunk, x.size() - first);
+      std::vector<D> at(x.begin(), x.end());
+      for (std::size_t i = 0; i < count; ++i) at[first + i] = D::variable(x[first + i], static_cast<int>(i));
+      const std::vector<D> parts = residuals(models, at);
+      const Eigen::Index rows = static_cast<Eigen::Index>(parts.size()),
+                         columns = static_cast<Eigen::Index>(x.size());
+      if (first == 0) {
+        result.residuals.resize(rows);
+        result.jacobian.resize(rows, columns);
+      }
+      for (Eigen::Index r = 0; r < rows; ++r) {
+        const D& part = parts[static_cast<std::size_t>(r)];
+        result.residuals[r] = part.value;
+        for (std::size_t i = 0; i < count; ++i)
+          result.jacobian(r, static_cast<Eigen::Index>(first + i)) =
+              static_cast<double>(part.gradient[static_cast<Eigen::Index>(i)]);
+      }
+    }
+    return result;
+  }
+};
+
+}  // namespace diabolo

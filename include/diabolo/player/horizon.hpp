@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "diabolo/player/plan.hpp"
+
+namespace diabolo {
+
+/// Where a new piece of motion sets in: what the tips do there, and what the diabolo is predicted to do.
+struct Seam {
+  double time = 0.0;          ///< [s]
+  TipColumn<double> tips;     ///< [m]
+  SplineStart<double> start;  ///< velocity and acceleration of the tips
+  State<double> state;        ///< of the diabolo
+};
+
+/// Motion of the tips that is planned piece by piece while it is played: each new piece is planned from the
+/// predicted end of what can no longer be changed, and joins it with the same position, velocity and
+/// acceleration. Every piece ends at rest, so that a plan that comes too late is no harm: the tips come to
+/// rest on the old one and stay there.
+template <template <class> class... Effects>
+class Horizon {
+ public:
+  using Model = Predictor<double, Effects...>;
+  static constexpr double kMargin = 1.3;  ///< planning may take so many times as long as the last time
+
+  /// The tips rest at `tips` from `begin` [s] on, over `state`.
+  Horizon(Model model, const TipColumn<double>& tips, const State<double>& state, double begin)
+      : model_(std::move(model)), observed_(state), observed_time_(begin) {
+    TipPiece<double> rest;
+    rest.begin = begin;
+    rest.duration = kRest;
+    rest.c = {tips, TipColumn<double>::Zero(), TipColumn<double>::Zero(), TipColumn<double>::Zero()};
+    path_ = TipPath<double>({rest});
+  }
+
+  /// What the tips do: the past, and what is planned. After its end they rest.
+  const TipPath<double>& path() const { return path_; }
+
+  /// Takes over a state of the diabolo that was seen at a time [s]; predictions begin with the latest one.
+  /// Throws std::invalid_argument where it is not finite, or older than the one before.
+  void observe(double time, const State<double>& state) {
+    if (!state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
+      throw std::invalid_argument("horizon: the observed state must be finite");
+    if (!(time >= observed_time_))
+      throw std::invalid_argument("horizon: a state that was observed before the last one");
+    observed_ = state;
+    observed_time_ = time;
+  }
+
+  /// The seam of a piece that is planned now: as late as planning takes, with a margin, at least.
+  Seam seam(double now) const { return seam_at(now + kMargin * planning_time_); }
+
+  /// The seam at a time [s] not before the last observation.
+  Seam seam_at(double time) const {
+    if (!(time >= observed_time_)) throw std::invalid_argument("horizon: a seam before the last observation");
+    Seam result;
+    result.time = time;
+    const double within = std::clamp(time, path_.begin(), path_.end());
+    const auto tips = path_.derivatives_at(within);
+    result.tips = tips[0];
+    if (time < path_.end()) result.start = {tips[1], tips[2]};
+    result.state = observed_;
+    const double duration = time - observed_time_;
+    const int count = static_cast<int>(std::ceil(duration / PlanProblem<Effects...>::kReportedStep - 1e-9));
+    for (int i = 0; i < count; ++i) {
+      const double dt = duration / count, begin = observed_time_ + i * dt;
+      model_.step(result.state, path_.at(begin), path_.at(begin + dt), dt);
+    }
+    return result;
+  }
+
+  /// Joins a plan that was made from `seam` and is ready `now` [s], having taken `planning_time` [s]. False,
+  /// and the old motion goes on, where it comes too late.
+  bool join(const Seam& seam, const Plan& plan, double now, double planning_time) {
+    planning_time_ = planning_time;
+    if (now > seam.time) return false;
+    TipPath<double> joined = path_.until(seam.time);
+    if (const double gap = seam.time - joined.end(); gap > 1e-12) {  // the tips have rested since
+      TipPiece<double> rest;
+      rest.begin = joined.end();
+      rest.duration = gap;
+      rest.c.fill(TipColumn<double>::Zero());
+      rest.c[0] = seam.tips;
+      joined.append(TipPath<double>({rest}));
+    }
+    joined.append(plan.path);
+    path_ = std::move(joined);
+    return true;
+  }
+
+ private:
+  static constexpr double kRest = 1e-3;  ///< of the first piece [s]
+
+  Model model_;
+  TipPath<double> path_;
+  State<double> observed_;
+  double observed_time_;
+  double planning_time_ = 0.04;  ///< of the last plan; at first what one usually takes [s]
+};
+
+/// A seed that sets in at a seam: moved there in time, its first point the tips, its start their motion.
+inline StickSpline<double> joined_at(const Seam& seam, StickSpline<double> seed) {
+  seed.begin = seam.time;
+  seed.points.front() = seam.tips;
+  seed.start = seam.start;
+  return seed;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "diabolo/player/goal_errors.hpp"
+#include "diabolo/player/limits.hpp"
+#include "diabolo/player/motion_unknowns.hpp"
+
+namespace diabolo {
+
+/// A motion that is wanted: what there is, what shall be achieved, and what must be kept.
+template <template <class> class... Effects>
+struct PlanProblem {
+  using Model = Predictor<double, Effects...>;
+  std::vector<Model>
+      models;                ///< what the diabolo may do: the nominal one first; a plan counts on all of them
+  State<double> start;       ///< of the diabolo when the motion begins
+  StickSpline<double> seed;  ///< a motion that is known to do something like what is wanted
+  Goals goals;
+  TipLimits limits{};
+  Freedom freedom{};
+  double dt = 4e-3;  ///< longest step of the search [s]; what is reported comes from kReportedStep
+
+  static constexpr double kReportedStep = 1e-3;  ///< [s]
+  static constexpr double kFlight = 1.2;         ///< how long a flight is followed [s]
+
+  double string_length() const { return models.front().parameters().string_length; }
+
+  /// Throws std::invalid_argument where something is missing or out of its range.
+  void validate() const {
+    if (models.empty()) throw std::invalid_argument("plan: no model; at least one expected");
+    if (!start.position.allFinite() || !start.velocity.allFinite() || !std::isfinite(start.spin))
+      throw std::invalid_argument("plan: the start state must be finite");
+    if (!(dt >= 1e-4 && dt <= 0.02))
+      throw std::invalid_argument("plan, dt: must be within 0.0001 and 0.02 s");
+    seed.validate();
+    goals.validate();
+    limits.validate();
+    freedom.validate();
+    double duration = 0.0;
+    for (const double part : seed.durations) duration += part;
+    if (duration > 60.0) throw std::invalid_argument("plan: the seed lasts longer than 60 s");
+  }
+
+  /// What a motion leads to with one of the models.
+  template <class Scalar>
+  Play<Scalar> played(const Predictor<Scalar, Effects...>& model, const TipPath<Scalar>& path,
+                      double longest_step) const {
+    return play(model, start, path, {.dt = longest_step, .flight = goals.throws() ? kFlight : 0.0});
+  }
+
+  /// The paper's residual of a motion, the mean over all models.
+  double cost(const TipPath<double>& path, double longest_step, bool smooth) const {
+    double sum = 0.0;
+    for (const Model& model : models)
+      sum += total_cost(goal_errors(played(model, path, longest_step), goals, model.parameters(), smooth));
+    return sum / static_cast<double>(models.size());
+  }
+};
+
+namespace detail {
+
+/// How much a path goes beyond its limits at the instants of a play and at its points, in parts that grow
+/// from zero on: what a solver sees of the limits. `inside` is kept free before each limit, as a share of it
+/// or in metres of a tenth of that.
+template <class Scalar>
+void add_limit_parts(const Play<Scalar>& play, const TipPath<Scalar>& path, const TipLimits& limits,
+                     double string_length, double inside, double weight, std::vector<Scalar>& parts) {
+  const auto share = [&](const Scalar& value, double limit) {
+    const Scalar beyond = value * Scalar(1.0 / limit) - Scalar(1.0 - inside);
+    if (beyond > Scalar(0)) parts.push_back(beyond * Scalar(weight));
+  };
+  const auto length = [&](const Scalar& beyond) {  // [m]
+    const Scalar kept = beyond + Scalar(0.1 * inside);
+    if (kept > Scalar(0)) parts.push_back(kept * Scalar(10.0 * weight));
+  };
+  for (std::size_t i = 0; i < play.planned; ++i) {
+    const Tips<Scalar>& tips = play.instants[i].tips;
+    const Vector3<Scalar> span = tips.left - tips.right;
+    length(norm(span) - Scalar(string_length - limits.string_margin));
+    length(Scalar(limits.least_gap) - span.y());
+    for (const Vector3<Scalar>& velocity : {tips.left_velocity, tips.right_velocity})
+      share(norm(velocity), limits.speed);
+    for (const Vector3<Scalar>& tip : {tips.left, tips.right})
+      for (int k = 0; k < 3; ++k) {
+        length(tip[k] - Scalar(limits.highest[k]));
+        length(Scalar(limits.lowest[k]) - tip[k]);
+      }
+  }
+  for (const TipPiece<Scalar>& piece : path.pieces())
+    for (const bool at_end : {false, true}) {
+      const std::array<TipColumn<Scalar>, 4> d = piece.at(at_end ? piece.duration : Scalar(0));
+      for (int side = 0; side < 2; ++side) {
+        const Vector3<Scalar> acceleration = d[2].template segment<3>(3 * side),
+                              jerk = d[3].template segment<3>(3 * side);
+        share(norm(acceleration), limits.acceleration);
+        if (std::isfinite(limits.jerk)) share(norm(jerk), limits.jerk);
+      }
+    }
+}
+
+}  // namespace detail
+
+/// Residuals of a plan whose squares a solver makes small: goals, limits, and a little of the distance from
+/// the seed, which decides between motions that are as good.
+template <template <class> class... Effects>
+class PlanResiduals {
+ public:
+  static constexpr double kStayNearSeed = 1e-4;
+
+  PlanResiduals(const PlanProblem<Effects...>& problem, const MotionUnknowns& unknowns)
+      : problem_(problem), unknowns_(unknowns) {}
+
+  double inside = 0.01, weight = 3.0;  ///< of the limits
+  double dt = 4e-3;                    ///< [s]
+
+  /// `models` are those of the problem in this Scalar.
+  template <class Scalar>
+  std::vector<Scalar> operator()(const std::vector<Predictor<Scalar, Effects...>>& models,
+                                 const std::vector<Scalar>& x) const {
+    const TipPath<Scalar> path = path_of(unknowns_.motion(x));
+    const double share = 1.0 / std::sqrt(static_cast<double>(models.size()));
+    std::vector<Scalar> parts;
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      const Play<Scalar> play = problem_.played(models[m], path, dt);
+      const std::vector<GoalError<Scalar>> errors =
+          goal_errors(play, problem_.goals, problem_.models[m].parameters(), true);
+      for (const GoalError<Scalar>& error : errors)
+        for (const Scalar& part : error.parts) parts.push_back(part * Scalar(error.weight * share));
+      if (m == 0)
+        detail::add_limit_parts(play, path, problem_.limits, problem_.string_length(), inside, weight, parts);
+    }
+    for (const Scalar& change : x) parts.push_back(change * Scalar(kStayNearSeed));
+    return parts;
+  }
+
+ private:
+  const PlanProblem<Effects...>& problem_;
+  const MotionUnknowns& unknowns_;
+};
+
+}  // namespace diabolo

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "diabolo/player/tip_path.hpp"
+#include "diabolo/predictor.hpp"
+
+namespace diabolo {
+
+/// What a plan leads to, at an instant.
+template <class Scalar>
+struct PlayInstant {
+  double time;  ///< [s]
+  State<Scalar> state;
+  Tips<Scalar> tips;
+  bool caught = false;  ///< in the step that ended here
+};
+
+/// A prediction, step by step.
+template <class Scalar>
+struct Play {
+  std::vector<PlayInstant<Scalar>> instants;  ///< the start first
+  std::size_t planned = 0;                    ///< instants within the path; later ones see the flight's end
+  double gravity = kStandardGravity;          ///< [m/s^2]
+
+  const PlayInstant<Scalar>& end() const { return instants[planned - 1]; }
+};
+
+namespace detail {
+
+template <class From, class To>
+void copy_fields(const From& from, To& to) {
+  std::vector<double> values;
+  From::for_each(from, [&](const ParameterInfo&, double value) { values.push_back(value); });
+  std::size_t i = 0;
+  To::for_each(to, [&](const ParameterInfo&, auto& field) { field = values[i++]; });
+}
+
+template <class To, template <class> class... Effects, std::size_t... I>
+void copy_effects(const EffectSet<double, Effects...>& from, EffectSet<To, Effects...>& to,
+                  std::index_sequence<I...>) {
+  (copy_fields(std::get<I>(from.members), std::get<I>(to.members)), ...);
+}
+
+}  // namespace detail
+
+/// The same predictor in another Scalar, such as a dual number.
+template <class To, template <class> class... Effects>
+Predictor<To, Effects...> predictor_in(const Predictor<double, Effects...>& from) {
+  Parameters<To> parameters;
+  parameters.copy_rules(from.parameters());
+  detail::copy_fields(from.parameters(), parameters);
+  EffectSet<To, Effects...> effects;
+  detail::copy_effects(from.effects(), effects, std::index_sequence_for<Effects<To>...>{});
+  using Result = Predictor<To, Effects...>;
+  return Result(parameters, effects, typename Result::AlreadyValid{});
+}
+
+/// The same state in another Scalar.
+template <class To>
+State<To> state_in(const State<double>& from) {
+  State<To> to;
+  to.position = from.position.cast<To>();
+  to.velocity = from.velocity.cast<To>();
+  to.spin = To(from.spin);
+  to.string_state = from.string_state;
+  to.axis = from.axis.cast<To>();
+  to.string_acceleration = from.string_acceleration.cast<To>();
+  return to;
+}
+
+/// How a play is predicted.
+struct PlayOptions {
+  double dt = 4e-3;     ///< longest step [s]
+  double flight = 0.0;  ///< of a diabolo that flies at the end of the path, so much more is predicted [s]
+};
+
+/// Predicts what a path leads to from `start`, the state at its begin; the sticks' tips then rest. A flight
+/// is followed for PlayOptions::flight after the path.
+template <class Scalar, template <class> class... Effects>
+Play<Scalar> play(const Predictor<Scalar, Effects...>& predictor, const State<double>& start,
+                  const TipPath<Scalar>& path, const PlayOptions& options) {
+  Play<Scalar> result;
+  result.gravity = static_cast<double>(value_of(predictor.parameters().gravity));
+  // Times carry derivatives too: a change of the path's duration moves all instants with it.
+  const Scalar begin = path.begin(), duration = path.end() - path.begin();
+  const auto number = [](const Scalar& x) { return static_cast<double>(value_of(x)); };
+  const auto count =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(number(duration) / options.dt - 1e-9)));
+  const Scalar dt = duration * Scalar(1.0 / static_cast<double>(count));
+  std::size_t hint = 0;
+  result.instants.reserve(count + 1);
+  result.instants.push_back({number(begin), state_in<Scalar>(start), path.at(begin, hint)});
+  const auto step = [&](std::size_t i) {
+    PlayInstant<Scalar> next = result.instants.back();
+    const Scalar time = i == count ? path.end() : Scalar(begin + dt * Scalar(static_cast<double>(i)));
+    next.time = number(time);
+    next.tips = path.at(time, hint);
+    next.caught = predictor.step(next.state, result.instants.back().tips, next.tips, dt).caught;
+    result.instants.push_back(next);
+  };
+  for (std::size_t i = 1; i <= count; ++i) step(i);
+  result.planned = result.instants.size();
+  const auto more = static_cast<std::size_t>(options.flight / number(dt));
+  for (std::size_t i = 1; i <= more && is(result.instants.back().state.string_state, StringState::kFlying);
+       ++i)
+    step(count + i);
+  return result;
+}
+
+}  // namespace diabolo

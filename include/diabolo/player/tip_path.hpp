@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/sticks.hpp"
+
+namespace diabolo {
+
+/// Both tips in one column, left over right.
+template <class Scalar>
+using TipColumn = Eigen::Matrix<Scalar, 6, 1>;
+
+/// A cubic of both tips over an interval: c[0] + c[1] s + c[2] s^2 + c[3] s^3, s [s] since its begin.
+template <class Scalar>
+struct TipPiece {
+  Scalar begin{0}, duration{0};  ///< [s]
+  std::array<TipColumn<Scalar>, 4> c;
+
+  /// Position [m] and its first three derivatives [m/s, m/s^2, m/s^3] at `s` [s] after the begin.
+  std::array<TipColumn<Scalar>, 4> at(const Scalar& s) const {
+    return {TipColumn<Scalar>(((c[3] * s + c[2]) * s + c[1]) * s + c[0]),
+            TipColumn<Scalar>((c[3] * Scalar(Scalar(3) * s) + c[2] * Scalar(2)) * s + c[1]),
+            TipColumn<Scalar>(c[3] * Scalar(Scalar(6) * s) + c[2] * Scalar(2)),
+            TipColumn<Scalar>(c[3] * Scalar(6))};
+  }
+};
+
+/// Planned motion of the stick tips: cubics one after the other. Before the first and after the last one the
+/// tips rest. May be followed by rollout() as a TipMotion may; its instants are Scalars too, so that
+/// derivatives by them come out.
+template <class Scalar>
+class TipPath {
+ public:
+  TipPath() = default;
+  /// Throws std::invalid_argument where a duration is not positive or a piece does not begin where the one
+  /// before it ends, within 1e-9 s.
+  explicit TipPath(std::vector<TipPiece<Scalar>> pieces) : pieces_(std::move(pieces)) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const std::string where = "tip path, piece " + std::to_string(i) + ": ";
+      if (!all(pieces_[i].duration > Scalar(0)) || !all(is_finite(pieces_[i].duration)))
+        throw std::invalid_argument(where + "its duration must be positive and finite");
+      if (i > 0 && !all(absolute<Scalar>(pieces_[i].begin - end_of(i - 1)) < Scalar(1e-9)))
+        throw std::invalid_argument(where + "must begin where the one before it ends");
+    }
+  }
+
+  const std::vector<TipPiece<Scalar>>& pieces() const { return pieces_; }
+  bool empty() const { return pieces_.empty(); }
+  Scalar begin() const { return pieces_.front().begin; }     ///< [s]
+  Scalar end() const { return end_of(pieces_.size() - 1); }  ///< [s]
+
+  /// Position [m] and its first three derivatives, at a time [s] within the path or at its ends.
+  std::array<TipColumn<Scalar>, 4> derivatives_at(double time) const {
+    std::size_t hint = 0;
+    const TipPiece<Scalar>& piece = piece_at(Scalar(time), hint);
+    const Scalar s = Scalar(time) - piece.begin;
+    return piece.at(minimum(maximum(s, Scalar(0)), piece.duration));
+  }
+
+  /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
+  Tips<Scalar> at(const Scalar& time, std::size_t& hint) const {
+    const TipPiece<Scalar>& piece = piece_at(time, hint);
+    const Scalar s = time - piece.begin;
+    const bool before = any(s < Scalar(0)), after = any(s > piece.duration);
+    const Scalar u = before ? Scalar(0) : after ? piece.duration : s;
+    const TipColumn<Scalar> value = ((piece.c[3] * u + piece.c[2]) * u + piece.c[1]) * u + piece.c[0];
+    Tips<Scalar> tips;
+    tips.left = value.template head<3>();
+    tips.right = value.template tail<3>();
+    if (before || after) return tips;
+    const TipColumn<Scalar> rate =
+        (piece.c[3] * Scalar(Scalar(3) * u) + piece.c[2] * Scalar(2)) * u + piece.c[1];
+    tips.left_velocity = rate.template head<3>();
+    tips.right_velocity = rate.template tail<3>();
+    return tips;
+  }
+
+  Tips<Scalar> at(double time) const {
+    std::size_t hint = 0;
+    return at(Scalar(time), hint);
+  }
+
+  /// Goes on with another path, moved in time to this one's end.
+  void append(const TipPath& next) {
+    if (next.empty()) return;
+    const Scalar later = empty() ? Scalar(0) : Scalar(end() - next.begin());
+    for (TipPiece<Scalar> piece : next.pieces_) {
+      piece.begin += later;
+      pieces_.push_back(piece);
+    }
+  }
+
+  /// The part up to a time [s] within the path.
+  TipPath until(double time) const {
+    TipPath result;
+    for (TipPiece<Scalar> piece : pieces_) {
+      if (all(piece.begin >= Scalar(time))) break;
+      piece.duration = minimum(piece.duration, Scalar(Scalar(time) - piece.begin));
+      result.pieces_.push_back(piece);
+    }
+    return result;
+  }
+
+ private:
+  Scalar end_of(std::size_t i) const { return pieces_[i].begin + pieces_[i].duration; }
+
+  const TipPiece<Scalar>& piece_at(const Scalar& time, std::size_t& hint) const {
+    if (hint >= pieces_.size() || any(pieces_[hint].begin > time)) hint = 0;
+    while (hint + 1 < pieces_.size() && all(pieces_[hint + 1].begin <= time)) ++hint;
+    return pieces_[hint];
+  }
+
+  std::vector<TipPiece<Scalar>> pieces_;
+};
+
+/// Poses of the path every `interval` [s] or less, for whatever reads tips at given instants.
+inline TipMotion<double> sampled(const TipPath<double>& path, double interval) {
+  if (path.empty()) throw std::invalid_argument("tip path: empty; nothing to sample");
+  if (!(interval > 0.0)) throw std::invalid_argument("interval: must be positive");
+  const auto count = static_cast<std::size_t>(std::ceil((path.end() - path.begin()) / interval - 1e-9));
+  std::vector<double> times;
+  std::vector<Vector3<double>> left, right;
+  std::size_t hint = 0;
+  for (std::size_t i = 0; i <= count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    times.push_back(path.begin() + share * (path.end() - path.begin()));
+    const Tips<double> tips = path.at(times.back(), hint);
+    left.push_back(tips.left);
+    right.push_back(tips.right);
+  }
+  return {times, left, right, Interpolation::kSpline};
+}
+
+}  // namespace diabolo

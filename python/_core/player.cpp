@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/player/player.hpp"
+
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/recording/model.hpp"
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "interrupt.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using namespace py::literals;
+using Vector = Vector3<double>;
+using Column = TipColumn<double>;
+using Spline = StickSpline<double>;
+using Path = TipPath<double>;
+
+template <template <class> class... Effects>
+PlanProblem<Effects...> problem_type(const Predictor<double, Effects...>&);
+template <template <class> class... Effects>
+Horizon<Effects...> horizon_type(const Predictor<double, Effects...>&);
+using Simulator = FullPredictor<double>;
+using Problem = decltype(problem_type(std::declval<Simulator>()));
+using FullHorizon = decltype(horizon_type(std::declval<Simulator>()));
+
+Column column(const Vector& left, const Vector& right) {
+  Column both;
+  both << left, right;
+  return both;
+}
+
+Goals make_goals(std::vector<Waypoint> waypoints, std::optional<Waypoint> final_state,
+                 std::optional<double> spin, double spin_weight, std::optional<double> taut,
+                 std::optional<double> apex, std::optional<Vector> landing, std::optional<double> caught) {
+  Goals goals;
+  goals.waypoints = std::move(waypoints);
+  goals.final_state = std::move(final_state);
+  if (spin) goals.spin = Target{*spin, spin_weight};
+  goals.taut = taut;
+  if (apex) goals.apex = Target{*apex};
+  if (landing) goals.landing = Landing{*landing};
+  goals.caught = caught;
+  goals.validate();
+  return goals;
+}
+
+Spline make_spline(const std::vector<double>& times, const Array& left, const Array& right, bool loop,
+                   const std::optional<std::pair<Column, Column>>& start) {
+  const py::ssize_t size = static_cast<py::ssize_t>(times.size());
+  const std::vector<Vector> lefts = to_rows(left, "left", size), rights = to_rows(right, "right", size);
+  Spline spline;
+  spline.ends = loop ? SplineEnds::kPeriodic : SplineEnds::kClamped;
+  if (!times.empty()) spline.begin = times.front();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    spline.points.push_back(column(lefts[i], rights[i]));
+    if (i > 0) spline.durations.push_back(times[i] - times[i - 1]);
+  }
+  if (start) spline.start = SplineStart<double>{start->first, start->second};
+  spline.validate();
+  return spline;
+}
+
+std::vector<double> times_of(const Spline& spline) {
+  std::vector<double> times{spline.begin};
+  for (const double duration : spline.durations) times.push_back(times.back() + duration);
+  return times;
+}
+
+/// One stick's part of the points, shape (M, 3).
+Eigen::MatrixXd points_of(const Spline& spline, int side) {
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(spline.points.size()), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    points.row(i) = spline.points[static_cast<std::size_t>(i)].segment<3>(3 * side);
+  return points;
+}
+
+/// Position and three derivatives at each time, shape (4, N, 6).
+Array derivatives_of(const Path& path, const Array& times) {
+  expect_shape(times, "times", {kAny});
+  expect_finite(times, "times");
+  if (path.empty()) throw std::invalid_argument("tip path: empty");
+  Array result({py::ssize_t{4}, times.shape(0), py::ssize_t{6}});
+  for (py::ssize_t i = 0; i < times.shape(0); ++i) {
+    const auto derivatives = path.derivatives_at(times.data()[i]);
+    for (py::ssize_t k = 0; k < 4; ++k)
+      for (py::ssize_t c = 0; c < 6; ++c)
+        result.mutable_at(k, i, c) = derivatives[static_cast<std::size_t>(k)][c];
+  }
+  return result;
+}
+
+/// Time, states, string states, left and right tips of what a plan leads to.
+py::tuple play_of(const Play<double>& play) {
+  const Eigen::Index size = static_cast<Eigen::Index>(play.instants.size());
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::VectorXd time(size);
+  Rows states(size, 7), left(size, 3), right(size, 3);
+  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1> codes(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const PlayInstant<double>& instant = play.instants[static_cast<std::size_t>(i)];
+    time[i] = instant.time;
+    states.row(i) << instant.state.position.transpose(), instant.state.velocity.transpose(),
+        instant.state.spin;
+    codes[i] = static_cast<std::uint8_t>(instant.state.string_state);
+    left.row(i) = instant.tips.left;
+    right.row(i) = instant.tips.right;
+  }
+  return py::make_tuple(time, states, codes, left, right);
+}
+
+Simulator simulator(const Model& model) { return Simulator(model.parameters, model.effects); }
+
+Problem make_problem(const std::vector<Model>& models, const State<double>& start, const Spline& seed,
+                     const Goals& goals, const TipLimits& limits, const Freedom& freedom, double dt) {
+  Problem problem{{}, start, seed, goals, limits, freedom, dt};
+  for (const Model& model : models) problem.models.push_back(simulator(model));
+  return problem;
+}
+
+Budget budget_of(int evaluations, double seconds, const std::atomic<bool>& cancel) {
+  if (!(seconds > 0.0)) throw std::invalid_argument("seconds: must be positive");
+  if (evaluations < 1) throw std::invalid_argument("evaluations: must be positive");
+  return {evaluations, [end = deadline(seconds), &cancel] { return cancel.load() || end(); }};
+}
+
+Plan make_plan(const std::vector<Model>& models, const State<double>& start, const Spline& seed,
+               const Goals& goals, const TipLimits& limits, const Freedom& freedom, const std::string& solver,
+               int evaluations, double seconds, std::uint64_t random_seed, double dt) {
+  const Problem problem = make_problem(models, start, seed, goals, limits, freedom, dt);
+  Plan plan;
+  run_interruptibly([&](const std::atomic<bool>& cancel) {
+    const Budget budget = budget_of(evaluations, seconds, cancel);
+    std::mt19937_64 generator(random_seed);
+    if (solver == "gradient")
+      plan = GradientSearch{}(problem, budget);
+    else if (solver == "walk")
+      plan = RandomWalk{}(problem, budget, generator);
+    else
+      throw std::invalid_argument("solver: '" + solver + "'; expected gradient or walk");
+  });
+  return plan;
+}
+
+/// The plans of throw and catch, and the path of both.
+py::tuple make_throw_and_catch(const std::vector<Model>& models, const State<double>& start,
+                               const Spline& seed, const Goals& goals, const TipLimits& limits,
+                               const Freedom& freedom, int evaluations, double seconds, double dt) {
+  const Problem problem = make_problem(models, start, seed, goals, limits, freedom, dt);
+  ThrowAndCatch both;
+  run_interruptibly([&](const std::atomic<bool>& cancel) {
+    both = plan_throw_and_catch(problem, GradientSearch{}, budget_of(evaluations, seconds, cancel));
+  });
+  return py::make_tuple(both.thrown, both.caught, both.path, both.reached);
+}
+
+/// What a path leads to by a model.
+py::tuple foresee(const Model& model, const State<double>& start, const Path& path, double dt,
+                  double flight) {
+  if (path.empty()) throw std::invalid_argument("tip path: empty");
+  if (!(dt >= 1e-5 && dt <= 0.1)) throw std::invalid_argument("dt: must be within 0.00001 and 0.1 s");
+  return play_of(play(simulator(model), start, path, {.dt = dt, .flight = flight}));
+}
+
+/// The paper's residual of a path, for solvers of one's own; infinite where it breaks a limit.
+double cost(const std::vector<Model>& models, const State<double>& start, const Spline& motion,
+            const Goals& goals, const TipLimits& limits, double dt) {
+  const Problem problem = make_problem(models, start, motion, goals, limits, Freedom{}, dt);
+  problem.validate();
+  const Path path = path_of(motion);
+  return keeps(path, limits, problem.string_length()) ? problem.cost(path, dt, false) : INFINITY;
+}
+
+void bind_goals(py::module_& module) {
+  py::class_<Waypoint>(module, "Waypoint",
+                       "A state of the diabolo that is wanted: position [m] and velocity [m/s], and the "
+                       "weights of the paper's costs: distance, difference of speeds, angle.")
+      .def(py::init([](const Vector& position, const Vector& velocity, double by_position, double by_speed,
+                       double by_direction) {
+             return Waypoint{position, velocity, by_position, by_speed, by_direction};
+           }),
+           "position"_a, "velocity"_a = Vector(Vector::Zero()), "position_weight"_a = 1.0,
+           "velocity_weight"_a = 0.0, "direction_weight"_a = 0.0)
+      .def_readwrite("position", &Waypoint::position)
+      .def_readwrite("velocity", &Waypoint::velocity)
+      .def_readwrite("position_weight", &Waypoint::position_weight)
+      .def_readwrite("velocity_weight", &Waypoint::velocity_weight)
+      .def_readwrite("direction_weight", &Waypoint::direction_weight);
+  py::class_<Goals>(module, "Goals",
+                    R"(What a plan shall achieve; what is not given does not count.
+
+waypoints are passed in this order; final_state and spin [rad/s] hold at the end; taut is the weight of slack;
+apex [m], above the tips, and landing [m] are those of the flight that the motion ends in; caught is the weight
+of missing a diabolo that flies.)")
+      .def(py::init(&make_goals), "waypoints"_a = std::vector<Waypoint>(), "final_state"_a = py::none(),
+           "spin"_a = py::none(), "spin_weight"_a = 0.02, "taut"_a = py::none(), "apex"_a = py::none(),
+           "landing"_a = py::none(), "caught"_a = py::none())
+      .def_readonly("waypoints", &Goals::waypoints)
+      .def_readonly("final_state", &Goals::final_state)
+      .def_readonly("taut", &Goals::taut)
+      .def_readonly("caught", &Goals::caught)
+      .def_property_readonly(
+          "spin", [](const Goals& g) { return g.spin ? std::optional(g.spin->value) : std::nullopt; })
+      .def_property_readonly(
+          "apex", [](const Goals& g) { return g.apex ? std::optional(g.apex->value) : std::nullopt; })
+      .def_property_readonly("landing", [](const Goals& g) {
+        return g.landing ? std::optional(g.landing->position) : std::nullopt;
+      });
+}
+
+void bind_limits(py::module_& module) {
+  py::class_<LimitUse>(module, "LimitUse",
+                       "How much of a limit a path uses: value, limit, and the excess, at most zero where it "
+                       "is kept, as a share or in metres.")
+      .def(py::init<std::string, double, double, std::string, double, double>(), "name"_a, "value"_a,
+           "limit"_a, "unit"_a, "time"_a, "excess"_a)
+      .def_readonly("name", &LimitUse::name)
+      .def_readonly("value", &LimitUse::value)
+      .def_readonly("limit", &LimitUse::limit)
+      .def_readonly("unit", &LimitUse::unit)
+      .def_readonly("time", &LimitUse::time)
+      .def_readonly("excess", &LimitUse::excess);
+  py::class_<TipLimits>(module, "TipLimits",
+                        R"(What the tips may do; every plan keeps it.
+
+speed [m/s], acceleration [m/s^2] and jerk [m/s^3] of either tip; string_margin [m]: the tips stay closer than
+the string is long by this; least_gap [m]: the left tip stays to the left of the right one by this; lowest and
+highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
+robot's.)")
+      .def(py::init([](double speed, double acceleration, double jerk, double string_margin, double least_gap,
+                       const Vector& lowest, const Vector& highest,
+                       std::function<std::vector<LimitUse>(const Path&)> others) {
+             TipLimits limits{speed,     acceleration, jerk,    string_margin,
+                              least_gap, lowest,       highest, std::move(others)};
+             limits.validate();
+             return limits;
+           }),
+           "speed"_a = TipLimits{}.speed, "acceleration"_a = TipLimits{}.acceleration,
+           "jerk"_a = TipLimits::kNone, "string_margin"_a = TipLimits{}.string_margin,
+           "least_gap"_a = TipLimits{}.least_gap, "lowest"_a = TipLimits{}.lowest,
+           "highest"_a = TipLimits{}.highest, "others"_a = nullptr)
+      .def_readonly("speed", &TipLimits::speed)
+      .def_readonly("acceleration", &TipLimits::acceleration)
+      .def_readonly("jerk", &TipLimits::jerk)
+      .def_readonly("string_margin", &TipLimits::string_margin)
+      .def_readonly("least_gap", &TipLimits::least_gap)
+      .def_readonly("lowest", &TipLimits::lowest)
+      .def_readonly("highest", &TipLimits::highest);
+  module.def("limit_uses", &limit_uses, "path"_a, "limits"_a, "string_length"_a,
+             "How much a path uses of each limit, from its exact maxima.");
+  py::class_<Freedom>(module, "Freedom",
+                      "What a solver may change of a seed: x too, durations, the last point; up to a reach "
+                      "[m] of each coordinate and a stretch of each duration, as a share.")
+      .def(py::init([](bool forward, bool times, bool last_point, double reach, double stretch) {
+             Freedom freedom{forward, times, last_point, reach, stretch};
+             freedom.validate();
+             return freedom;
+           }),
+           "forward"_a = false, "times"_a = true, "last_point"_a = true, "reach"_a = 0.4, "stretch"_a = 0.25)
+      .def_readonly("forward", &Freedom::forward)
+      .def_readonly("times", &Freedom::times)
+      .def_readonly("last_point", &Freedom::last_point)
+      .def_readonly("reach", &Freedom::reach)
+      .def_readonly("stretch", &Freedom::stretch);
+}
+
+void bind_motions(py::module_& module) {
+  py::class_<Path>(module, "TipPath", "Planned motion of the tips: piecewise cubics.")
+      .def_property_readonly("begin", &Path::begin, "[s]")
+      .def_property_readonly("end", &Path::end, "[s]")
+      .def("derivatives", &derivatives_of, "times"_a,
+           "Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): "
+           "shape (4, N, 6).")
+      .def(
+          "tips", [](const Path& path, double interval) { return sampled(path, interval); },
+          "interval"_a = 2e-3, "The same motion in samples [s], for predictions.")
+      .def(
+          "followed_by",
+          [](Path path, const Path& next) {
+            path.append(next);
+            return path;
+          },
+          "next"_a, "This path and then another one, moved in time to this one's end.");
+  py::class_<Spline>(module, "StickSpline",
+                     R"(A motion of the tips by control points: a clamped or periodic cubic spline.
+
+times [s], shape (M,); left and right [m], shape (M, 3); loop: it ends as it begins; start: velocity and
+acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right.)")
+      .def(py::init(&make_spline), "times"_a, "left"_a, "right"_a, "loop"_a = false, "start"_a = py::none())
+      .def_property_readonly("times", &times_of)
+      .def_property_readonly("left", [](const Spline& s) { return points_of(s, 0); })
+      .def_property_readonly("right", [](const Spline& s) { return points_of(s, 1); })
+      .def("path", &path_of<double>, "The TipPath through the points.");
+  py::class_<Action>(module, "Action", "A figure of play: seed motion, freedom and goals.")
+      .def_readonly("name", &Action::name)
+      .def_readonly("seed", &Action::seed)
+      .def_readonly("freedom", &Action::freedom)
+      .def_readonly("goals", &Action::goals);
+  std::vector<std::string> names(kActionNames.begin(), kActionNames.end());
+  module.attr("ACTION_NAMES") = py::tuple(py::cast(names));
+  module.def(
+      "home_pose",
+      [](const std::string& name, double string_length) {
+        const Column home = home_pose(name, string_length);
+        return std::pair<Vector, Vector>(home.head<3>(), home.tail<3>());
+      },
+      "name"_a, "string_length"_a, "Where the tips start a figure [m]: left and right.");
+  module.def(
+      "hanging_state",
+      [](const Vector& left, const Vector& right, double string_length, double spin) {
+        return hanging_state(column(left, right), string_length, spin);
+      },
+      "left"_a, "right"_a, "string_length"_a, "spin"_a = 0.0, "A diabolo that hangs at rest below the tips.");
+  module.def(
+      "action",
+      [](const std::string& name, const Vector& left, const Vector& right, const State<double>& start,
+         double string_length, double size, double pace, double height, double sideways,
+         std::optional<double> spin) {
+        return action_named(name, column(left, right), start, string_length,
+                            {size, pace, height, sideways, spin});
+      },
+      "name"_a, "left"_a, "right"_a, "start"_a, "string_length"_a, "size"_a = 1.0, "pace"_a = 1.0,
+      "height"_a = 0.5, "sideways"_a = 0.3, "spin"_a = py::none(),
+      "The figure of that name from a pose of the tips and a state of the diabolo.");
+}
+
+void bind_plans(py::module_& module) {
+  py::class_<GoalCost>(module, "GoalCost", "How far a plan is off one goal.")
+      .def_readonly("name", &GoalCost::name)
+      .def_readonly("weight", &GoalCost::weight)
+      .def_readonly("error", &GoalCost::error)
+      .def_readonly("tolerance", &GoalCost::tolerance)
+      .def_readonly("reached", &GoalCost::reached);
+  py::class_<Plan>(module, "Plan", "A motion that was found, and what it leads to. It keeps its limits.")
+      .def_readonly("motion", &Plan::motion)
+      .def_readonly("path", &Plan::path)
+      .def_readonly("goals", &Plan::goals)
+      .def_readonly("cost", &Plan::cost)
+      .def_readonly("limits", &Plan::limits)
+      .def_readonly("reached", &Plan::reached)
+      .def_readonly("answer", &Plan::answer)
+      .def_readonly("evaluations", &Plan::evaluations)
+      .def_property_readonly(
+          "play", [](const Plan& plan) { return play_of(plan.play); },
+          "Times, states (N, 7), string states, left and right tips.")
+      .def_property_readonly(
+          "end", [](const Plan& plan) { return plan.play.end().state; }, "State at the end of the motion.");
+  module.def("plan", &make_plan, "models"_a, "start"_a, "seed"_a, "goals"_a, "limits"_a, "freedom"_a,
+             "solver"_a, "evaluations"_a, "seconds"_a, "random_seed"_a, "dt"_a, "See diabolo.plan.");
+  module.def(
+      "plan_throw_and_catch", &make_throw_and_catch, "models"_a, "start"_a, "seed"_a, "goals"_a, "limits"_a,
+      "freedom"_a, "evaluations"_a, "seconds"_a, "dt"_a,
+      "Plans of a throw and of the catch that follows, the path of both, and whether both are reached.");
+  module.def("foresee", &foresee, "model"_a, "start"_a, "path"_a, "dt"_a = 1e-3, "flight"_a = 0.0,
+             "What a path leads to by a model: times, states (N, 7), string states, left and right tips.");
+  module.def("plan_cost", &cost, "models"_a, "start"_a, "motion"_a, "goals"_a, "limits"_a, "dt"_a = 4e-3,
+             "The paper's residual of a motion; infinite where it breaks a limit.");
+  py::class_<Seam>(module, "Seam", "Where a new piece of motion sets in.")
+      .def_readonly("time", &Seam::time)
+      .def_readonly("state", &Seam::state)
+      .def("joined", &joined_at, "seed"_a, "A seed moved there, which goes on from the tips' motion.")
+      .def_property_readonly("left", [](const Seam& s) { return Vector(s.tips.head<3>()); })
+      .def_property_readonly("right", [](const Seam& s) { return Vector(s.tips.tail<3>()); })
+      .def(
+          "catch",
+          [](const Seam& seam, const Vector& left, const Vector& right, const Model& model) {
+            return catch_action(seam, column(left, right), model.parameters.string_length,
+                                model.parameters.catch_slack, model.parameters.gravity);
+          },
+          "home_left"_a, "home_right"_a, "model"_a, "The action that catches the diabolo, which flies.");
+  py::class_<FullHorizon>(module, "Horizon", R"(Motion that is planned piece by piece while it is played.
+
+    seam = horizon.seam(now)         # where a plan that is begun now can set in
+    piece = ...                      # a plan from seam.state, its seed seam.joined(...)
+    horizon.join(seam, piece, now, planning_time)  # False where it comes too late)")
+      .def(py::init(
+               [](const Model& model, const Vector& left, const Vector& right, const State<double>& state,
+                  double begin) { return FullHorizon(simulator(model), column(left, right), state, begin); }),
+           "model"_a, "left"_a, "right"_a, "state"_a, "begin"_a = 0.0)
+      .def_property_readonly("path", &FullHorizon::path)
+      .def("observe", &FullHorizon::observe, "time"_a, "state"_a,
+           "Takes over an observed state; predictions begin with the latest one.")
+      .def("seam", &FullHorizon::seam, "now"_a)
+      .def("seam_at", &FullHorizon::seam_at, "time"_a)
+      .def("join", &FullHorizon::join, "seam"_a, "plan"_a, "now"_a, "planning_time"_a);
+}
+
+}  // namespace
+
+void bind_player(py::module_& module) {
+  bind_goals(module);
+  bind_limits(module);
+  bind_motions(module);
+  bind_plans(module);
+}
+
+}  // namespace diabolo::python

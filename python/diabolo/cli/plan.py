@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo plan`: stick motions that make the diabolo do what is wanted."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._core import DiaboloProperties, Recording, TipLimits, Waypoint
+from ..enums import StringState
+from ..evaluation import DEFAULT_MODELS
+from ..player import ACTIONS, PlannedPlay, plan_action
+from ..view import view_html
+from . import files, plots
+from .arguments import add_command, read_model
+from .simulate import played_recording
+
+SCHEMA = "diabolo.plan/1"
+RATE = 240.0  # of the recording that is written [Hz]
+# What --goal understands, and what plan_action calls it.
+GOALS = {"height": "height", "sideways": "sideways", "spin": "spin_gain"}
+LIMITS = ("speed", "acceleration", "jerk")
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(
+        commands,
+        "plan",
+        run=run,
+        summary="find stick motions for a figure of play",
+        text="Find a motion of the stick tips that makes the diabolo do what is wanted, and write it with\n"
+        "what it leads to: as a tidy recording, a picture and a page.",
+        example="  diabolo plan throw_and_catch --goal height=0.6 --out throw.csv --html throw.html\n"
+        "  diabolo plan linear_acceleration --cycles 4 --model diagnosis/model.json --plot plan.png",
+    )
+    parser.add_argument("action", metavar="ACTION", choices=ACTIONS, help=", ".join(ACTIONS))
+    parser.add_argument(
+        "--goal",
+        metavar="NAME=X",
+        action="append",
+        default=[],
+        help="height of a throw's apex above the tips or of a hop [m], sideways (to the left, [m]), "
+        "spin gained by a cycle [rad/s]; may be given again",
+    )
+    parser.add_argument(
+        "--limit",
+        metavar="NAME=X",
+        action="append",
+        default=[],
+        help="of the tips: speed (4 m/s), acceleration (60 m/s^2), jerk (none); may be given again",
+    )
+    parser.add_argument(
+        "--model",
+        metavar="NAME",
+        default="consistent",
+        help="what the diabolo does: consistent (default), paper, published or a model file",
+    )
+    parser.add_argument("--cycles", metavar="N", type=int, default=1, help="so many in a row; default 1")
+    parser.add_argument(
+        "--spin", metavar="W", type=float, default=100.0, help="at the start [rad/s]; default 100"
+    )
+    parser.add_argument("--size", metavar="X", type=float, default=1.0, help="of the seed motion; default 1")
+    parser.add_argument("--pace", metavar="X", type=float, default=1.0, help="of the seed motion; default 1")
+    parser.add_argument("--solver", choices=("gradient", "walk"), default="gradient", help="default gradient")
+    parser.add_argument(
+        "--seconds", metavar="S", type=float, default=10.0, help="for a plan at most; default 10"
+    )
+    parser.add_argument("--random-seed", metavar="N", type=int, default=1, help="of the walk; default 1")
+    parser.add_argument("--out", metavar="FILE.csv", help="tips and diabolo, with FILE.json beside it")
+    parser.add_argument("--plot", metavar="FILE", help="a picture: .png, .pdf or .svg")
+    parser.add_argument("--html", metavar="FILE", help="a page that shows it in three dimensions")
+    parser.add_argument("--json", metavar="FILE", help="write a summary as JSON; - is standard output")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    out = Path(arguments.out) if arguments.out else None
+    if out is not None and out.suffix != ".csv":
+        raise ValueError(f"{out}: expected a name that ends in .csv")
+    inputs = [arguments.model] if arguments.model not in DEFAULT_MODELS else []
+    beside = out.with_suffix(".json") if out else None
+    files.check_outputs([out, beside, arguments.plot, arguments.html, arguments.json], inputs)
+    if arguments.plot:
+        plots.check(arguments.plot)
+    if not math.isfinite(arguments.spin):
+        raise ValueError(f"--spin {arguments.spin}: expected a finite number")
+    goals = _numbers("--goal", arguments.goal, tuple(GOALS))
+    model = read_model(arguments.model)
+    played = plan_action(
+        arguments.action,
+        model,
+        cycles=arguments.cycles,
+        spin=arguments.spin,
+        size=arguments.size,
+        pace=arguments.pace,
+        limits=TipLimits(**_numbers("--limit", arguments.limit, LIMITS)),
+        solver=arguments.solver,
+        seconds=arguments.seconds,
+        random_seed=arguments.random_seed,
+        **{GOALS[name]: value for name, value in goals.items()},
+    )
+    title = out.stem if out else arguments.action
+    p = model.parameters
+    recording = recording_of(
+        played, title, DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius), p.string_length
+    )
+    if out:
+        recording.save(out)
+    if arguments.plot:
+        plots.draw_plan(arguments.plot, played)
+    if arguments.html:
+        page = view_html(recording, goals=wanted_states(played), note=played.answer)
+        files.write_texts({Path(arguments.html): page})
+    found = summary(played, model.name)
+    files.write_json(arguments.json, found)
+    if arguments.json != files.STDOUT:
+        print(text_of(found))
+
+
+def recording_of(
+    played: PlannedPlay, title: str, properties: DiaboloProperties, string_length: float
+) -> Recording:
+    """The plan as a recording, RATE samples a second."""
+    time = np.arange(int(played.time[-1] * RATE + 1e-6) + 1) / RATE
+    nearest = np.clip(np.searchsorted(played.time, time), 1, len(played.time) - 1)
+    share = (time - played.time[nearest - 1]) / (played.time[nearest] - played.time[nearest - 1])
+    states = played.states[nearest - 1] + share[:, None] * (
+        played.states[nearest] - played.states[nearest - 1]
+    )
+    tips = played.path.derivatives(np.minimum(time, played.path.end))[0]
+    return played_recording(title, time, tips[:, :3], tips[:, 3:], states, RATE, properties, string_length)
+
+
+def wanted_states(played: PlannedPlay) -> list[Waypoint]:
+    """The states that were wanted, of the first plan of each kind."""
+    wanted: list[Waypoint] = []
+    for one in played.wanted:
+        wanted += one.waypoints
+        if one.final_state is not None:
+            wanted.append(one.final_state)
+        if one.landing is not None:
+            wanted.append(Waypoint(one.landing))
+    return wanted
+
+
+def summary(played: PlannedPlay, model: str) -> dict[str, Any]:
+    """The figures, for JSON of the schema diabolo.plan/1."""
+    flying = played.string_states == StringState.FLYING
+    release = played.path.derivatives(np.array([played.plans[0].path.end]))[0][0]
+    above = played.states[:, 2] - 0.5 * (release[2] + release[5])  # the tips at the throw's end
+    return {
+        "schema": SCHEMA,
+        "action": played.action,
+        "model": model,
+        "reached": played.reached,
+        "answer": played.answer,
+        "duration_s": float(played.path.end - played.path.begin),
+        "planning_s": played.planning_time,
+        "spin_rad_s": [float(played.states[0, 6]), float(played.states[-1, 6])],
+        "highest_above_tips_m": float(above[flying].max()) if flying.any() else None,
+        "flight_s": float(np.sum(np.diff(played.time)[flying[1:]])),
+        "plans": [
+            {
+                "cost": plan.cost,
+                "evaluations": plan.evaluations,
+                "reached": plan.reached,
+                "goals": [
+                    {
+                        "name": goal.name,
+                        "error": goal.error,
+                        "tolerance": goal.tolerance,
+                        "reached": goal.reached,
+                    }
+                    for goal in plan.goals
+                ],
+                "limits": [
+                    {
+                        "name": use.name,
+                        "value": use.value,
+                        "limit": use.limit,
+                        "unit": use.unit,
+                        "time": use.time,
+                    }
+                    for use in plan.limits
+                    if math.isfinite(use.limit)
+                ],
+            }
+            for plan in played.plans
+        ],
+    }
+
+
+def text_of(found: dict[str, Any]) -> str:
+    before, after = found["spin_rad_s"]
+    text = (
+        f"{found['action']}: {found['answer']}; {found['duration_s']:.2f} s of motion planned in "
+        f"{1e3 * found['planning_s']:.0f} ms; spin {before:.1f} to {after:.1f} rad/s"
+    )
+    if found["highest_above_tips_m"] is not None:
+        text += (
+            f"; flight {found['flight_s']:.2f} s, up to {found['highest_above_tips_m']:.2f} m above the tips"
+        )
+    return text
+
+
+def _numbers(option: str, given: list[str], known: tuple[str, ...]) -> dict[str, float]:
+    """NAME=X of an option that may be given again."""
+    numbers: dict[str, float] = {}
+    for text in given:
+        name, _, value = text.partition("=")
+        if name not in known:
+            raise ValueError(f"{option} {text}: expected NAME=X with one of {', '.join(known)}")
+        if name in numbers:
+            raise ValueError(f"{option} {text}: {name} is given twice")
+        try:
+            numbers[name] = float(value)
+        except ValueError:
+            raise ValueError(f"{option} {text}: '{value}' is no number") from None
+        if not math.isfinite(numbers[name]):
+            raise ValueError(f"{option} {text}: expected a finite number")
+    return numbers

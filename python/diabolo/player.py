@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: MIT
+"""Stick motions that make the diabolo do what is wanted."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._core import (
+    ACTION_NAMES,
+    Freedom,
+    Goals,
+    Model,
+    Parameters,
+    Plan,
+    State,
+    StickSpline,
+    TipLimits,
+    TipPath,
+)
+from .checks import LARGEST_SEED, list_of, model_of, whole_number
+from .enums import StringState
+
+AnyModel: TypeAlias = Model | Parameters | str
+Solver: TypeAlias = Literal["gradient", "walk"]
+
+ACTIONS: tuple[str, ...] = (*(name for name in ACTION_NAMES if name != "catch"), "throw_and_catch")
+"""What `plan_action` knows."""
+MOST_CYCLES = 1000
+
+
+class PlannedPlay(NamedTuple):
+    """A planned motion, and what it leads to by the model that it was planned with."""
+
+    action: str
+    path: TipPath
+    """Of the tips."""
+    plans: list[Plan]
+    """One a cycle; of a throw and catch, two."""
+    wanted: list[Goals]
+    """The goals of the first cycle."""
+    start: State
+    time: NDArray[np.float64]
+    """[s], shape (N,)."""
+    states: NDArray[np.float64]
+    """Position [m], velocity [m/s] and spin [rad/s], shape (N, 7)."""
+    string_states: NDArray[np.uint8]
+    """As in StringState, shape (N,)."""
+    left: NDArray[np.float64]
+    """Left tip [m], shape (N, 3)."""
+    right: NDArray[np.float64]
+    planning_time: float
+    """Of all plans together [s]."""
+
+    @property
+    def reached(self) -> bool:
+        """Whether every goal is reached."""
+        return all(plan.reached for plan in self.plans)
+
+    @property
+    def answer(self) -> str:
+        """The same in a sentence: that of the first plan that misses a goal."""
+        return next((plan.answer for plan in self.plans if not plan.reached), "every goal is reached")
+
+
+def plan(
+    start: State,
+    seed: StickSpline,
+    goals: Goals,
+    model: AnyModel | Sequence[AnyModel] = "consistent",
+    *,
+    limits: TipLimits | None = None,
+    freedom: Freedom | None = None,
+    solver: Solver = "gradient",
+    evaluations: int = 100_000,
+    seconds: float = 10.0,
+    random_seed: int = 1,
+    dt: float = 4e-3,
+) -> Plan:
+    """Find a motion of the tips near `seed` that reaches the goals and keeps the limits.
+
+    start: of the diabolo when the motion begins.
+    model: what the diabolo may do. Several are planned for at once: their mean cost counts, and the first
+        one is the nominal one.
+    solver: "gradient" follows derivatives through the prediction; "walk" is the paper's random walk, whose
+        random numbers `random_seed` decides.
+    evaluations, seconds: at most so many motions are predicted, at most so long; then the best so far counts.
+    dt: longest step of the search [s].
+
+    Every plan keeps its limits. A goal that is missed is named by `answer`, with what stood in the way.
+    Ctrl-C ends it at once. Raises ValueError about bad input.
+    """
+    return _core.plan(
+        _models(model),
+        start,
+        seed,
+        goals,
+        limits or TipLimits(),
+        freedom or Freedom(),
+        solver,
+        whole_number("evaluations", evaluations, 1, 2**31 - 1),
+        seconds,
+        whole_number("random_seed", random_seed, 0, LARGEST_SEED),
+        dt,
+    )
+
+
+def plan_action(
+    name: str,
+    model: AnyModel | Sequence[AnyModel] = "consistent",
+    *,
+    start: State | None = None,
+    cycles: int = 1,
+    spin: float = 100.0,
+    size: float = 1.0,
+    pace: float = 1.0,
+    height: float | None = None,
+    sideways: float | None = None,
+    spin_gain: float | None = None,
+    limits: TipLimits | None = None,
+    solver: Solver = "gradient",
+    seconds: float = 10.0,
+    random_seed: int = 1,
+    dt: float = 4e-3,
+) -> PlannedPlay:
+    """Plan a figure of play from its home pose.
+
+    name: one of ACTIONS. start: of the diabolo; by default it hangs at rest with the given spin [rad/s].
+    cycles: so many in a row, each planned from the predicted end of the one before.
+    size, pace: of the seed's hands, relative to the usual ones.
+    height: of a throw's apex above the tips, or of a hop [m]; sideways: how far to the left a swing goes or a
+    throw comes down [m]; spin_gain: wanted of each cycle of acceleration [rad/s] (needs a model with string
+    friction). The rest is as for `plan`.
+
+        plan_action("throw_and_catch", height=0.6).answer
+    """
+    if name not in ACTIONS:
+        raise ValueError(f"action '{name}'; expected one of {', '.join(ACTIONS)}")
+    cycles = whole_number("cycles", cycles, 1, MOST_CYCLES)
+    catches = name == "throw_and_catch"
+    figure = name if not catches else "side_throw" if sideways else "throw"
+    if figure in ("throw", "side_throw") and not catches and cycles > 1:
+        raise ValueError(f"cycles: {cycles}; a throw that is not caught has one")
+    models = _models(model)
+    length = models[0].parameters.string_length
+    left, right = _core.home_pose(figure, length)
+    initial = start or _core.hanging_state(left, right, length, spin)
+    if start is None and figure == "stop":
+        initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
+    limits = limits or TipLimits()
+    path: TipPath | None = None
+    plans: list[Plan] = []
+    wanted: list[Goals] = []
+    state, began = initial, time.perf_counter()
+    for _ in range(cycles):
+        action = _core.action(
+            figure,
+            left,
+            right,
+            state,
+            length,
+            size=size,
+            pace=pace,
+            height=(0.15 if figure == "hop" else 0.5) if height is None else height,
+            sideways=0.3 if sideways is None else sideways,
+            spin=spin_gain,
+        )
+        wanted = wanted or [action.goals]
+        if catches:
+            thrown, caught, piece, _ = _core.plan_throw_and_catch(
+                models, state, action.seed, action.goals, limits, action.freedom, 100_000, seconds, dt
+            )
+            has_flown = thrown.end.string_state == StringState.FLYING
+            plans += [thrown, caught] if has_flown else [thrown]
+        else:
+            plans.append(
+                plan(
+                    state,
+                    action.seed,
+                    action.goals,
+                    models,
+                    limits=limits,
+                    freedom=action.freedom,
+                    solver=solver,
+                    seconds=seconds,
+                    random_seed=random_seed,
+                    dt=dt,
+                )
+            )
+            piece = plans[-1].path
+        path = piece if path is None else path.followed_by(piece)
+        state = plans[-1].end
+    assert path is not None
+    took = time.perf_counter() - began
+    flight = 0.8 if figure in ("throw", "side_throw") and not catches else 0.0
+    return PlannedPlay(
+        name,
+        path,
+        plans,
+        wanted,
+        initial,
+        *_core.foresee(models[0], initial, path, flight=flight),
+        planning_time=took,
+    )
+
+
+def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
+    """The share of the models by which the diabolo of a planned motion ends on its string, close to where it
+    was planned to (0.3 m): how robust the motion is."""
+    ended = 0
+    for one in list_of("models", models, (Model,)):
+        _, states, codes, _, _ = _core.foresee(one, play.start, play.path)
+        close = float(np.linalg.norm(states[-1, :3] - play.states[-1, :3])) < 0.3
+        ended += close and codes[-1] != StringState.FLYING
+    return ended / len(models)
+
+
+def _models(given: AnyModel | Sequence[AnyModel]) -> list[Model]:
+    several = [given] if isinstance(given, (Model, Parameters, str)) else list(given)
+    if not several:
+        raise ValueError("model: none; at least one expected")
+    return [Model(one) if isinstance(one, Parameters) else model_of("model", one) for one in several]

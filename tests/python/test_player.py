@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: MIT
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import diabolo
+import numpy as np
+import pytest
+from conftest import Command
+from diabolo import Goals, Model, Parameters, StickSpline, StringFriction, TipLimits, Waypoint
+from diabolo.enums import StringState
+from diabolo.player import ACTIONS
+
+LENGTH = 1.45
+
+
+def swing() -> tuple[diabolo.State, StickSpline]:
+    """A diabolo at rest under tips that will stay where they are."""
+    left, right = np.array([0.5, 0.3, 1.2]), np.array([0.5, -0.3, 1.2])
+    start = diabolo._core.hanging_state(left, right, LENGTH, 100.0)
+    times = [0.0, 0.3, 0.6, 0.9]
+    return start, StickSpline(times, np.tile(left, (4, 1)), np.tile(right, (4, 1)))
+
+
+def test_plan_reaches_a_goal_state() -> None:
+    start, seed = swing()
+    wanted = np.array([0.5, 0.15, start.position[2] + 0.03])
+    plan = diabolo.plan(start, seed, Goals(final_state=Waypoint(wanted)))
+    assert plan.reached, plan.answer
+    time, states, _, _, _ = plan.play
+    assert np.linalg.norm(states[-1, :3] - wanted) < 0.02
+    assert time[-1] == pytest.approx(plan.path.end)
+    # The same by the library's own rollout of the sampled tips.
+    initial = [*start.position, *start.velocity, start.spin]
+    again = diabolo.rollout(Parameters(), initial, plan.path.tips(1e-3), string_state="on_string")
+    assert np.linalg.norm(again.states[-1, :3] - wanted) < 0.02
+
+
+def test_plans_keep_their_limits() -> None:
+    start, seed = swing()
+    goals = Goals(final_state=Waypoint([0.5, 0.3, 0.6]))
+    plan = diabolo.plan(start, seed, goals, limits=TipLimits(speed=0.3, acceleration=3.0))
+    motion = plan.path.derivatives(np.linspace(plan.path.begin, plan.path.end, 2000))
+    for side in (slice(0, 3), slice(3, 6)):
+        assert np.linalg.norm(motion[1][:, side], axis=1).max() <= 0.3
+        assert np.linalg.norm(motion[2][:, side], axis=1).max() <= 3.0
+    assert not plan.reached
+    assert "what binds" in plan.answer
+
+
+def test_limits_in_python_are_kept() -> None:
+    start, seed = swing()
+
+    def elbow(path: diabolo.TipPath) -> list[diabolo.LimitUse]:
+        most = float(path.derivatives(np.linspace(path.begin, path.end, 50))[0][:, 1].max())
+        return [diabolo.LimitUse("elbow", most, 0.32, "m", 0.0, most - 0.32)]
+
+    plan = diabolo.plan(
+        start, seed, Goals(final_state=Waypoint([0.5, 0.3, 0.6])), limits=TipLimits(others=elbow)
+    )
+    assert plan.limits[-1].name == "elbow"
+    assert plan.limits[-1].value <= 0.32
+
+
+def test_random_walk_repeats_itself() -> None:
+    start, seed = swing()
+    goals = Goals(final_state=Waypoint([0.5, 0.15, 0.6]))
+    first, again, other = (
+        diabolo.plan(start, seed, goals, solver="walk", evaluations=200, random_seed=n) for n in (3, 3, 4)
+    )
+    assert first.cost == again.cost
+    assert first.cost != other.cost
+    assert first.evaluations == 200
+
+
+@pytest.mark.parametrize("height", [0.3, 0.8])
+def test_throw_and_catch(height: float) -> None:
+    played = diabolo.plan_action("throw_and_catch", height=height)
+    assert played.reached, played.answer
+    flying = played.string_states == StringState.FLYING
+    above = played.states[:, 2] - 0.5 * (played.left[:, 2] + played.right[:, 2])
+    assert flying.any() and not flying[-1]
+    release_tips = played.plans[0].path.derivatives(np.array([played.plans[0].path.end]))[0][0]
+    apex = played.states[:, 2].max() - 0.5 * (release_tips[2] + release_tips[5])
+    assert apex == pytest.approx(height, abs=0.01)
+    assert above[-1] < -0.3
+    assert np.linalg.norm(played.states[-1, 3:6]) < 0.3
+
+
+def test_cycles_go_on_from_each_other() -> None:
+    model = Model(
+        Parameters(spin_coupling=0.0), string_friction=StringFriction(coefficient=0.25, spin_gain=3.4)
+    )
+    played = diabolo.plan_action("linear_acceleration", model, cycles=3, spin=60.0)
+    assert len(played.plans) == 3
+    assert played.states[-1, 6] > 70.0
+    jumps = np.abs(np.diff(played.path.derivatives(np.linspace(0.0, played.path.end, 5000))[0], axis=0))
+    assert jumps.max() < 0.01
+
+
+def test_success_rate_tells_robust_from_fragile() -> None:
+    played = diabolo.plan_action("throw_and_catch", height=0.6)
+    same = Model(Parameters())
+    longer = Model(Parameters(string_length=1.6))
+    assert diabolo.success_rate(played, [same]) == 1.0
+    assert diabolo.success_rate(played, [same, longer]) <= 0.5
+
+
+def test_horizon_joins_pieces() -> None:
+    start, seed = swing()
+    left, right = seed.left[0], seed.right[0]
+    horizon = diabolo.Horizon(Model(Parameters()), left, right, start)
+    seam = horizon.seam(0.5)
+    goals = Goals(final_state=Waypoint([0.5, 0.1, start.position[2]]))
+    piece = diabolo.plan(seam.state, seam.joined(seed), goals)
+    assert horizon.join(seam, piece, 0.52, 0.02)
+    assert not horizon.join(seam, piece, seam.time + 0.1, 0.02)
+    assert horizon.path.end == pytest.approx(piece.path.end)
+
+
+def test_bad_input_is_refused_in_a_sentence() -> None:
+    start, seed = swing()
+    with pytest.raises(ValueError, match="goals: none"):
+        Goals()
+    with pytest.raises(ValueError, match=r"solver: 'magic'"):
+        diabolo.plan(start, seed, Goals(taut=1.0), solver="magic")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="somersault"):
+        diabolo.plan_action("somersault")
+    with pytest.raises(ValueError, match="speed"):
+        TipLimits(speed=-1.0)
+    with pytest.raises(ValueError, match="height"):
+        diabolo.plan_action("throw", height=-0.5)
+    with pytest.raises(ValueError, match="left tip z, highest"):
+        diabolo.plan(start, seed, Goals(taut=1.0), limits=TipLimits(highest=[2.0, 2.0, 1.0]))
+
+
+def test_command_writes_what_the_readers_read(command: Command, tmp_path: Path) -> None:
+    out, page, found = tmp_path / "throw.csv", tmp_path / "throw.html", tmp_path / "found.json"
+    arguments = ["--goal", "height=0.6", "--out", out, "--html", page, "--json", found]
+    done = command("plan", "throw_and_catch", *map(str, arguments))
+    assert done.returncode == 0, done.stderr
+    assert "every goal is reached" in done.stdout
+    recording = diabolo.load_recording(out)
+    played = diabolo.plan_action("throw_and_catch", height=0.6)
+    assert len(recording) == pytest.approx(240 * played.path.end, abs=2)
+    assert np.abs(recording.left[0] - played.left[0]).max() < 1e-9
+    # The recording predicts itself: the written tips make the diabolo do the same again.
+    again = diabolo.predict(recording)
+    assert np.nanmax(np.linalg.norm(again.states[:200, :3] - recording.diabolo[:200], axis=1)) < 0.02
+    summary = json.loads(found.read_text())
+    assert summary["schema"] == "diabolo.plan/1"
+    assert summary["reached"] is True
+    assert summary["highest_above_tips_m"] == pytest.approx(0.6, abs=0.15)
+    text = page.read_text()
+    assert "http" not in re.sub(r"xmlns=\S+", "", text)
+    assert '"title":"throw"' in text
+
+
+def test_command_complains_in_one_sentence(command: Command, tmp_path: Path) -> None:
+    for arguments, words in (
+        (["somersault"], "invalid choice"),
+        (["throw", "--goal", "hight=1"], "expected NAME=X"),
+        (["throw", "--goal", "height=tall"], "'tall' is no number"),
+        (["throw", "--limit", "speed=0"], "speed"),
+        (["throw", "--out", str(tmp_path / "plan.txt")], "ends in .csv"),
+        (["throw", "--cycles", "3"], "not caught"),
+    ):
+        done = command("plan", *arguments)
+        assert done.returncode == 2
+        assert words in done.stderr
+        assert len(done.stderr.strip().splitlines()) == 1
+
+
+def test_view_shows_recording_and_prediction(command: Command, tmp_path: Path) -> None:
+    assert command("simulate", str(tmp_path / "swing.csv"), "--motion", "swing").returncode == 0
+    page = tmp_path / "swing.html"
+    done = command("view", str(tmp_path / "swing.csv"), "--model", "consistent", "--out", str(page))
+    assert done.returncode == 0, done.stderr
+    data = json.loads(re.search(r"const data = (\{.*\});\n", page.read_text())[1])  # type: ignore[index]
+    assert len(data["time"]) == len(data["prediction"]) == 601
+    assert data["string_length"] == LENGTH
+    assert command("view", str(tmp_path / "none.csv"), "--out", str(page)).returncode == 2
+
+
+def test_names_cannot_break_the_page() -> None:
+    played = diabolo.plan_action("swing")
+    recording = diabolo.cli.plan.recording_of(
+        played, "</script><b>", diabolo.DiaboloProperties(0.2845, 0.127, 0.143, 0.0065), LENGTH
+    )
+    assert diabolo.view_html(recording).count("</script>") == 1
+
+
+def test_actions_are_all_reached() -> None:
+    for name in ACTIONS:
+        played = diabolo.plan_action(name)
+        assert played.reached, f"{name}: {played.answer}"
