@@ -20,9 +20,9 @@ struct MagnusLift : NeutralEffect<Scalar> {
                                const Parameters<Scalar>&) const {
     // Solves a = turn x (v + a dt / 2), so that the velocity turns and keeps its length.
     const Vector3<Scalar> turn = state.axis * Scalar(-coefficient * state.spin);
-    const Vector3<Scalar> begin = cross(turn, state.velocity);
+    const Vector3<Scalar> begin = cross<Scalar>(turn, state.velocity);
     const Scalar half = Scalar(0.5) * dt, shorter = Scalar(1) + half * half * squared_norm(turn);
-    return (begin + cross(turn, begin) * half) / shorter;
+    return (begin + cross<Scalar>(turn, begin) * half) / shorter;
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -30,11 +30,6 @@ struct MagnusLift : NeutralEffect<Scalar> {
   static void for_each(Self& self, Visitor&& visit) {
     visit(ParameterInfo{"coefficient", "1/rad", -1.0, 1.0, "acceleration per angular velocity and speed"},
           self.coefficient);
-  }
-
- private:
-  static Vector3<Scalar> cross(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
 };
 
