@@ -37,7 +37,7 @@ TEST_CASE("The noise of a start is that of the camera, and what the velocity fil
   const Recording flight = noisy_flight(1e-3);
   const StartNoise noise = start_noise(flight);
   CHECK(noise.position == Approx(1e-3).epsilon(0.1));
-  // The slope around a row shares frames with the fair start's and has noise of its own, a sixth of it.
+  // The slope around a row shares frames with the fair start's and has noise of its own, a quarter of it.
   const double gain = start_velocity_filter(flight.rate).noise_gain(flight.rate);
   CHECK(noise.velocity == Approx(gain * 1e-3).epsilon(0.15));
 }

@@ -19,24 +19,24 @@ struct StartNoise {
   double velocity = 0.0;  ///< [m/s]
 };
 
-/// As seen from the frames around each row: how far the recorded position lies from the parabola through the
-/// frames of kStartWindow before and after it, and how far the fair start's velocity is from that parabola's
-/// slope. Medians, so that catches count little. Zero where the recording is too short to tell. Throws
+/// As seen from the frames around each row: how far the recorded position lies from the polynomial of degree
+/// four through the frames of kStartWindow before and after it, and how far the fair start's velocity is from
+/// its slope. Medians, so that catches count little. Zero where the recording is too short to tell. Throws
 /// RecordingError where the recording is not what its type promises.
 inline StartNoise start_noise(const Recording& recording) {
+  constexpr int kDegree = 4;
   const VelocityFilter causal = start_velocity_filter(recording.rate);
   const int half = static_cast<int>(causal.weight.size()) - 1, frames = 2 * half + 1;
   const Velocity fair = velocity(recording, recording.diabolo, causal);
   const Velocity around =
-      velocity(recording, recording.diabolo, local_polynomial(frames, 2, Window::kCentred));
-  // The parabola's height in the middle, by least squares.
-  Eigen::MatrixX3d powers(frames, 3);
-  for (int i = 0; i < frames; ++i) {
-    const double x = static_cast<double>(i - half) / half;
-    powers.row(i) << 1.0, x, x * x;
-  }
-  const Eigen::VectorXd height = powers * (powers.transpose() * powers).inverse() * Eigen::Vector3d::UnitX();
-  const double kept = std::sqrt(1.0 - height[half]);  // of independent noise, beside the parabola
+      velocity(recording, recording.diabolo, local_polynomial(frames, kDegree, Window::kCentred));
+  // The polynomial's height in the middle, by least squares.
+  Eigen::MatrixXd powers(frames, kDegree + 1);
+  for (int i = 0; i < frames; ++i)
+    for (int k = 0; k <= kDegree; ++k) powers(i, k) = std::pow(static_cast<double>(i - half) / half, k);
+  const Eigen::VectorXd height =
+      powers * (powers.transpose() * powers).inverse() * Eigen::VectorXd::Unit(kDegree + 1, 0);
+  const double kept = std::sqrt(1.0 - height[half]);  // of independent noise, beside the polynomial
   std::vector<double> positions, velocities;
   for (Eigen::Index i = half; i + half < recording.size(); ++i) {
     if (!around.valid[i] || !fair.valid[i]) continue;
