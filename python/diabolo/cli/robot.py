@@ -39,7 +39,7 @@ def _add_check(actions: Any) -> None:
         text="Say whether two arms can play a motion of the stick tips from rest to rest: whether both tips\n"
         "are within reach, how much slower than planned the joints' limits ask for, and how close the arms\n"
         "come. PLAN.csv has the columns time, left_x, left_y, left_z, right_x, right_y, right_z (s, m,\n"
-        "world frame: x forward, y left, z up), as a tidy recording has; a Motive export is a recording.",
+        "world frame: x forward, y left, z up); recordings will do, too.",
         example="  diabolo robot check plan.csv\n"
         "  diabolo robot check throw_1.csv --shift 0.4 0 0.1 --height 0.75 --spacing 1.05",
     )
@@ -187,6 +187,8 @@ def _read(path: str) -> TipMotion:
         with open(path, encoding="utf-8-sig", errors="replace") as file:
             if file.readline(80).lstrip('"').startswith("Format Version"):
                 return TipMotion.of_recording(load_recording(path))
+        if Path(path).with_suffix(".json").is_file():  # a tidy recording, which may have dropouts
+            return TipMotion.of_recording(load_recording(path))
     return load_tip_plan(path)
 
 
