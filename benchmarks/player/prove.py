@@ -118,18 +118,20 @@ def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> No
         row: list[Any] = []
         for _ in range(2):
             player.begin()
+            apex = place = float("nan")
             try:
                 player.throw(name, aimed_height, sideways, aim)
                 truth = plant.play(player.path, spin, TAIL)
                 apex, place = flight(truth, player.path)
                 player.catch(truth)
                 caught = plant.play(player.path, spin).held_at(player.path.end)
-            except ValueError as error:  # nothing flew that could be caught
+            except (ValueError, RuntimeError) as error:  # nothing flew, or a tip ran into the diabolo
                 print(f"  {error}", file=sys.stderr)
                 caught = False
             row += [apex, place, caught]
-            aimed_height += wanted_apex - apex
-            aim += wanted_place - place
+            if np.isfinite(apex):
+                aimed_height += wanted_apex - apex
+                aim += wanted_place - place
         results.append((wanted_apex, wanted_place, *row))
         first, second = (f"{row[k]:.3f}   {row[k + 1] - sideways:+.3f}   {row[k + 2]!s:6s}" for k in (0, 3))
         print(
@@ -141,8 +143,8 @@ def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> No
         place = [abs(r[at + 1] - r[1]) for r in results]
         print(
             f"{kind}, {what}: height within 5 % in {sum(a <= 0.05 for a in apex)} of {count} (median "
-            f"{100 * np.median(apex):.1f} %), landing within 5 cm in {sum(p <= 0.05 for p in place)} (median "
-            f"{100 * np.median(place):.1f} cm), caught {sum(bool(r[at + 2]) for r in results)}"
+            f"{100 * np.nanmedian(apex):.1f} %), landing within 5 cm in {sum(p <= 0.05 for p in place)} (median "
+            f"{100 * np.nanmedian(place):.1f} cm), caught {sum(bool(r[at + 2]) for r in results)}"
         )
 
 

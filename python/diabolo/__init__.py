@@ -54,7 +54,7 @@ from .enums import (
     ThinRule,
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
-from .player import PlannedPlay, plan, plan_action, success_rate
+from .player import PlannedPlay, hanging, plan, plan_action, success_rate
 from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
 from .view import view_html
 
@@ -114,6 +114,7 @@ __all__ = [
     "baseline",
     "diagnose",
     "evaluate",
+    "hanging",
     "load_recording",
     "plan",
     "plan_action",

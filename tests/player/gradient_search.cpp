@@ -109,17 +109,26 @@ TEST_CASE("an impossible goal ends in a plan within the limits that names what b
   CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("left tip z, highest, 1.2 m"));
 }
 
-TEST_CASE("limits from elsewhere are kept by every plan") {
+TEST_CASE("limits from elsewhere are kept, and the search finds its way around them") {
   PlanProblem<> problem = problem_of("swing");
-  problem.limits.others = [](const TipPath<double>& path) {
+  const Plan free = GradientSearch{}(problem, {});
+  const auto farthest = [](const TipPath<double>& path) {
     double most = 0.0;
     for (const TipPiece<double>& piece : path.pieces())
-      most = std::max(most, std::abs(piece.c[0][1] - 0.2753));
-    return std::vector<LimitUse>{{"elbow", most, 0.05, "m", 0.0, most - 0.05}};
+      most = std::max(most, std::abs(piece.c[0][1] - path.pieces().front().c[0][1]));
+    return most;
+  };
+  const double limit = 0.8 * farthest(free.path);
+  problem.limits.others = [&](const TipPath<double>& path) {
+    const double most = farthest(path);
+    return std::vector<LimitUse>{{"elbow", most, limit, "m", 0.0, most - limit}};
   };
   const Plan plan = GradientSearch{}(problem, {});
+  INFO(plan.answer);
   CHECK(keeps_all(plan));
   CHECK(plan.limits.back().name == "elbow");
+  CHECK(plan.limits.back().value <= limit);
+  CHECK(plan.reached);
 }
 
 TEST_CASE("the random walk repeats itself, gets better with its budget, and keeps the limits") {

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from conftest import Command
 from diabolo import Goals, Model, Parameters, StickSpline, StringFriction, TipLimits, Waypoint
+from diabolo.cli.plan import recording_of
 from diabolo.enums import StringState
 from diabolo.player import ACTIONS
 
@@ -100,6 +101,21 @@ def test_cycles_go_on_from_each_other() -> None:
     assert jumps.max() < 0.01
 
 
+def test_hanging_stays_where_it_is() -> None:
+    left, right = [0.5, 0.3, 1.2], [0.5, -0.3, 1.2]
+    rest = StickSpline([0.0, 0.4], [left, left], [right, right]).path()
+    lowest = diabolo.hanging(Parameters(), left, right).position
+    assert lowest == pytest.approx([0.5, 0.0, 1.2 - np.sqrt(0.725**2 - 0.3**2)], abs=1e-6)
+    for model in (
+        Model(Parameters(), string_friction=StringFriction(coefficient=0.3)),
+        Model(Parameters(), string_elasticity=diabolo.StringElasticity.of_stiffness(300.0, 5.0)),
+    ):
+        state = diabolo.hanging(model, left, right, spin=100.0)
+        assert np.linalg.norm(state.position - lowest) > 0.002
+        _, states, _, _, _ = diabolo._core.foresee(model, state, rest)
+        assert np.linalg.norm(states[:, :3] - state.position, axis=1).max() < 0.003
+
+
 def test_success_rate_tells_robust_from_fragile() -> None:
     played = diabolo.plan_action("throw_and_catch", height=0.6)
     same = Model(Parameters())
@@ -186,7 +202,7 @@ def test_view_shows_recording_and_prediction(command: Command, tmp_path: Path) -
 
 def test_names_cannot_break_the_page() -> None:
     played = diabolo.plan_action("swing")
-    recording = diabolo.cli.plan.recording_of(
+    recording = recording_of(
         played, "</script><b>", diabolo.DiaboloProperties(0.2845, 0.127, 0.143, 0.0065), LENGTH
     )
     assert diabolo.view_html(recording).count("</script>") == 1

@@ -59,6 +59,7 @@ struct GradientSearch {
       ++evaluations;
       sum = 0.0;
       for (const double part : residuals(problem.models, at)) sum += part * part;
+      for (const double part : residuals.other_parts(at)) sum += part * part;
       return sum;
     };
     const auto linearize = [&](const std::vector<double>& at) {
@@ -109,7 +110,29 @@ struct GradientSearch {
               static_cast<double>(part.gradient[static_cast<Eigen::Index>(i)]);
       }
     }
+    add_others(residuals, x, result);
     return result;
+  }
+
+  /// Rows for the limits that know no derivatives, by central differences.
+  template <class Residuals>
+  static void add_others(const Residuals& residuals, const std::vector<double>& x, Linearization& result) {
+    const std::vector<double> parts = residuals.other_parts(x);
+    if (parts.empty()) return;
+    const Eigen::Index first = result.residuals.size(), count = static_cast<Eigen::Index>(parts.size());
+    result.residuals.conservativeResize(first + count);
+    result.residuals.tail(count) = Eigen::Map<const Eigen::VectorXd>(parts.data(), count);
+    result.jacobian.conservativeResize(first + count, Eigen::NoChange);
+    constexpr double h = 1e-4;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      std::vector<double> above = x, below = x;
+      above[i] += h;
+      below[i] -= h;
+      const std::vector<double> up = residuals.other_parts(above), down = residuals.other_parts(below);
+      for (std::size_t r = 0; r < parts.size(); ++r)
+        result.jacobian(first + static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(i)) =
+            up.size() == parts.size() && down.size() == parts.size() ? (up[r] - down[r]) / (2.0 * h) : 0.0;
+    }
   }
 };
 

@@ -33,7 +33,8 @@ struct TipLimits {
   double string_margin = 0.002;  ///< the tips are closer than the string is long by this [m]
   double least_gap = 0.02;       ///< the left tip is to the left of the right one (along y) by this [m]
   Vector3<double> lowest{-10.0, -10.0, -10.0}, highest{10.0, 10.0, 10.0};  ///< corners of the workspace [m]
-  /// Whatever else there is, such as a robot's joints and clearances: limits that a path uses up.
+  /// Whatever else there is, such as a robot's joints and clearances: limits that a path uses up, always the
+  /// same ones in the same order.
   std::function<std::vector<LimitUse>(const TipPath<double>&)> others{};
 
   /// Throws std::invalid_argument where a limit is not positive or the workspace is empty.
