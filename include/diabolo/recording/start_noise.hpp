@@ -24,18 +24,18 @@ struct StartNoise {
 /// its slope. Medians, so that catches count little. Zero where the recording is too short to tell. Throws
 /// RecordingError where the recording is not what its type promises.
 inline StartNoise start_noise(const Recording& recording) {
-  constexpr int kDegree = 4;
+  constexpr int kPowers = 4;  // of the polynomial: its degree
   const VelocityFilter causal = start_velocity_filter(recording.rate);
   const int half = static_cast<int>(causal.weight.size()) - 1, frames = 2 * half + 1;
   const Velocity fair = velocity(recording, recording.diabolo, causal);
   const Velocity around =
-      velocity(recording, recording.diabolo, local_polynomial(frames, kDegree, Window::kCentred));
+      velocity(recording, recording.diabolo, local_polynomial(frames, kPowers, Window::kCentred));
   // The polynomial's height in the middle, by least squares.
-  Eigen::MatrixXd powers(frames, kDegree + 1);
+  Eigen::MatrixXd powers(frames, kPowers + 1);
   for (int i = 0; i < frames; ++i)
-    for (int k = 0; k <= kDegree; ++k) powers(i, k) = std::pow(static_cast<double>(i - half) / half, k);
+    for (int k = 0; k <= kPowers; ++k) powers(i, k) = std::pow(static_cast<double>(i - half) / half, k);
   const Eigen::VectorXd height =
-      powers * (powers.transpose() * powers).inverse() * Eigen::VectorXd::Unit(kDegree + 1, 0);
+      powers * (powers.transpose() * powers).inverse() * Eigen::VectorXd::Unit(kPowers + 1, 0);
   const double kept = std::sqrt(1.0 - height[half]);  // of independent noise, beside the polynomial
   std::vector<double> positions, velocities;
   for (Eigen::Index i = half; i + half < recording.size(); ++i) {
