@@ -12,12 +12,14 @@
 
 namespace diabolo {
 
-/// The box that the paper's arm plays in, by the authors' table: over the height and in front of its base.
+/// The box that the paper's arm plays in, by the authors' table: over the height, in front of its base, and
+/// 5 cm farther towards the other arm than away from it.
 inline GridBox paper_box(const StickArm& arm) {
   const Vector3<double> base = arm.base.position;
+  const double left_end = arm.side == Side::kRight ? 0.475 : 0.425;
   GridBox box;
-  box.lower = {base.x() + 0.425, base.y() - 0.425, arm.level - 0.5};
-  box.upper = {base.x() + 0.775, base.y() + 0.425, arm.level + 0.5};
+  box.lower = {base.x() + 0.425, base.y() + left_end - 0.9, arm.level - 0.5};
+  box.upper = {base.x() + 0.775, base.y() + left_end, arm.level + 0.5};
   return box;
 }
 
