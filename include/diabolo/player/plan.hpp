@@ -55,6 +55,7 @@ namespace detail {
 /// Limits that stand in the way of more.
 inline std::string binding_limits(const std::vector<LimitUse>& uses) {
   std::ostringstream text;
+  text.precision(3);
   for (const LimitUse& use : uses) {
     if (use.excess < (use.unit == "m" ? -0.004 : -0.03)) continue;
     text << (text.tellp() > 0 ? ", " : "") << use.name << " (" << use.value << " of " << use.limit << ' '
