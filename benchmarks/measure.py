@@ -17,7 +17,7 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 TO_NANOSECONDS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
-COUNTERS = ("steps", "allocations", "on_string", "flying", "snaps")
+COUNTERS = ("steps", "allocations", "on_string", "flying", "snaps", "p99_us")
 
 
 class MeasurementError(Exception):

@@ -112,6 +112,23 @@ def linear(results: dict[str, Any]) -> tuple[str, float]:
     return table(columns, rows), worst
 
 
+def robot_table(results: dict[str, Any]) -> str:
+    if "robot" not in results:
+        return "Not measured here: Orocos KDL was not found."
+    unit = statistics.median(results["robot"]["kdl_forward"]["cpu"])
+    rows = [
+        [
+            name.replace("_", " "),
+            f"{statistics.median(entry['cpu']):,.0f}",
+            f"{max(entry['cpu']):,.0f}",
+            f"{statistics.median(entry['cpu']) / unit:,.2f}",
+            f"{entry['p99_us']:.1f}" if "p99_us" in entry else "",
+        ]
+        for name, entry in results["robot"].items()
+    ]
+    return table(["", "median [ns]", "worst [ns]", "over KDL's forward", "p99 of single calls [us]"], rows)
+
+
 def mujoco_ratio(results: dict[str, Any]) -> float | None:
     """Least ratio to the fastest way to give MuJoCo the job, over the motions."""
     ratios = [row["ratio"] for row in (results["mujoco"] or {"rows": []})["rows"] if row["ratio"]]
@@ -263,6 +280,13 @@ In the batch all rollouts begin alike here, so that the work of a step does not 
 A Motive export of 20 MB with 44 columns: `{PROGRAMS}/bench_loader`.
 
 {table(["", "median [ms]", "worst [ms]"], loader)}
+
+## Robot
+
+The UR5e's kinematics beside Orocos KDL's, at random joints; looking up and solving a point of the stick, for
+a nominal and a calibrated arm: `{PROGRAMS}/bench_robot`. p99 is that of the wall clock.
+
+{robot_table(results)}
 
 ## Compile time
 

@@ -33,6 +33,8 @@ def measured(programs: Path, compiler: str, brief: bool) -> dict[str, Any]:
 
     for name in ("step", "batch", "loader"):
         stage(name, lambda name=name: measure.timed(programs / f"bench_{name}", repetitions, seconds))
+    if (programs / "bench_robot").is_file():  # built where Orocos KDL was found
+        stage("robot", lambda: measure.timed(programs / "bench_robot", repetitions, seconds))
     stage(
         "step_counts", lambda: measure.counted(programs / "bench_step", "consistent/double" if brief else "")
     )

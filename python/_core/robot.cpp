@@ -8,6 +8,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "diabolo/diagnose/smooth_tips.hpp"
+#include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/robot/build_seed_grid.hpp"
 #include "diabolo/robot/check_plan.hpp"
 #include "diabolo/robot/inverse_near.hpp"
@@ -142,6 +144,12 @@ Array slopes(const StickMap& map, const Array& points) {
     matrix = found.slopes;
     if (found.fault != StickFault::kNone) matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
   });
+}
+
+TipMotion<double> recorded_plan(Recording recording) {
+  recording.left = smoothed(recording.left, recording.rate);
+  recording.right = smoothed(recording.right, recording.rate);
+  return tip_motion(recording, Interpolation::kSpline);
 }
 
 JointLimits to_limits(double speed, double acceleration, double jerk) {
@@ -330,6 +338,10 @@ of the path that each belongs to [s], shape (M,). Raises ValueError where no pla
   module.def(
       "load_tip_plan", &load_tip_plan, "path"_a, Unlocked(),
       "The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's.");
+  module.def(
+      "recorded_plan", &recorded_plan, "recording"_a, Unlocked(),
+      "The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk "
+      "than an arm's limits allow.");
   module.def("check_plan", &check, "left"_a, "right"_a, "motion"_a, "speed"_a = limits.speed[0],
              "acceleration"_a = limits.acceleration[0], "jerk"_a = limits.jerk[0], "least_clearance"_a = 0.10,
              "Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.");

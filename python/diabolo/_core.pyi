@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'LandingRestitution', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'keep_limits', 'load_recording', 'load_tip_plan', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
+__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'LandingRestitution', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'keep_limits', 'load_recording', 'load_tip_plan', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1645,6 +1645,10 @@ def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
 def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
     """
     See diabolo.predict.
+    """
+def recorded_plan(recording: Recording) -> TipMotion:
+    """
+    The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow.
     """
 def rollout(models: collections.abc.Sequence[Model], initial: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, record_every: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
     """

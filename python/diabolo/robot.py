@@ -1,7 +1,16 @@
 # SPDX-License-Identifier: MIT
 """The paper's two UR5e: kinematics, joints of the stick's tip, limits, and whether a plan can be played."""
 
-from ._core import SeedGrid, StickArm, StickMap, check_plan, keep_limits, load_tip_plan, ur5e_inverse
+from ._core import (
+    SeedGrid,
+    StickArm,
+    StickMap,
+    check_plan,
+    keep_limits,
+    load_tip_plan,
+    recorded_plan,
+    ur5e_inverse,
+)
 
 FAULTS = ("reached", "outside the box of the seed grid", "out of reach", "a joint leaves its window")
 """What the codes of StickMap.solve() mean."""
@@ -14,5 +23,6 @@ __all__ = [
     "check_plan",
     "keep_limits",
     "load_tip_plan",
+    "recorded_plan",
     "ur5e_inverse",
 ]

@@ -234,3 +234,14 @@ def test_check_reads_recordings_with_dropouts(command: Command, tmp_path: Path) 
     result = command("robot", "check", str(tmp_path / "played.csv"))
     assert result.returncode == 0, result.stderr
     assert "can be played" in result.stdout
+
+
+def test_a_recording_is_smoothed_before_it_is_planned() -> None:
+    time = np.arange(361) / 120.0
+    tip = np.column_stack([0.6 + 0.05 * np.sin(3.0 * time), 0.0 * time + 0.55, 0.0 * time + 1.2])
+    noisy = tip + np.random.default_rng(3).normal(0.0, 2e-4, tip.shape)
+    recording = Recording(time, noisy, noisy * [1.0, -1.0, 1.0], 0.0 * tip, 120.0)
+    smooth = robot.recorded_plan(recording).at(time)[0]
+    raw = TipMotion.of_recording(recording).at(time)[0]
+    assert np.abs(np.diff(raw, 3, axis=0)).max() > 5.0 * np.abs(np.diff(smooth, 3, axis=0)).max()
+    np.testing.assert_allclose(smooth[20:-20], tip[20:-20], atol=5e-4)

@@ -77,13 +77,13 @@ class TwoArmControl {
     if (state_ != ControlState::kReady) return refusal("run");
     const PairJoints at = actual(), begin = plan->at(0);
     const double gap = (at - begin).cwiseAbs().maxCoeff();
-    if (!(gap <= 2 * options_.arrived))
+    if (!(gap <= 1.2 * options_.arrived))  // fading it out must not break the limits
       return "run: the arms are " + std::to_string(gap) +
              " rad from where the plan begins; go home there first";
     guard_.begin(at);
     gap_ = at - begin;
     plan_ = std::move(plan);
-    next_.reset();
+    waiting_ = false;
     clock_.start();
     joined_at_ = 0;
     fault_ = {};
@@ -102,6 +102,7 @@ class TwoArmControl {
       return "replace: the plan does not begin where the running one is at tick " + std::to_string(tick);
     next_ = std::move(plan);
     next_tick_ = tick;
+    waiting_ = true;
     return {};
   }
 
@@ -235,9 +236,9 @@ class TwoArmControl {
   void play(double now) {
     const double scaling = std::min(reading(Side::kLeft).speed_scaling, reading(Side::kRight).speed_scaling);
     const double ticks = clock_.advance(scaling);
-    if (next_ && ticks - joined_at_ >= next_tick_ && !clock_.stopping()) {
-      plan_ = std::move(next_);
-      next_.reset();
+    if (waiting_ && ticks - joined_at_ >= next_tick_ && !clock_.stopping()) {
+      std::swap(plan_, next_);  // the old one is freed by the next command, not in the loop
+      waiting_ = false;
       joined_at_ += next_tick_;
     }
     const double fade = 1 - smooth_step(ticks * kTick / options_.fade);
@@ -269,7 +270,7 @@ class TwoArmControl {
   ControlState state_ = ControlState::kDisconnected;
   ControlFault fault_;
   double since_ = 0, last_ = 0;
-  bool ticked_ = false;
+  bool ticked_ = false, waiting_ = false;  ///< waiting: for the tick at which `next_` takes over
   PairJoints goal_ = PairJoints::Zero(), gap_ = PairJoints::Zero();
   Side homing_ = Side::kLeft;
   std::shared_ptr<const LoadedPlan> plan_, next_;

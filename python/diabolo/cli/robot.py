@@ -10,7 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from .._core import SeedGrid, StickArm, StickMap, TipMotion, check_plan, load_recording, load_tip_plan
+from .._core import (
+    SeedGrid,
+    StickArm,
+    StickMap,
+    TipMotion,
+    check_plan,
+    load_recording,
+    load_tip_plan,
+    recorded_plan,
+)
 from . import files
 from .arguments import add_command
 from .tables import format_table
@@ -186,9 +195,9 @@ def _read(path: str) -> TipMotion:
     if Path(path).is_file():
         with open(path, encoding="utf-8-sig", errors="replace") as file:
             if file.readline(80).lstrip('"').startswith("Format Version"):
-                return TipMotion.of_recording(load_recording(path))
+                return recorded_plan(load_recording(path))
         if Path(path).with_suffix(".json").is_file():  # a tidy recording, which may have dropouts
-            return TipMotion.of_recording(load_recording(path))
+            return recorded_plan(load_recording(path))
     return load_tip_plan(path)
 
 
