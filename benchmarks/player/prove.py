@@ -21,8 +21,6 @@ import numpy as np
 from diabolo import Freedom, Goals, Model, Parameters, Plan, State, TipLimits, TipPath, _core
 from plant import Plant, Truth
 
-TAIL = 1.2
-"""The plant plays on so long after a throw [s]."""
 REACTION = 0.12
 """From what is seen to the motion that answers it [s]."""
 GAINS = {"linear_acceleration": 6.0, "circular_acceleration": 3.0}
@@ -121,7 +119,8 @@ def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> No
             apex = place = float("nan")
             try:
                 player.throw(name, aimed_height, sideways, aim)
-                truth = plant.play(player.path, spin, TAIL)
+                down = 2.0 * float(np.sqrt(2.0 * (height + 0.1) / 9.81))  # of the flight
+                truth = plant.play(player.path, spin, down)
                 apex, place = flight(truth, player.path)
                 player.catch(truth)
                 caught = plant.play(player.path, spin).held_at(player.path.end)
@@ -148,8 +147,7 @@ def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> No
         )
 
 
-def cycles(program: Path, name: str, count: int, kind: str, every: int, rng: np.random.Generator) -> None:
-    plant = draw(program, rng, steers=True)
+def cycles(plant: Plant, name: str, count: int, kind: str, every: int, rng: Any) -> None:
     model = plain(plant) if kind == "consistent" else plant.model(rng)
     spin = 60.0
     player = Player(plant, model, _core.home_pose(name, plant.length), spin)
@@ -174,8 +172,9 @@ def cycles(program: Path, name: str, count: int, kind: str, every: int, rng: np.
     if done < count:  # the last look shows since when it was lost
         cycle = player.path.end / (done + 1)
         done = sum(truth.held_at(cycle * (i + 1)) for i in range(done + 1))
+    looks = "open loop" if every >= count else f"a look every {every} cycles"
     print(
-        f"{name}, {kind}, {'open loop' if every >= count else f'a look every {every} cycles'}: {done} of {count} cycles, "
+        f"{name}, {kind}, {looks}: {done} of {count} cycles, "
         f"spin {truth.spin[0]:.0f} to {last:.0f} rad/s, friction {plant.friction:.2f}, planning at most "
         f"{1e3 * player.longest_planning:.0f} ms",
         flush=True,
@@ -200,7 +199,9 @@ def main() -> None:
         throws(given.plant, given.count, given.kind, rng)
         return
     for _ in range(given.plants):
-        cycles(given.plant, given.action, given.count, given.kind, given.look_every, rng)
+        cycles(
+            draw(given.plant, rng, steers=True), given.action, given.count, given.kind, given.look_every, rng
+        )
 
 
 if __name__ == "__main__":
