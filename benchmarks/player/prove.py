@@ -140,10 +140,12 @@ def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> No
     for at, what in ((2, "first throw"), (5, "after one correction")):
         apex = [abs(r[at] / r[0] - 1.0) for r in results]
         place = [abs(r[at + 1] - r[1]) for r in results]
+        close, aside = sum(a <= 0.05 for a in apex), sum(p <= 0.05 for p in place)
+        caught = sum(bool(r[at + 2]) for r in results)
         print(
-            f"{kind}, {what}: height within 5 % in {sum(a <= 0.05 for a in apex)} of {count} (median "
-            f"{100 * np.nanmedian(apex):.1f} %), landing within 5 cm in {sum(p <= 0.05 for p in place)} (median "
-            f"{100 * np.nanmedian(place):.1f} cm), caught {sum(bool(r[at + 2]) for r in results)}"
+            f"{kind}, {what}: height within 5 % in {close} of {count} (median "
+            f"{100 * np.nanmedian(apex):.1f} %), landing within 5 cm in {aside} (median "
+            f"{100 * np.nanmedian(place):.1f} cm), caught {caught}"
         )
 
 
