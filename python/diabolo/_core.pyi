@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'LandingRestitution', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'comparable_windows', 'diagnose', 'load_recording', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'Seam', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'Waypoint', 'action', 'baseline', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'limit_uses', 'load_recording', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1507,6 +1507,322 @@ class HorizonScore:
         """
         Starts that could be compared.
         """
+class Waypoint:
+    """
+    A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
+    """
+    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0, velocity_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, direction_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    @property
+    def direction_weight(self) -> float:
+        ...
+    @direction_weight.setter
+    def direction_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @position.setter
+    def position(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None:
+        ...
+    @property
+    def position_weight(self) -> float:
+        ...
+    @position_weight.setter
+    def position_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @velocity.setter
+    def velocity(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None:
+        ...
+    @property
+    def velocity_weight(self) -> float:
+        ...
+    @velocity_weight.setter
+    def velocity_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class Goals:
+    """
+    What a plan shall achieve; what is not given does not count.
+    
+    waypoints are passed in this order; final_state and spin [rad/s] hold at the end; taut is the weight of slack;
+    apex [m], above the tips, and landing [m] are those of the flight that the motion ends in; caught is the weight
+    of missing a diabolo that flies.
+    """
+    def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, spin_weight: typing.SupportsFloat | typing.SupportsIndex = 0.02, taut: typing.SupportsFloat | typing.SupportsIndex | None = None, apex: typing.SupportsFloat | typing.SupportsIndex | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
+        ...
+    @property
+    def apex(self) -> float | None:
+        ...
+    @property
+    def caught(self) -> float | None:
+        ...
+    @property
+    def final_state(self) -> Waypoint | None:
+        ...
+    @property
+    def landing(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None:
+        ...
+    @property
+    def spin(self) -> float | None:
+        ...
+    @property
+    def taut(self) -> float | None:
+        ...
+    @property
+    def waypoints(self) -> list[Waypoint]:
+        ...
+class TipPath:
+    """
+    Planned motion of the tips: piecewise cubics.
+    """
+    def derivatives(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): shape (4, N, 6).
+        """
+    def followed_by(self, next: TipPath) -> TipPath:
+        """
+        This path and then another one, moved in time to this one's end.
+        """
+    def tips(self, interval: typing.SupportsFloat | typing.SupportsIndex = 0.002) -> TipMotion:
+        """
+        The same motion in samples [s], for predictions.
+        """
+    @property
+    def begin(self) -> float:
+        """
+        [s]
+        """
+    @property
+    def end(self) -> float:
+        """
+        [s]
+        """
+class LimitUse:
+    """
+    How much of a limit a path uses: value, limit, and the excess, at most zero where it is kept, as a share or in metres.
+    """
+    def __init__(self, name: str, value: typing.SupportsFloat | typing.SupportsIndex, limit: typing.SupportsFloat | typing.SupportsIndex, unit: str, time: typing.SupportsFloat | typing.SupportsIndex, excess: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def excess(self) -> float:
+        ...
+    @property
+    def limit(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def time(self) -> float:
+        ...
+    @property
+    def unit(self) -> str:
+        ...
+    @property
+    def value(self) -> float:
+        ...
+class TipLimits:
+    """
+    What the tips may do; every plan keeps it.
+    
+    speed [m/s], acceleration [m/s^2] and jerk [m/s^3] of either tip; string_margin [m]: the tips stay closer than
+    the string is long by this; least_gap [m]: the left tip stays to the left of the right one by this; lowest and
+    highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
+    robot's.
+    """
+    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: collections.abc.Callable[[TipPath], collections.abc.Sequence[LimitUse]] = None) -> None:
+        ...
+    @property
+    def acceleration(self) -> float:
+        ...
+    @property
+    def highest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def jerk(self) -> float:
+        ...
+    @property
+    def least_gap(self) -> float:
+        ...
+    @property
+    def lowest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def speed(self) -> float:
+        ...
+    @property
+    def string_margin(self) -> float:
+        ...
+class Freedom:
+    """
+    What a solver may change of a seed: x too, durations, the last point; up to a reach [m] of each coordinate and a stretch of each duration, as a share.
+    """
+    def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: typing.SupportsFloat | typing.SupportsIndex = 0.4, stretch: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> None:
+        ...
+    @property
+    def forward(self) -> bool:
+        ...
+    @property
+    def last_point(self) -> bool:
+        ...
+    @property
+    def reach(self) -> float:
+        ...
+    @property
+    def stretch(self) -> float:
+        ...
+    @property
+    def times(self) -> bool:
+        ...
+class StickSpline:
+    """
+    A motion of the tips by control points: a clamped or periodic cubic spline.
+    
+    times [s], shape (M,); left and right [m], shape (M, 3); loop: it ends as it begins; start: velocity and
+    acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right.
+    """
+    def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None) -> None:
+        ...
+    def path(self) -> TipPath:
+        """
+        The TipPath through the points.
+        """
+    @property
+    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def times(self) -> list[float]:
+        ...
+class Action:
+    """
+    A figure of play: seed motion, freedom and goals.
+    """
+    @property
+    def freedom(self) -> Freedom:
+        ...
+    @property
+    def goals(self) -> Goals:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def seed(self) -> StickSpline:
+        ...
+class GoalCost:
+    """
+    How far a plan is off one goal.
+    """
+    @property
+    def error(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def reached(self) -> bool:
+        ...
+    @property
+    def tolerance(self) -> float:
+        ...
+    @property
+    def weight(self) -> float:
+        ...
+class Plan:
+    """
+    A motion that was found, and what it leads to. It keeps its limits.
+    """
+    @property
+    def answer(self) -> str:
+        ...
+    @property
+    def cost(self) -> float:
+        ...
+    @property
+    def end(self) -> State:
+        """
+        State at the end of the motion.
+        """
+    @property
+    def evaluations(self) -> int:
+        ...
+    @property
+    def goals(self) -> list[GoalCost]:
+        ...
+    @property
+    def limits(self) -> list[LimitUse]:
+        ...
+    @property
+    def motion(self) -> StickSpline:
+        ...
+    @property
+    def path(self) -> TipPath:
+        ...
+    @property
+    def play(self) -> tuple:
+        """
+        Times, states (N, 7), string states, left and right tips.
+        """
+    @property
+    def reached(self) -> bool:
+        ...
+class Seam:
+    """
+    Where a new piece of motion sets in.
+    """
+    def catch(self, home_left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], home_right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], model: Model) -> Action:
+        """
+        The action that catches the diabolo, which flies.
+        """
+    def joined(self, seed: StickSpline) -> StickSpline:
+        """
+        A seed moved there, which goes on from the tips' motion.
+        """
+    @property
+    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def state(self) -> State:
+        ...
+    @property
+    def time(self) -> float:
+        ...
+class Horizon:
+    """
+    Motion that is planned piece by piece while it is played.
+    
+        seam = horizon.seam(now)         # where a plan that is begun now can set in
+        piece = ...                      # a plan from seam.state, its seed seam.joined(...)
+        horizon.join(seam, piece, now, planning_time)  # False where it comes too late
+    """
+    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def join(self, seam: Seam, plan: Plan, now: typing.SupportsFloat | typing.SupportsIndex, planning_time: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        ...
+    def observe(self, time: typing.SupportsFloat | typing.SupportsIndex, state: State) -> None:
+        """
+        Takes over an observed state; predictions begin with the latest one.
+        """
+    def seam(self, now: typing.SupportsFloat | typing.SupportsIndex) -> Seam:
+        ...
+    def seam_at(self, time: typing.SupportsFloat | typing.SupportsIndex) -> Seam:
+        ...
+    @property
+    def path(self) -> TipPath:
+        ...
+def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Action:
+    """
+    The figure of that name from a pose of the tips and a state of the diabolo.
+    """
 def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """
     The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
@@ -1519,9 +1835,37 @@ def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdo
     """
     See diabolo.diagnose.
     """
+def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> tuple:
+    """
+    What a path leads to by a model: times, states (N, 7), string states, left and right tips.
+    """
+def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: typing.SupportsFloat | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> State:
+    """
+    A diabolo that hangs at rest below the tips.
+    """
+def home_pose(name: str, string_length: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+    """
+    Where the tips start a figure [m]: left and right.
+    """
+def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsFloat | typing.SupportsIndex) -> list[LimitUse]:
+    """
+    How much a path uses of each limit, from its exact maxima.
+    """
 def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
     """
     The same as Recording.load.
+    """
+def plan(models: collections.abc.Sequence[Model], start: State, seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
+    """
+    See diabolo.plan.
+    """
+def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: StickSpline, goals: Goals, limits: TipLimits, dt: typing.SupportsFloat | typing.SupportsIndex = 0.004) -> float:
+    """
+    The paper's residual of a motion; infinite where it breaks a limit.
+    """
+def plan_throw_and_catch(models: collections.abc.Sequence[Model], start: State, seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
+    """
+    Plans of a throw and of the catch that follows, the path of both, and whether both are reached.
     """
 def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
     """
@@ -1551,4 +1895,5 @@ def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsI
     """
     State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program.
     """
+ACTION_NAMES: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'catch', 'stop')
 __version__: str = '0.1.0'
