@@ -21,8 +21,6 @@ import numpy as np
 from diabolo import Freedom, Goals, Model, Parameters, Plan, State, TipLimits, TipPath, _core
 from plant import Plant, Truth
 
-TAIL = 1.2
-"""The plant plays on so long after a throw [s]."""
 REACTION = 0.12
 """From what is seen to the motion that answers it [s]."""
 GAINS = {"linear_acceleration": 6.0, "circular_acceleration": 3.0}
@@ -121,7 +119,8 @@ def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> No
             apex = place = float("nan")
             try:
                 player.throw(name, aimed_height, sideways, aim)
-                truth = plant.play(player.path, spin, TAIL)
+                down = 2.0 * float(np.sqrt(2.0 * (height + 0.1) / 9.81))  # of the flight
+                truth = plant.play(player.path, spin, down)
                 apex, place = flight(truth, player.path)
                 player.catch(truth)
                 caught = plant.play(player.path, spin).held_at(player.path.end)
@@ -141,15 +140,16 @@ def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> No
     for at, what in ((2, "first throw"), (5, "after one correction")):
         apex = [abs(r[at] / r[0] - 1.0) for r in results]
         place = [abs(r[at + 1] - r[1]) for r in results]
+        close, aside = sum(a <= 0.05 for a in apex), sum(p <= 0.05 for p in place)
+        caught = sum(bool(r[at + 2]) for r in results)
         print(
-            f"{kind}, {what}: height within 5 % in {sum(a <= 0.05 for a in apex)} of {count} (median "
-            f"{100 * np.nanmedian(apex):.1f} %), landing within 5 cm in {sum(p <= 0.05 for p in place)} (median "
-            f"{100 * np.nanmedian(place):.1f} cm), caught {sum(bool(r[at + 2]) for r in results)}"
+            f"{kind}, {what}: height within 5 % in {close} of {count} (median "
+            f"{100 * np.nanmedian(apex):.1f} %), landing within 5 cm in {aside} (median "
+            f"{100 * np.nanmedian(place):.1f} cm), caught {caught}"
         )
 
 
-def cycles(program: Path, name: str, count: int, kind: str, feedback: bool, rng: np.random.Generator) -> None:
-    plant = draw(program, rng, steers=True)
+def cycles(plant: Plant, name: str, count: int, kind: str, every: int, rng: Any) -> None:
     model = plain(plant) if kind == "consistent" else plant.model(rng)
     spin = 60.0
     player = Player(plant, model, _core.home_pose(name, plant.length), spin)
@@ -160,7 +160,7 @@ def cycles(program: Path, name: str, count: int, kind: str, feedback: bool, rng:
         gain = GAINS[name] if kind == "diagnosed" else None  # without friction no motion gains any
         action = _core.action(name, player.left, player.right, seam.state, plant.length, spin=gain)
         player.add(seam.joined(action.seed), action.goals, action.freedom, seam)
-        if not feedback and done + 1 < count:
+        if (done + 1) % every != 0 and done + 1 < count:
             continue
         truth = plant.play(player.path, spin, 0.2)
         if not truth.held_at(player.path.end):
@@ -171,10 +171,12 @@ def cycles(program: Path, name: str, count: int, kind: str, feedback: bool, rng:
         done = count
     assert truth is not None
     last = truth.spin[int(np.searchsorted(truth.time, min(player.path.end, truth.time[-1]))) - 1]
-    if not feedback and done < count:
-        done = sum(bool(truth.held_at(player.path.end * (i + 1) / count)) for i in range(count))
+    if done < count:  # the last look shows since when it was lost
+        cycle = player.path.end / (done + 1)
+        done = sum(truth.held_at(cycle * (i + 1)) for i in range(done + 1))
+    looks = "open loop" if every >= count else f"a look every {every} cycles"
     print(
-        f"{name}, {kind}, {'a look at each cycle' if feedback else 'open loop'}: {done} of {count} cycles, "
+        f"{name}, {kind}, {looks}: {done} of {count} cycles, "
         f"spin {truth.spin[0]:.0f} to {last:.0f} rad/s, friction {plant.friction:.2f}, planning at most "
         f"{1e3 * player.longest_planning:.0f} ms",
         flush=True,
@@ -190,7 +192,7 @@ def main() -> None:
     parser.add_argument("--kind", choices=("diagnosed", "consistent"), default="diagnosed")
     parser.add_argument("--count", type=int, default=12, help="plants of throws, cycles of accelerations")
     parser.add_argument("--action", default="linear_acceleration", help="of cycles")
-    parser.add_argument("--open-loop", action="store_true", help="cycles without a look at the diabolo")
+    parser.add_argument("--look-every", type=int, default=1, help="so many cycles")
     parser.add_argument("--plants", type=int, default=3, help="of cycles")
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
@@ -199,7 +201,9 @@ def main() -> None:
         throws(given.plant, given.count, given.kind, rng)
         return
     for _ in range(given.plants):
-        cycles(given.plant, given.action, given.count, given.kind, not given.open_loop, rng)
+        cycles(
+            draw(given.plant, rng, steers=True), given.action, given.count, given.kind, given.look_every, rng
+        )
 
 
 if __name__ == "__main__":

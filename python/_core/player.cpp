@@ -220,6 +220,25 @@ of missing a diabolo that flies.)")
       });
 }
 
+void bind_path(py::module_& module) {
+  py::class_<Path>(module, "TipPath", "Planned motion of the tips: piecewise cubics.")
+      .def_property_readonly("begin", &Path::begin, "[s]")
+      .def_property_readonly("end", &Path::end, "[s]")
+      .def("derivatives", &derivatives_of, "times"_a,
+           "Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): "
+           "shape (4, N, 6).")
+      .def(
+          "tips", [](const Path& path, double interval) { return sampled(path, interval); },
+          "interval"_a = 2e-3, "The same motion in samples [s], for predictions.")
+      .def(
+          "followed_by",
+          [](Path path, const Path& next) {
+            path.append(next);
+            return path;
+          },
+          "next"_a, "This path and then another one, moved in time to this one's end.");
+}
+
 void bind_limits(py::module_& module) {
   py::class_<LimitUse>(module, "LimitUse",
                        "How much of a limit a path uses: value, limit, and the excess, at most zero where it "
@@ -277,22 +296,6 @@ robot's.)")
 }
 
 void bind_motions(py::module_& module) {
-  py::class_<Path>(module, "TipPath", "Planned motion of the tips: piecewise cubics.")
-      .def_property_readonly("begin", &Path::begin, "[s]")
-      .def_property_readonly("end", &Path::end, "[s]")
-      .def("derivatives", &derivatives_of, "times"_a,
-           "Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): "
-           "shape (4, N, 6).")
-      .def(
-          "tips", [](const Path& path, double interval) { return sampled(path, interval); },
-          "interval"_a = 2e-3, "The same motion in samples [s], for predictions.")
-      .def(
-          "followed_by",
-          [](Path path, const Path& next) {
-            path.append(next);
-            return path;
-          },
-          "next"_a, "This path and then another one, moved in time to this one's end.");
   py::class_<Spline>(module, "StickSpline",
                      R"(A motion of the tips by control points: a clamped or periodic cubic spline.
 
@@ -401,6 +404,7 @@ void bind_plans(py::module_& module) {
 
 void bind_player(py::module_& module) {
   bind_goals(module);
+  bind_path(module);
   bind_limits(module);
   bind_motions(module);
   bind_plans(module);

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'GravityTilt', 'HorizonScore', 'Interval', 'LandingRestitution', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Predictor', 'Recording', 'RecordingError', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StringElasticity', 'StringFriction', 'StringMass', 'TipMotion', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'keep_limits', 'load_recording', 'load_tip_plan', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
+__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'Seam', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'Waypoint', 'action', 'baseline', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'limit_uses', 'load_recording', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1507,116 +1507,325 @@ class HorizonScore:
         """
         Starts that could be compared.
         """
-class StickArm:
+class Waypoint:
     """
-    A UR5e where it stands, with the stick in its flange, as in the paper.
+    A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
+    """
+    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0, velocity_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, direction_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    @property
+    def direction_weight(self) -> float:
+        ...
+    @direction_weight.setter
+    def direction_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @position.setter
+    def position(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None:
+        ...
+    @property
+    def position_weight(self) -> float:
+        ...
+    @position_weight.setter
+    def position_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @velocity.setter
+    def velocity(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None:
+        ...
+    @property
+    def velocity_weight(self) -> float:
+        ...
+    @velocity_weight.setter
+    def velocity_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class Goals:
+    """
+    What a plan shall achieve; what is not given does not count.
     
-    `side` is 'left' or 'right'; `height`, `spacing` (between the two bases) and `forward` (x of the bases) are [m],
-    world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for each of the six links, shape
-    (6, 6), as the ROS driver extracts it; None is the arm of the data sheet. Joints are [rad], base to last wrist.
+    waypoints are passed in this order; final_state and spin [rad/s] hold at the end; taut is the weight of slack;
+    apex [m], above the tips, and landing [m] are those of the flight that the motion ends in; caught is the weight
+    of missing a diabolo that flies.
     """
-    def __init__(self, side: str, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, spacing: typing.SupportsFloat | typing.SupportsIndex = 1.1, forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, calibration: typing.Any = None) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def flange(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Poses of the flange in the controller's base frame, shape (..., 4, 4), of joints (..., 6).
-        """
-    def inverse(self, flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Joints, shape (6,), near `seed` that bring the flange to a pose in the controller's base frame, shape (4, 4). Raises ValueError where the arm does not reach it.
-        """
-    def jacobian(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Velocity of the tip (rows 0-2, [m/rad]) and rotation of the flange (rows 3-5) over the joints, controller's base frame, shape (..., 6, 6).
-        """
-    def tip_position(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        The stick's tip [m, world], shape (..., 3), of joints (..., 6).
-        """
-    @property
-    def base(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Pose of the controller's base frame in the world, shape (4, 4).
-        """
-    @property
-    def side(self) -> str:
+    def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, spin_weight: typing.SupportsFloat | typing.SupportsIndex = 0.02, taut: typing.SupportsFloat | typing.SupportsIndex | None = None, apex: typing.SupportsFloat | typing.SupportsIndex | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
         ...
     @property
-    def tip(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        The stick's tip in the frame of the flange [m], shape (3,).
-        """
-class SeedGrid:
+    def apex(self) -> float | None:
+        ...
+    @property
+    def caught(self) -> float | None:
+        ...
+    @property
+    def final_state(self) -> Waypoint | None:
+        ...
+    @property
+    def landing(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None:
+        ...
+    @property
+    def spin(self) -> float | None:
+        ...
+    @property
+    def taut(self) -> float | None:
+        ...
+    @property
+    def waypoints(self) -> list[Waypoint]:
+        ...
+class TipPath:
     """
-    Joint configurations at the key points of a box, and cubic splines between them.
+    Planned motion of the tips: piecewise cubics.
     """
-    @staticmethod
-    def build(arm: StickArm, lower: typing.Any = None, upper: typing.Any = None, knots: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] = [6, 7, 7]) -> SeedGrid:
+    def derivatives(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
-        For a box from `lower` to `upper` [m, world], each of the shape (3,); default: the paper's. Raises ValueError with the point that the arm does not reach.
+        Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): shape (4, N, 6).
         """
-    @staticmethod
-    def load(path: os.PathLike | str | bytes) -> SeedGrid:
+    def followed_by(self, next: TipPath) -> TipPath:
         """
-        What save() wrote.
+        This path and then another one, moved in time to this one's end.
         """
-    def save(self, path: os.PathLike | str | bytes) -> None:
+    def tips(self, interval: typing.SupportsFloat | typing.SupportsIndex = 0.002) -> TipMotion:
         """
-        Write a CSV of x, y, z [m] and q1 to q6 [rad], a line for each key point.
-        """
-    def seed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Interpolated joints [rad], shape (..., 6), at points (..., 3); outside, of the nearest point.
+        The same motion in samples [s], for predictions.
         """
     @property
-    def joints(self) -> numpy.typing.NDArray[numpy.float64]:
+    def begin(self) -> float:
         """
-        Of the key points [rad], shape (x, y, z, 6).
-        """
-    @property
-    def knots(self) -> typing.Annotated[list[int], "FixedSize(3)"]:
-        """
-        Key points along x, y and z.
+        [s]
         """
     @property
-    def lower(self) -> numpy.typing.NDArray[numpy.float64]:
+    def end(self) -> float:
         """
-        [m, world], shape (3,).
+        [s]
         """
-    @property
-    def upper(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        [m, world], shape (3,).
-        """
-class StickMap:
+class LimitUse:
     """
-    The joints of an arm as a function of its stick's tip, without drift.
+    How much of a limit a path uses: value, limit, and the excess, at most zero where it is kept, as a share or in metres.
     """
-    def __init__(self, arm: StickArm, grid: SeedGrid) -> None:
-        ...
-    def slopes(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.
-        """
-    def solve(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
-        """
-        Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for each, shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's window; there the joints are NaN.
-        """
-    @property
-    def arm(self) -> StickArm:
+    def __init__(self, name: str, value: typing.SupportsFloat | typing.SupportsIndex, limit: typing.SupportsFloat | typing.SupportsIndex, unit: str, time: typing.SupportsFloat | typing.SupportsIndex, excess: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
     @property
-    def grid(self) -> SeedGrid:
+    def excess(self) -> float:
         ...
+    @property
+    def limit(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def time(self) -> float:
+        ...
+    @property
+    def unit(self) -> str:
+        ...
+    @property
+    def value(self) -> float:
+        ...
+class TipLimits:
+    """
+    What the tips may do; every plan keeps it.
+    
+    speed [m/s], acceleration [m/s^2] and jerk [m/s^3] of either tip; string_margin [m]: the tips stay closer than
+    the string is long by this; least_gap [m]: the left tip stays to the left of the right one by this; lowest and
+    highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
+    robot's.
+    """
+    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: collections.abc.Callable[[TipPath], collections.abc.Sequence[LimitUse]] = None) -> None:
+        ...
+    @property
+    def acceleration(self) -> float:
+        ...
+    @property
+    def highest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def jerk(self) -> float:
+        ...
+    @property
+    def least_gap(self) -> float:
+        ...
+    @property
+    def lowest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def speed(self) -> float:
+        ...
+    @property
+    def string_margin(self) -> float:
+        ...
+class Freedom:
+    """
+    What a solver may change of a seed: x too, durations, the last point; up to a reach [m] of each coordinate and a stretch of each duration, as a share.
+    """
+    def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: typing.SupportsFloat | typing.SupportsIndex = 0.4, stretch: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> None:
+        ...
+    @property
+    def forward(self) -> bool:
+        ...
+    @property
+    def last_point(self) -> bool:
+        ...
+    @property
+    def reach(self) -> float:
+        ...
+    @property
+    def stretch(self) -> float:
+        ...
+    @property
+    def times(self) -> bool:
+        ...
+class StickSpline:
+    """
+    A motion of the tips by control points: a clamped or periodic cubic spline.
+    
+    times [s], shape (M,); left and right [m], shape (M, 3); loop: it ends as it begins; start: velocity and
+    acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right.
+    """
+    def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None) -> None:
+        ...
+    def path(self) -> TipPath:
+        """
+        The TipPath through the points.
+        """
+    @property
+    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def times(self) -> list[float]:
+        ...
+class Action:
+    """
+    A figure of play: seed motion, freedom and goals.
+    """
+    @property
+    def freedom(self) -> Freedom:
+        ...
+    @property
+    def goals(self) -> Goals:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def seed(self) -> StickSpline:
+        ...
+class GoalCost:
+    """
+    How far a plan is off one goal.
+    """
+    @property
+    def error(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def reached(self) -> bool:
+        ...
+    @property
+    def tolerance(self) -> float:
+        ...
+    @property
+    def weight(self) -> float:
+        ...
+class Plan:
+    """
+    A motion that was found, and what it leads to. It keeps its limits.
+    """
+    @property
+    def answer(self) -> str:
+        ...
+    @property
+    def cost(self) -> float:
+        ...
+    @property
+    def end(self) -> State:
+        """
+        State at the end of the motion.
+        """
+    @property
+    def evaluations(self) -> int:
+        ...
+    @property
+    def goals(self) -> list[GoalCost]:
+        ...
+    @property
+    def limits(self) -> list[LimitUse]:
+        ...
+    @property
+    def motion(self) -> StickSpline:
+        ...
+    @property
+    def path(self) -> TipPath:
+        ...
+    @property
+    def play(self) -> tuple:
+        """
+        Times, states (N, 7), string states, left and right tips.
+        """
+    @property
+    def reached(self) -> bool:
+        ...
+class Seam:
+    """
+    Where a new piece of motion sets in.
+    """
+    def catch(self, home_left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], home_right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], model: Model) -> Action:
+        """
+        The action that catches the diabolo, which flies.
+        """
+    def joined(self, seed: StickSpline) -> StickSpline:
+        """
+        A seed moved there, which goes on from the tips' motion.
+        """
+    @property
+    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def state(self) -> State:
+        ...
+    @property
+    def time(self) -> float:
+        ...
+class Horizon:
+    """
+    Motion that is planned piece by piece while it is played.
+    
+        seam = horizon.seam(now)         # where a plan that is begun now can set in
+        piece = ...                      # a plan from seam.state, its seed seam.joined(...)
+        horizon.join(seam, piece, now, planning_time)  # False where it comes too late
+    """
+    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def join(self, seam: Seam, plan: Plan, now: typing.SupportsFloat | typing.SupportsIndex, planning_time: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        ...
+    def observe(self, time: typing.SupportsFloat | typing.SupportsIndex, state: State) -> None:
+        """
+        Takes over an observed state; predictions begin with the latest one.
+        """
+    def seam(self, now: typing.SupportsFloat | typing.SupportsIndex) -> Seam:
+        ...
+    def seam_at(self, time: typing.SupportsFloat | typing.SupportsIndex) -> Seam:
+        ...
+    @property
+    def path(self) -> TipPath:
+        ...
+def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Action:
+    """
+    The figure of that name from a pose of the tips and a state of the diabolo.
+    """
 def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """
     The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
-    """
-def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> dict:
-    """
-    Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.
     """
 def comparable_windows(recording: Recording, base: Model) -> int:
     """
@@ -1626,29 +1835,41 @@ def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdo
     """
     See diabolo.diagnose.
     """
-def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0) -> tuple:
+def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> tuple:
     """
-    Play a path slowly enough.
-    
-    `joints` [rad] of both arms, left and then right, 2 ms apart, shape (N, 12). Gives setpoints 2 ms apart of the same
-    curve, shape (M, 12), whose speed [rad/s], acceleration [rad/s^2] and jerk [rad/s^3] keep the limits, and the time
-    of the path that each belongs to [s], shape (M,). Raises ValueError where no play is slow enough.
+    What a path leads to by a model: times, states (N, 7), string states, left and right tips.
+    """
+def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: typing.SupportsFloat | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> State:
+    """
+    A diabolo that hangs at rest below the tips.
+    """
+def home_pose(name: str, string_length: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+    """
+    Where the tips start a figure [m]: left and right.
+    """
+def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsFloat | typing.SupportsIndex) -> list[LimitUse]:
+    """
+    How much a path uses of each limit, from its exact maxima.
     """
 def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
     """
     The same as Recording.load.
     """
-def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
+def plan(models: collections.abc.Sequence[Model], start: State, seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
     """
-    The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's.
+    See diabolo.plan.
+    """
+def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: StickSpline, goals: Goals, limits: TipLimits, dt: typing.SupportsFloat | typing.SupportsIndex = 0.004) -> float:
+    """
+    The paper's residual of a motion; infinite where it breaks a limit.
+    """
+def plan_throw_and_catch(models: collections.abc.Sequence[Model], start: State, seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
+    """
+    Plans of a throw and of the catch that follows, the path of both, and whether both are reached.
     """
 def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
     """
     See diabolo.predict.
-    """
-def recorded_plan(recording: Recording) -> TipMotion:
-    """
-    The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow.
     """
 def rollout(models: collections.abc.Sequence[Model], initial: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, record_every: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
     """
@@ -1674,8 +1895,5 @@ def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsI
     """
     State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program.
     """
-def ur5e_inverse(flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4).
-    """
+ACTION_NAMES: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'catch', 'stop')
 __version__: str = '0.1.0'

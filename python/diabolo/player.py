@@ -199,15 +199,8 @@ def plan_action(
     assert path is not None
     took = time.perf_counter() - began
     flight = 0.8 if figure in ("throw", "side_throw") and not catches else 0.0
-    return PlannedPlay(
-        name,
-        path,
-        plans,
-        wanted,
-        initial,
-        *_core.foresee(models[0], initial, path, flight=flight),
-        planning_time=took,
-    )
+    time_s, states, codes, lefts, rights = _core.foresee(models[0], initial, path, flight=flight)
+    return PlannedPlay(name, path, plans, wanted, initial, time_s, states, codes, lefts, rights, took)
 
 
 def hanging(model: AnyModel, left: ArrayLike, right: ArrayLike, spin: float = 0.0) -> State:
@@ -215,7 +208,7 @@ def hanging(model: AnyModel, left: ArrayLike, right: ArrayLike, spin: float = 0.
     side, and what gives lowers it."""
     (one,) = _models(model)
     state = _core.hanging_state(left, right, one.parameters.string_length, spin)
-    rest = StickSpline([0.0, 0.15], [left, left], [right, right]).path()
+    rest = StickSpline([0.0, 0.15], np.tile(left, (2, 1)), np.tile(right, (2, 1))).path()
     for _ in range(60):  # let go, and stopped again, until it stays
         before = state.position
         _, states, _, _, _ = _core.foresee(one, state, rest)

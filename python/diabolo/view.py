@@ -35,6 +35,9 @@ def view_html(
     rows = slice(None, None, step)
     if prediction is not None and prediction.shape != (len(recording), 3):
         raise ValueError(f"prediction: shape {prediction.shape}; expected ({len(recording)}, 3)")
+    orientation = recording.diabolo_orientation
+    if orientation is None:
+        orientation = np.full((len(recording), 4), np.nan)
     data: dict[str, Any] = {
         "title": title or recording.name,
         "note": note,
@@ -42,7 +45,7 @@ def view_html(
         "left": _numbers(recording.left[rows]),
         "right": _numbers(recording.right[rows]),
         "diabolo": _numbers(recording.diabolo[rows]),
-        "orientation": _numbers(recording.diabolo_orientation[rows]),
+        "orientation": _numbers(orientation[rows]),
         "prediction": None if prediction is None else _numbers(prediction[rows]),
         "string_length": recording.string_length,
         "size": [recording.properties.diameter, recording.properties.length],
@@ -58,4 +61,6 @@ def view_html(
 def _numbers(values: NDArray[np.float64]) -> Any:
     """Nested lists, rounded to a tenth of a millimetre; None where a number is missing."""
     rounded = np.round(np.asarray(values, dtype=np.float64), 4)
-    return np.where(np.isnan(rounded), None, rounded.astype(object)).tolist()
+    numbers = rounded.astype(object)
+    numbers[np.isnan(rounded)] = None
+    return numbers.tolist()

@@ -118,7 +118,7 @@ TEST_CASE("limits from elsewhere are kept, and the search finds its way around t
       most = std::max(most, std::abs(piece.c[0][1] - path.pieces().front().c[0][1]));
     return most;
   };
-  const double limit = 0.8 * farthest(free.path);
+  const double limit = 0.9 * farthest(free.path);
   problem.limits.others = [&](const TipPath<double>& path) {
     const double most = farthest(path);
     return std::vector<LimitUse>{{"elbow", most, limit, "m", 0.0, most - limit}};

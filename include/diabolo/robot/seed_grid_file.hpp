@@ -27,7 +27,7 @@ inline std::string write_seed_grid(const IkSeedGrid& grid) {
       for (int z = 0; z < box.knots[2]; ++z) {
         const Vector3<double> point = box.knot(x, y, z);
         text += shown(point.x()) + "," + shown(point.y()) + "," + shown(point.z());
-        for (const double angle : grid.joints()[box.place(x, y, z)]) text += "," + shown(angle);
+        for (const double angle : grid.joints()[box.place(x, y, z)]) text.append(",").append(shown(angle));
         text += "\n";
       }
   return text;

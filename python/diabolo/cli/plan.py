@@ -21,8 +21,7 @@ from .simulate import played_recording
 
 SCHEMA = "diabolo.plan/1"
 RATE = 240.0  # of the recording that is written [Hz]
-# What --goal understands, and what plan_action calls it.
-GOALS = {"height": "height", "sideways": "sideways", "spin": "spin_gain"}
+GOALS = ("height", "sideways", "spin")
 LIMITS = ("speed", "acceleration", "jerk")
 
 
@@ -87,7 +86,14 @@ def run(arguments: argparse.Namespace) -> None:
         plots.check(arguments.plot)
     if not math.isfinite(arguments.spin):
         raise ValueError(f"--spin {arguments.spin}: expected a finite number")
-    goals = _numbers("--goal", arguments.goal, tuple(GOALS))
+    goals = _numbers("--goal", arguments.goal, GOALS)
+    usual = TipLimits()
+    asked = _numbers("--limit", arguments.limit, LIMITS)
+    limits = TipLimits(
+        speed=asked.get("speed", usual.speed),
+        acceleration=asked.get("acceleration", usual.acceleration),
+        jerk=asked.get("jerk", usual.jerk),
+    )
     model = read_model(arguments.model)
     played = plan_action(
         arguments.action,
@@ -96,11 +102,13 @@ def run(arguments: argparse.Namespace) -> None:
         spin=arguments.spin,
         size=arguments.size,
         pace=arguments.pace,
-        limits=TipLimits(**_numbers("--limit", arguments.limit, LIMITS)),
+        limits=limits,
         solver=arguments.solver,
         seconds=arguments.seconds,
         random_seed=arguments.random_seed,
-        **{GOALS[name]: value for name, value in goals.items()},
+        height=goals.get("height"),
+        sideways=goals.get("sideways"),
+        spin_gain=goals.get("spin"),
     )
     title = out.stem if out else arguments.action
     p = model.parameters
