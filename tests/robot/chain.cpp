@@ -14,13 +14,13 @@ using namespace diabolo;
 
 namespace {
 
-/// The product of the six Denavit-Hartenberg matrices, as a textbook has it.
-Eigen::Matrix4d denavit_hartenberg(const Joints<double>& q) {
+/// The product of the first Denavit-Hartenberg matrices, as a textbook has it.
+Eigen::Matrix4d denavit_hartenberg(const Joints<double>& q, int count = 6) {
   const Ur5eLengths l;
   const double d[] = {l.d1, 0, 0, l.d4, l.d5, l.d6}, a[] = {0, l.a2, l.a3, 0, 0, 0};
   const double alpha[] = {M_PI / 2, 0, 0, M_PI / 2, -M_PI / 2, 0};
   Eigen::Matrix4d product = Eigen::Matrix4d::Identity();
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < count; ++i) {
     const double ct = std::cos(q[i]), st = std::sin(q[i]), ca = std::cos(alpha[i]), sa = std::sin(alpha[i]);
     Eigen::Matrix4d link;
     link << ct, -st * ca, st * sa, a[i] * ct, st, ct * ca, -ct * sa, a[i] * st, 0, sa, ca, d[i], 0, 0, 0, 1;
@@ -144,6 +144,23 @@ TEST_CASE("the torque that holds the arm is the slope of its potential energy") 
       const double slope =
           (45 * (moved(1) - moved(-1)) - 9 * (moved(2) - moved(-2)) + moved(3) - moved(-3)) / (60 * h);
       REQUIRE(std::abs(torque[k] - slope) <= 1e-9);
+    }
+  }
+}
+
+TEST_CASE("the centres of mass are where the maker's table has them") {
+  // In Denavit-Hartenberg frames, each at the far end of its link.
+  const Vector3<double> table[] = {{0, -0.02561, 0.00193}, {0.2125, 0, 0.11336}, {0.15, 0, 0.0265},
+                                   {0, -0.0018, 0.01634},  {0, 0.0018, 0.01634}, {0, 0, -0.001159}};
+  Random random(6);
+  const LinkMasses<double> masses = ur5e_masses<double>();
+  for (int i = 0; i < 20; ++i) {
+    const Joints<double> q = random_joints(random);
+    const Chain<double>::Links frames = ur5e_nominal<double>().frames(q);
+    for (int link = 0; link < 6; ++link) {
+      const std::size_t k = static_cast<std::size_t>(link);
+      const Eigen::Vector4d expected = denavit_hartenberg(q, link + 1) * table[k].homogeneous();
+      CHECK((frames[k] * masses[k].center - expected.head<3>()).norm() <= 1e-14);
     }
   }
 }

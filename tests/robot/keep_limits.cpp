@@ -109,6 +109,36 @@ TEST_CASE("what is slow enough is played as planned, and what is not is within t
   CHECK(stretched > 50);
 }
 
+TEST_CASE("a fine tremble is slowed down for its jerk, a swing for its acceleration, a sweep for its speed") {
+  const auto played = [](double amplitude, double rate) {
+    std::vector<PairJoints> points;
+    for (int i = 0; i <= 2000; ++i) {
+      const double t = i * kTick, clock = 4 * smooth_step(t / 4);
+      points.push_back(same(amplitude * std::sin(rate * clock)));
+    }
+    const LimitedMotion motion = keep_limits(JointPath(points), JointLimits::uniform());
+    REQUIRE(motion.within);
+    std::array<double, 3> largest{};
+    for (std::size_t k = 3; k < motion.setpoints.size(); ++k) {
+      const double a = motion.setpoints[k - 3][0], b = motion.setpoints[k - 2][0],
+                   c = motion.setpoints[k - 1][0], d = motion.setpoints[k][0];
+      largest[0] = std::max(largest[0], std::abs(d - c) / kTick / (0.95 * kPi));
+      largest[1] = std::max(largest[1], std::abs(d - 2 * c + b) / (kTick * kTick) / 15.0);
+      largest[2] = std::max(largest[2], std::abs(d - 3 * c + 3 * b - a) / (kTick * kTick * kTick) / 500.0);
+    }
+    CHECK(motion.stretch.duration() > 1.05 * 4);
+    return largest;
+  };
+  const std::array<double, 3> tremble = played(0.002, 60), swing = played(0.3, 6), sweep = played(3.0, 1.0);
+  CHECK(tremble[2] > 0.9);
+  CHECK(tremble[2] <= 1 + 1e-6);
+  CHECK(tremble[1] < 0.9);
+  CHECK(swing[1] > 0.9);
+  CHECK(swing[1] <= 1 + 1e-9);
+  CHECK(sweep[0] > 0.9);
+  CHECK(sweep[0] <= 1 + 1e-9);
+}
+
 TEST_CASE("where only the middle is too fast, the ends are played as planned") {
   std::vector<PairJoints> points;
   for (int i = 0; i <= 1500; ++i) points.push_back(same(0.8 * smooth_step((i * kTick - 1.3) / 0.4)));
