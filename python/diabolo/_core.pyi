@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'Seam', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickFlex', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'Waypoint', 'action', 'baseline', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'limit_uses', 'load_recording', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state']
+__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1819,6 +1819,109 @@ class Horizon:
     @property
     def path(self) -> TipPath:
         ...
+class StickArm:
+    """
+    A UR5e where it stands, with the stick in its flange, as in the paper.
+    
+    `side` is 'left' or 'right'; `height`, `spacing` (between the two bases) and `forward` (x of the bases) are [m],
+    world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for each of the six links, shape
+    (6, 6), as the ROS driver extracts it; None is the arm of the data sheet. Joints are [rad], base to last wrist.
+    """
+    def __init__(self, side: str, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, spacing: typing.SupportsFloat | typing.SupportsIndex = 1.1, forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, calibration: typing.Any = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def flange(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Poses of the flange in the controller's base frame, shape (..., 4, 4), of joints (..., 6).
+        """
+    def inverse(self, flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Joints, shape (6,), near `seed` that bring the flange to a pose in the controller's base frame, shape (4, 4). Raises ValueError where the arm does not reach it.
+        """
+    def jacobian(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Velocity of the tip (rows 0-2, [m/rad]) and rotation of the flange (rows 3-5) over the joints, controller's base frame, shape (..., 6, 6).
+        """
+    def tip_position(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The stick's tip [m, world], shape (..., 3), of joints (..., 6).
+        """
+    @property
+    def base(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Pose of the controller's base frame in the world, shape (4, 4).
+        """
+    @property
+    def side(self) -> str:
+        ...
+    @property
+    def tip(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The stick's tip in the frame of the flange [m], shape (3,).
+        """
+class SeedGrid:
+    """
+    Joint configurations at the key points of a box, and cubic splines between them.
+    """
+    @staticmethod
+    def build(arm: StickArm, lower: typing.Any = None, upper: typing.Any = None, knots: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] = [6, 7, 7]) -> SeedGrid:
+        """
+        For a box from `lower` to `upper` [m, world], each of the shape (3,); default: the paper's. Raises ValueError with the point that the arm does not reach.
+        """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> SeedGrid:
+        """
+        What save() wrote.
+        """
+    def save(self, path: os.PathLike | str | bytes) -> None:
+        """
+        Write a CSV of x, y, z [m] and q1 to q6 [rad], a line for each key point.
+        """
+    def seed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Interpolated joints [rad], shape (..., 6), at points (..., 3); outside, of the nearest point.
+        """
+    @property
+    def joints(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of the key points [rad], shape (x, y, z, 6).
+        """
+    @property
+    def knots(self) -> typing.Annotated[list[int], "FixedSize(3)"]:
+        """
+        Key points along x, y and z.
+        """
+    @property
+    def lower(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        [m, world], shape (3,).
+        """
+    @property
+    def upper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        [m, world], shape (3,).
+        """
+class StickMap:
+    """
+    The joints of an arm as a function of its stick's tip, without drift.
+    """
+    def __init__(self, arm: StickArm, grid: SeedGrid) -> None:
+        ...
+    def slopes(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.
+        """
+    def solve(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
+        """
+        Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for each, shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's window; there the joints are NaN.
+        """
+    @property
+    def arm(self) -> StickArm:
+        ...
+    @property
+    def grid(self) -> SeedGrid:
+        ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Action:
     """
     The figure of that name from a pose of the tips and a state of the diabolo.
@@ -1826,6 +1929,10 @@ def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float
 def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """
     The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
+    """
+def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> dict:
+    """
+    Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.
     """
 def comparable_windows(recording: Recording, base: Model) -> int:
     """
@@ -1847,6 +1954,14 @@ def home_pose(name: str, string_length: typing.SupportsFloat | typing.SupportsIn
     """
     Where the tips start a figure [m]: left and right.
     """
+def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0) -> tuple:
+    """
+    Play a path slowly enough.
+    
+    `joints` [rad] of both arms, left and then right, 2 ms apart, shape (N, 12). Gives setpoints 2 ms apart of the same
+    curve, shape (M, 12), whose speed [rad/s], acceleration [rad/s^2] and jerk [rad/s^3] keep the limits, and the time
+    of the path that each belongs to [s], shape (M,). Raises ValueError where no play is slow enough.
+    """
 def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsFloat | typing.SupportsIndex) -> list[LimitUse]:
     """
     How much a path uses of each limit, from its exact maxima.
@@ -1854,6 +1969,10 @@ def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsF
 def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
     """
     The same as Recording.load.
+    """
+def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
+    """
+    The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's.
     """
 def plan(models: collections.abc.Sequence[Model], start: State, seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
     """
@@ -1870,6 +1989,10 @@ def plan_throw_and_catch(models: collections.abc.Sequence[Model], start: State, 
 def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
     """
     See diabolo.predict.
+    """
+def recorded_plan(recording: Recording) -> TipMotion:
+    """
+    The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow.
     """
 def rollout(models: collections.abc.Sequence[Model], initial: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, record_every: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
     """
@@ -1894,6 +2017,10 @@ def score_horizons(recordings: collections.abc.Sequence[Recording], model: Model
 def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsIndex, start: str = 'fair', signed_spin: bool = True) -> State:
     """
     State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program.
+    """
+def ur5e_inverse(flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4).
     """
 ACTION_NAMES: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'catch', 'stop')
 __version__: str = '0.1.0'
