@@ -169,6 +169,7 @@ def test_check_says_that_a_plan_can_be_played(command: Command, tmp_path: Path) 
     assert found["least_clearance_m"] > 0.3
     plan.write_text(excursion(0.15, seconds=0.4))
     hurried = command("robot", "check", str(plan))
+    assert "can be played, but slower" in hurried.stdout
     assert "times slower on the whole" in hurried.stdout
 
 

@@ -25,6 +25,7 @@ from .arguments import add_command
 from .tables import format_table
 
 SAMPLES = 20  # along each side of a grid's box, for the map of speeds
+SLOWED = 1.0005  # times the planned duration from which a motion counts as slowed down
 
 
 def add_parser(commands: Any) -> None:
@@ -158,12 +159,15 @@ def run_grid(arguments: argparse.Namespace) -> None:
 
 
 def text_of(name: str, found: dict[str, Any]) -> str:
-    lines = [f"{name}: {'can be played' if found['playable'] else 'cannot be played'}"]
-    if found["as_played_s"] is not None:
-        ratio = found["as_played_s"] / found["as_planned_s"]
+    ratio = None if found["as_played_s"] is None else found["as_played_s"] / found["as_planned_s"]
+    verdict = "can be played" if found["playable"] else "cannot be played"
+    if found["playable"] and ratio is not None and ratio > SLOWED:
+        verdict += ", but slower than planned: the diabolo will do something else"
+    lines = [f"{name}: {verdict}"]
+    if ratio is not None:
         pace = (
             "as fast as planned"
-            if ratio < 1.0005
+            if ratio <= SLOWED
             else (
                 f"{ratio:.2f} times slower on the whole, {found['worst_factor']:.2f} times "
                 f"at {found['worst_at_s']:.2f} s"
