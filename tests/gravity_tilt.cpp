@@ -43,7 +43,8 @@ TEST_CASE("tilted gravity has the stated components and its old size") {
   for (int i = 0; i < 50; ++i) {
     const double x = random.uniform(-0.5, 0.5), y = random.uniform(-0.5, 0.5);
     const Full model = tilted(x, y);
-    const Vector sum = model.effects().acceleration(State<double>(), Tips<double>(), model.parameters());
+    const Vector sum =
+        model.effects().acceleration(State<double>(), Tips<double>(), 1e-3, model.parameters());
     CHECK(sum.x() == Approx(x * kStandardGravity));
     CHECK(sum.y() == Approx(y * kStandardGravity));
     CHECK(sum.z() < 0.0);
