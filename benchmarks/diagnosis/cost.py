@@ -21,7 +21,8 @@ def cost(files: list[str]) -> tuple[float, dict[str, float], float, float]:
     """Length of the recordings [s], seconds of each step, of all, and the most memory of the process [MB]."""
     takes = [load_recording(file) for file in files]
     begin = last = time.monotonic()
-    running, steps = "", {}
+    running = ""
+    steps: dict[str, float] = {}
 
     def on_step(step: str, _: float) -> None:
         nonlocal last, running
