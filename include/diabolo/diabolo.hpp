@@ -7,6 +7,7 @@
 #include "diabolo/effects/all.hpp"
 #include "diabolo/pack.hpp"
 #include "diabolo/player/player.hpp"
+#include "diabolo/predictor_in.hpp"
 #include "diabolo/recording/calibration.hpp"
 #include "diabolo/recording/evaluation.hpp"
 #include "diabolo/recording/motive.hpp"

@@ -11,6 +11,7 @@
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/dual.hpp"
 #include "diabolo/effects/all.hpp"
+#include "diabolo/predictor_in.hpp"
 #include "diabolo/recording/model.hpp"
 
 namespace diabolo {
@@ -25,16 +26,6 @@ namespace detail {
 
 /// Derivatives only show the way of a fit and its spread: seven digits are enough.
 using FitDual = Dual<double, kStartUnknowns + kUnknowns, float>;
-
-template <class From, class To>
-void copy_fields(const From& from, To& to) {
-  std::vector<double> fields;
-  From::for_each(from, [&](const ParameterInfo&, const double& field) { fields.push_back(field); });
-  std::size_t next = 0;
-  To::for_each(to, [&](const ParameterInfo&, auto& field) {
-    field = std::remove_reference_t<decltype(field)>(fields[next++]);
-  });
-}
 
 inline FitDual unknown(Unknown u, const UnknownVector& at) {
   FitDual result(at[index_of(u)]);
@@ -73,10 +64,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   p.spin_coupling = p.spin_coupling + x(Unknown::kSpinCoupling);
   p.wraps = p.wraps + D(at[index_of(Unknown::kWraps)]);
   FitPredictor::Set effects;
-  const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (copy_fields(std::get<I>(base.effects.members), std::get<I>(effects.members)), ...);
-  };
-  copy(std::make_index_sequence<std::tuple_size_v<decltype(base.effects.members)>>{});
+  copy_effects(base.effects, effects);
   auto& tilt = effects.get<GravityTilt>();
   tilt.x += x(Unknown::kTiltX);
   tilt.y += x(Unknown::kTiltY);

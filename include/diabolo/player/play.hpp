@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "diabolo/player/tip_path.hpp"
 #include "diabolo/predictor.hpp"
+#include "diabolo/predictor_in.hpp"
 
 namespace diabolo {
 
@@ -31,49 +30,6 @@ struct Play {
 
   const PlayInstant<Scalar>& end() const { return instants[planned - 1]; }
 };
-
-namespace detail {
-
-template <class From, class To>
-void copy_fields(const From& from, To& to) {
-  std::vector<double> values;
-  From::for_each(from, [&](const ParameterInfo&, double value) { values.push_back(value); });
-  std::size_t i = 0;
-  To::for_each(to, [&](const ParameterInfo&, auto& field) { field = values[i++]; });
-}
-
-template <class To, template <class> class... Effects, std::size_t... I>
-void copy_effects(const EffectSet<double, Effects...>& from, EffectSet<To, Effects...>& to,
-                  std::index_sequence<I...>) {
-  (copy_fields(std::get<I>(from.members), std::get<I>(to.members)), ...);
-}
-
-}  // namespace detail
-
-/// The same predictor in another Scalar, such as a dual number.
-template <class To, template <class> class... Effects>
-Predictor<To, Effects...> predictor_in(const Predictor<double, Effects...>& from) {
-  Parameters<To> parameters;
-  parameters.copy_rules(from.parameters());
-  detail::copy_fields(from.parameters(), parameters);
-  EffectSet<To, Effects...> effects;
-  detail::copy_effects(from.effects(), effects, std::index_sequence_for<Effects<To>...>{});
-  using Result = Predictor<To, Effects...>;
-  return Result(parameters, effects, typename Result::AlreadyValid{});
-}
-
-/// The same state in another Scalar.
-template <class To>
-State<To> state_in(const State<double>& from) {
-  State<To> to;
-  to.position = from.position.cast<To>();
-  to.velocity = from.velocity.cast<To>();
-  to.spin = To(from.spin);
-  to.string_state = from.string_state;
-  to.axis = from.axis.cast<To>();
-  to.string_acceleration = from.string_acceleration.cast<To>();
-  return to;
-}
 
 /// How a play is predicted.
 struct PlayOptions {
