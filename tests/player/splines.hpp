@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "diabolo/player/stick_spline.hpp"
+#include "diabolo/player/tip_path.hpp"
 #include "random.hpp"
 
 /// A spline through random points near a player's hands, in random times.
@@ -18,4 +22,14 @@ inline diabolo::StickSpline<double> random_spline(Random& random, diabolo::Splin
   }
   if (ends == diabolo::SplineEnds::kPeriodic) spline.points.back() = spline.points.front();
   return spline;
+}
+
+/// Largest jump of place, velocity or acceleration between the pieces of a path [m, m/s, m/s^2].
+inline double largest_jump(const diabolo::TipPath<double>& path) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i + 1 < path.pieces().size(); ++i) {
+    const auto a = path.pieces()[i].at(path.pieces()[i].duration), b = path.pieces()[i + 1].at(0.0);
+    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, (a[k] - b[k]).cwiseAbs().maxCoeff());
+  }
+  return largest;
 }

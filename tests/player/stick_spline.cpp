@@ -11,20 +11,6 @@
 using namespace diabolo;
 using Catch::Matchers::Contains;
 
-namespace {
-
-/// Largest jump of value, velocity and acceleration between pieces.
-double largest_jump(const TipPath<double>& path) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i + 1 < path.pieces().size(); ++i) {
-    const auto a = path.pieces()[i].at(path.pieces()[i].duration), b = path.pieces()[i + 1].at(0.0);
-    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, (a[k] - b[k]).cwiseAbs().maxCoeff());
-  }
-  return largest;
-}
-
-}  // namespace
-
 TEST_CASE("a clamped spline passes its points, is smooth, and rests at both ends") {
   Random random(8100);
   for (int i = 0; i < 50; ++i) {

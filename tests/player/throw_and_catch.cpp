@@ -2,6 +2,7 @@
 #include "diabolo/player/throw_and_catch.hpp"
 
 #include "catch.hpp"
+#include "splines.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;
@@ -18,15 +19,6 @@ PlanProblem<> throwing(const std::string& name, double height) {
   options.height = height;
   const Action action = action_named(name, home, start, kLength, options);
   return {{kModel}, start, action.seed, action.goals, TipLimits{}, action.freedom};
-}
-
-double largest_jump(const TipPath<double>& path) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i + 1 < path.pieces().size(); ++i) {
-    const auto a = path.pieces()[i].at(path.pieces()[i].duration), b = path.pieces()[i + 1].at(0.0);
-    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, (a[k] - b[k]).cwiseAbs().maxCoeff());
-  }
-  return largest;
 }
 
 }  // namespace
