@@ -118,6 +118,13 @@ inline const MotiveBody& find_body(const BodyPoint& part, const MotiveTake& take
                        "; the file has " + (found.empty() ? "none" : found));
 }
 
+/// The smallest rotation that takes x to the direction of `axis`, of any length but zero.
+inline Eigen::Quaterniond turn_from_x(const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d to = axis.normalized();
+  const Eigen::Quaterniond doubled(1.0 + to[0], 0.0, -to[2], to[1]);  // cos and sin of half the angle, scaled
+  return doubled.norm() < 1e-9 ? Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0) : doubled.normalized();
+}
+
 /// The recording that a take shows under a calibration: the bodies' points and axes, in the world frame.
 /// It is named after the take's file. Throws RecordingError where a body is missing or the calibration is
 /// unusable.
@@ -129,8 +136,7 @@ inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
                              OrientationTrack& orientation) {
     const MotiveBody& body = find_body(part, take, name);
     // Any rotation that takes body x to the axis would do; this one turns least.
-    const Eigen::Quaterniond to_axis =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), part.axis);
+    const Eigen::Quaterniond to_axis = turn_from_x(part.axis);
     track = Track::missing(size);
     orientation = OrientationTrack::missing(size);
     track.valid = orientation.valid = body.valid;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "diabolo/recording/bootstrap.hpp"
+#include "diabolo/recording/solve_symmetric.hpp"
 #include "diabolo/recording/start_state.hpp"
 
 namespace diabolo {
@@ -34,8 +34,9 @@ inline StartNoise start_noise(const Recording& recording) {
   Eigen::MatrixXd powers(frames, kPowers + 1);
   for (int i = 0; i < frames; ++i)
     for (int k = 0; k <= kPowers; ++k) powers(i, k) = std::pow(static_cast<double>(i - half) / half, k);
-  const Eigen::VectorXd height =
-      powers * (powers.transpose() * powers).inverse() * Eigen::VectorXd::Unit(kPowers + 1, 0);
+  const Eigen::MatrixXd squares = powers.transpose() * powers,
+                        middle = Eigen::MatrixXd::Identity(kPowers + 1, 1);
+  const Eigen::VectorXd height = powers * solve_symmetric(squares, middle);
   const double kept = std::sqrt(1.0 - height[half]);  // of independent noise, beside the polynomial
   std::vector<double> positions, velocities;
   for (Eigen::Index i = half; i + half < recording.size(); ++i) {
