@@ -102,12 +102,12 @@ mujoco: $(VENV)/.package-with-tests
 	@$(install_package) '.[mujoco,plot,test]'
 	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy
 
-sanitize: # The step, with Clang, which so compiles its tests with its own warnings too; fuzz does it for the readers.
+sanitize: # The step, in every Scalar, on random input; fuzz does it for the readers.
 	@$(packages) build test lint
-	@$(cmake) -S . -B $(BUILD)/sanitize $(test_flags) -DCMAKE_CXX_COMPILER=clang++ \
+	@$(cmake) -S . -B $(BUILD)/sanitize $(test_flags) -DCMAKE_CXX_COMPILER=clang++ -DDIABOLO_TEST_HEAVY=ON \
 	  -DCMAKE_CXX_FLAGS_DEBUG='-O1 -gline-tables-only' -DDIABOLO_SANITIZE=address,undefined >/dev/null
-	@cmake --build $(BUILD)/sanitize -j $(JOBS) --target tests_core -- -k 0
-	@$(ctest) --test-dir $(BUILD)/sanitize -L core
+	@cmake --build $(BUILD)/sanitize -j $(JOBS) --target tests_stress
+	@$(BUILD)/sanitize/tests/stress_random_steps 1000000 1
 
 fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	@$(packages) build lint
