@@ -66,8 +66,12 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   std::vector<Alternative> others;
   const auto absent = [&](std::string_view other) { return !is_in(set, candidate_of(other)); };
   if (name == "time_offset" && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
-    others.push_back({"filter_lag", Delay::kFilter, set, fit.at});
-    others.push_back({"robot_servo_lag", Delay::kServo, set, fit.at});
+    for (const auto& [lag, delay] :
+         {std::pair("filter_lag", Delay::kFilter), {"robot_servo_lag", Delay::kServo}}) {
+      others.push_back({lag, delay, with(set, candidate_of(lag)), fit.at});
+      std::swap(others.back().at[index_of(Unknown::kLag)], others.back().at[index_of(Unknown::kTimeOffset)]);
+      others.back().at[index_of(Unknown::kLag)] *= -1.0;
+    }
   } else if (name == "length_scale" && !set[index_of(Unknown::kGravity)]) {
     ActiveSet rate = set;
     rate[index_of(Unknown::kLengthScale)] = false;
@@ -102,9 +106,13 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   return others;
 }
 
-/// The bank in which one explanation has taken another's place.
+/// The bank in which one explanation has taken another's place. A wrap is no candidate of its own, and a lag
+/// comes beside the time offset.
 inline Bank exchanged(Bank bank, std::string_view from, std::string_view to) {
-  if (alternative_to(to) == from && to != "string_wrap")  // a wrap comes beside friction
+  if (alternative_to(to) != from || to == "string_wrap") return bank;
+  if (from == "time_offset")
+    bank.push_back(&candidate_of(to));
+  else
     std::ranges::replace(bank, &candidate_of(from), &candidate_of(to));
   return bank;
 }
