@@ -38,7 +38,15 @@ FLOORS: list[list[str]] = [
         "advance_in_flight.hpp",
     ],
     ["effects/"],
-    ["predictor.hpp", "predictor_in.hpp", "effects/all.hpp", "rollout.hpp", "lanes.hpp", "batch_kernels.hpp", "batch.hpp"],
+    [
+        "predictor.hpp",
+        "predictor_in.hpp",
+        "effects/all.hpp",
+        "rollout.hpp",
+        "lanes.hpp",
+        "batch_kernels.hpp",
+        "batch.hpp",
+    ],
     ["recording/", "player/", "diagnose/"],
     ["robot/"],
 ]
