@@ -126,9 +126,9 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
   return std::ranges::count_if(draft.findings, needed) + (fit.at[index_of(Unknown::kWraps)] > 0.0 ? 1 : 0);
 }
 
-/// Refits with each alternative to a claim and keeps the best: of those that explain it as well as any, the
-/// one that needs the fewest; then a fault stays what it is, the others being rarer, and physics is
-/// what leaves least. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to what is
+/// Refits with each alternative to a claim and keeps the best: of those that are sure and explain it as well
+/// as any, the one that needs the fewest; then a fault stays what it is, the others being rarer, and physics
+/// is what leaves least. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to what is
 /// best.
 template <class D = detail::FitDual>
 std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
@@ -165,6 +165,10 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
       refine<D>(trial, base, other.set, kIterations, threads, watch);
+      const Candidate& young = candidate_of(other.name);
+      if (is_in(other.set, young) &&
+          !speaks_for(young, significance(young, standing(Evidence(trial), other.set))))
+        continue;
       const std::ptrdiff_t explanations =
           explanations_of(trial, other.set, exchanged(bank, name, other.name));
       options.push_back({other.name, std::move(trial), other.set, explanations});
