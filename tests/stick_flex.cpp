@@ -123,6 +123,101 @@ TEST_CASE("sticks that bend keep the energy of a swing, and lose it by their dam
   CHECK(lost(2.0) > 2e-2);
 }
 
+namespace {
+
+/// Period of a small bounce on sticks across the strands [s], in so many steps a second.
+double bounce_period(double tip_mass, double steps_per_second) {
+  const Full model = full<StickFlex>([&](auto& flex) {
+    flex.compliance = 1.0 / 300.0;
+    flex.tip_mass = tip_mass;
+  });
+  Tips<double> tips = pointing(Vector::UnitX(), Vector::UnitX());
+  tips.left.z() = tips.right.z() = 1.2;
+  tips.left.y() = 0.3, tips.right.y() = -0.3;
+  State<double> state = rested(model, tips);
+  state.velocity.z() = -0.03;
+  std::vector<double> upwards;  // when it turns from falling to rising
+  for (int k = 1; upwards.size() < 11; ++k) {
+    const double before = state.velocity.z();
+    model.step(state, tips, tips, 1.0 / steps_per_second);
+    const double now = state.velocity.z();
+    if (before < 0.0 && now >= 0.0) upwards.push_back((k - now / (now - before)) / steps_per_second);
+  }
+  return (upwards.back() - upwards.front()) / 10.0;
+}
+
+}  // namespace
+
+TEST_CASE("the mass of the tips makes a bounce slower, as a mass beside the diabolo's would") {
+  // A path that grows by s moves the diabolo by s / g and each tip by s / 2: of M / g^2 and m / 2 the one is
+  // added to the other, while the stiffness stays.
+  Tips<double> tips = pointing(Vector::UnitX(), Vector::UnitX());
+  tips.left.z() = tips.right.z() = 1.2;
+  tips.left.y() = 0.3, tips.right.y() = -0.3;
+  const double square =
+      StringPath<double>(rested(bending(1.0 / 300.0), tips).position, tips).gradient().squaredNorm();
+  const double tip_mass = 0.02, slower = std::sqrt(1.0 + 0.5 * tip_mass * square / Numbers().mass);
+  const double fine = bounce_period(tip_mass, 16000.0) / bounce_period(0.0, 16000.0),
+               coarse = bounce_period(tip_mass, 2000.0) / bounce_period(0.0, 2000.0);
+  CAPTURE(slower, fine, coarse);
+  CHECK(slower > 1.05);
+  CHECK(fine == Approx(slower).epsilon(1e-3));
+  CHECK(std::abs(fine - slower) < 0.3 * std::abs(coarse - slower) + 1e-5);
+}
+
+TEST_CASE("tips with mass hang where tips without hang, and where nothing bends their mass changes nothing") {
+  const Tips<double> tips = pointing(Vector(1.0, 0.8, 0.1), Vector(1.0, -0.3, 0.6));
+  const auto massive = [](double compliance) {
+    return full<StickFlex>([&](auto& flex) {
+      flex.compliance = compliance;
+      flex.tip_mass = 0.012;
+    });
+  };
+  CHECK((rested(massive(1.0 / 250.0), tips).position - rested(bending(1.0 / 250.0), tips).position).norm() <
+        1e-6);
+  // The stiffer, the nearer to no bending at all.
+  Random random(1012);
+  const Scene scene = hanging_scene(random);
+  const auto moving = [&](double time) { return scene.tips.at(time); };
+  const State<double> rigid = run(Full(Numbers()), scene.start, moving, 0.5, 500);
+  const double stiff = apart(run(massive(1e-7), scene.start, moving, 0.5, 500), rigid),
+               stiffer = apart(run(massive(1e-9), scene.start, moving, 0.5, 500), rigid);
+  CAPTURE(stiff, stiffer);
+  CHECK(stiff < 1e-3);
+  CHECK(stiffer < 0.1 * stiff);
+}
+
+TEST_CASE("tips with mass keep the energy of a bounce") {
+  const Tips<double> tips = pointing(Vector::UnitX(), Vector::UnitX());
+  const double compliance = 1.0 / 200.0, tip_mass = 0.012;
+  const Full model = full<StickFlex>([&](auto& flex) {
+    flex.compliance = compliance;
+    flex.tip_mass = tip_mass;
+  });
+  const auto energy = [&](const State<double>& state) {
+    const StringPath<double> path(state.position, tips);
+    const double stretch = path.length() - Numbers().string_length,
+                 rate = path.gradient().dot(state.velocity);
+    return 0.5 * state.velocity.squaredNorm() + kStandardGravity * state.position.z() +
+           (0.5 * stretch * stretch / (2.0 * compliance) + 0.25 * tip_mass * rate * rate) / Numbers().mass;
+  };
+  const auto drift = [&](double dt) {
+    State<double> state = rested(model, tips);
+    state.velocity.z() = -0.3;
+    const double before = energy(state);
+    double most = 0.0;
+    for (int k = 0; k < std::lround(2.0 / dt); ++k) {
+      model.step(state, tips, tips, dt);
+      most = std::max(most, std::abs(energy(state) - before));
+    }
+    return most;
+  };
+  const double coarse = drift(4e-4), fine = drift(1e-4);
+  CAPTURE(coarse, fine);
+  CHECK(fine < 1e-3);
+  CHECK(fine < 0.5 * coarse);
+}
+
 TEST_CASE("mirrored with their sticks, bending tips act as before") {
   const Full model = bending(1.0 / 150.0, 1.0);
   const Vector flip(1.0, -1.0, 1.0);

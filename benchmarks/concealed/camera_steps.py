@@ -50,9 +50,9 @@ def apply(steps: list[dict[str, Any]], recording: Tidy) -> None:
 
 
 def _frame_rate(step: dict[str, Any], recording: Tidy) -> None:
-    """The file tells a rate that the camera did not have: recorded over true time is the factor."""
-    recording.columns["time"] = recording.columns["time"] * step["factor"]
-    recording.description["rate"] /= step["factor"]
+    """The file tells a rate that the camera did not have: recorded over true rate is the factor."""
+    recording.columns["time"] = recording.columns["time"] / step["factor"]
+    recording.description["rate"] *= step["factor"]
 
 
 def _filled(values: Array) -> Array:
@@ -72,7 +72,7 @@ def low_passed(values: Array, interval: float, tau: float) -> Array:
     return result
 
 
-def slopes(values: Array, interval: float, reach: int = 4) -> Array:
+def slopes(values: Array, interval: float, reach: int = 2) -> Array:
     """Rates of change, by parabolas through each value and its neighbours."""
     offsets = np.arange(-reach, reach + 1)
     padded = np.concatenate(

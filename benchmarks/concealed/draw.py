@@ -88,5 +88,5 @@ def draw(plan: Plan, attempt: int = 0) -> Drawn:
     scenario = sizes.merged(scenario, content.departure)
     for step in content.steps:
         if step["step"] == "frame_rate":  # filmed at another rate than the file will say
-            scenario["camera"]["rate"] *= step["factor"]
+            scenario["camera"]["rate"] /= step["factor"]
     return Drawn(plan, content, scenario, structure)

@@ -52,11 +52,12 @@ def report_html(result: dict[str, Any]) -> str:
 
     style: Any = dict(matplotlib.rcParamsDefault)  # the same page on every machine
     style.update({"svg.hashsalt": "diabolo", "axes.spines.top": False, "axes.spines.right": False})
+    horizons = (result.get("fit") or {}).get("horizons_s") or []
     with matplotlib.rc_context(style):
         return _template().render(
             result=result,
             fit=_fit(result.get("fit") or {}),
-            effects=[_effect(effect) for effect in _rows(result, "effects")],
+            effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
             unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
             strips=_strips(result.get("locate") or {}),
             first_strips=FIRST_RECORDINGS,
@@ -264,7 +265,7 @@ def _improvement(gain: float, interval: Any) -> str:
     return f"{shown}: {verdict}."
 
 
-def _effect(effect: dict[str, Any]) -> list[Any]:
+def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:
     parameters = [
         f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
         for row in _rows(effect, "parameters")
@@ -275,9 +276,22 @@ def _effect(effect: dict[str, Any]) -> list[Any]:
         {**_named(effect), "notes": notes},
         parameters or ["none"],
         _where(effect.get("where") or {}),
-        _sizes(effect.get("size") or {}) or ["not known"],
+        [*_sizes(effect.get("size") or {}), *_without(effect, horizons)] or ["not known"],
         probability(effect.get("p_value")),
         percent(effect.get("confidence")),
+    ]
+
+
+def _without(effect: dict[str, Any], horizons: list[float]) -> list[str]:
+    """How much worse data that was not fitted is predicted without it, at the longest horizon that tells."""
+    rows = zip(horizons, effect.get("worse_without_ci95_m") or [], strict=False)
+    told = [(horizon, interval) for horizon, interval in rows if interval and None not in interval]
+    if not told or told[-1][1] == [0.0, 0.0]:
+        return []
+    horizon, (low, high) = next((row for row in reversed(told) if row[1][0] > 0.0), told[-1])
+    sure = "" if low > 0.0 else ", so not shown to help there"
+    return [
+        f"without it {1e3 * low:.3g} to {1e3 * high:.3g} mm worse after {horizon:g} s on data not fitted{sure}"
     ]
 
 

@@ -400,6 +400,19 @@ def test_the_size_of_a_spin_effect_is_a_share() -> None:
     assert "Bearing slows the spin axle_drag" in text and "12 % of the spin in 1 s" in text
 
 
+def test_says_what_a_claim_is_worth_on_data_that_was_not_fitted() -> None:
+    fit = {"horizons_s": [0.5, 1.0]}
+
+    def text_of(intervals: list[list[float] | None]) -> str:
+        effects = [{"name": "string_friction", "worse_without_ci95_m": intervals}]
+        return Page(report_html(invented(effects=effects, fit=fit))).text
+
+    assert "without it 2 to 5 mm worse after 0.5 s" in text_of([[0.002, 0.005], [-0.001, 0.004]])
+    unsure = text_of([[-0.002, 0.005], None])
+    assert "without it -2 to 5 mm worse after 0.5 s on data not fitted, so not shown to help there" in unsure
+    assert "without it" not in text_of([])
+
+
 def test_many_recordings_unfold() -> None:
     windows = [window for index in range(7) for window in invented_windows(f"take {index}", 1.0)]
     locate = {"directions": INVENTED["locate"]["directions"], "windows": windows}

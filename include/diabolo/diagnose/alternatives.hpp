@@ -66,8 +66,12 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   std::vector<Alternative> others;
   const auto absent = [&](std::string_view other) { return !is_in(set, candidate_of(other)); };
   if (name == "time_offset" && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
-    others.push_back({"filter_lag", Delay::kFilter, set, fit.at});
-    others.push_back({"robot_servo_lag", Delay::kServo, set, fit.at});
+    for (const auto& [lag, delay] :
+         {std::pair("filter_lag", Delay::kFilter), {"robot_servo_lag", Delay::kServo}}) {
+      others.push_back({lag, delay, with(set, candidate_of(lag)), fit.at});
+      std::swap(others.back().at[index_of(Unknown::kLag)], others.back().at[index_of(Unknown::kTimeOffset)]);
+      others.back().at[index_of(Unknown::kLag)] *= -1.0;
+    }
   } else if (name == "length_scale" && !set[index_of(Unknown::kGravity)]) {
     ActiveSet rate = set;
     rate[index_of(Unknown::kLengthScale)] = false;
@@ -102,9 +106,13 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   return others;
 }
 
-/// The bank in which one explanation has taken another's place.
+/// The bank in which one explanation has taken another's place. A wrap is no candidate of its own, and a lag
+/// comes beside the time offset.
 inline Bank exchanged(Bank bank, std::string_view from, std::string_view to) {
-  if (alternative_to(to) == from && to != "string_wrap")  // a wrap comes beside friction
+  if (alternative_to(to) != from || to == "string_wrap") return bank;
+  if (from == "time_offset")
+    bank.push_back(&candidate_of(to));
+  else
     std::ranges::replace(bank, &candidate_of(from), &candidate_of(to));
   return bank;
 }
@@ -118,9 +126,9 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
   return std::ranges::count_if(draft.findings, needed) + (fit.at[index_of(Unknown::kWraps)] > 0.0 ? 1 : 0);
 }
 
-/// Refits with each alternative to a claim and keeps the best: of those that explain it as well as any, the
-/// one that needs the fewest; then a fault stays what it is, the others being rarer, and physics is
-/// what leaves least. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to what is
+/// Refits with each alternative to a claim and keeps the best: of those that are sure and explain it as well
+/// as any, the one that needs the fewest; then a fault stays what it is, the others being rarer, and physics
+/// is what leaves least. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to what is
 /// best.
 template <class D = detail::FitDual>
 std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
@@ -157,6 +165,10 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
       refine<D>(trial, base, other.set, kIterations, threads, watch);
+      const Candidate& young = candidate_of(other.name);
+      if (is_in(other.set, young) &&
+          !speaks_for(young, significance(young, standing(Evidence(trial), other.set))))
+        continue;
       const std::ptrdiff_t explanations =
           explanations_of(trial, other.set, exchanged(bank, name, other.name));
       options.push_back({other.name, std::move(trial), other.set, explanations});

@@ -56,13 +56,8 @@ inline const std::vector<Candidate>& candidates() {
       {"gravity_tilt", "a tilted frame", kMeasurement, {kTiltX, kTiltY}, 0.3 * kDegree, false},
       {"length_scale", "the scale of lengths", kMeasurement, {kLengthScale}, 0.003, false},
       {"time_offset", "a delay between diabolo and sticks", kMeasurement, {kTimeOffset}, 0.002, false},
-      {"filter_lag", "a low pass that delays the diabolo", kMeasurement, {kTimeOffset}, 0.002, false},
-      {"robot_servo_lag",
-       "sticks that lag behind the recorded ones",
-       kMeasurement,
-       {kTimeOffset},
-       0.002,
-       false},
+      {"filter_lag", "a low pass that delays the diabolo", kMeasurement, {kLag}, 0.002, true},
+      {"robot_servo_lag", "sticks that lag behind the recorded ones", kMeasurement, {kLag}, 0.002, true},
       {"marker_offset",
        "the diabolo's recorded centre",
        kMeasurement,
@@ -143,7 +138,8 @@ inline ActiveSet with(ActiveSet set, const Candidate& candidate, bool included =
   for (const Unknown u : candidate.unknowns) {
     set[index_of(u)] = included;
     if (u == Unknown::kCompliance) set[index_of(Unknown::kDamping)] = included;
-    if (u == Unknown::kStickCompliance) set[index_of(Unknown::kStickDamping)] = included;
+    if (u == Unknown::kStickCompliance)
+      set[index_of(Unknown::kStickDamping)] = set[index_of(Unknown::kTipMass)] = included;
     if (u == Unknown::kFriction) set[index_of(Unknown::kSpinGain)] = included;
   }
   return set;

@@ -28,7 +28,10 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   if (x(Unknown::kCompliance) > 0.0) elasticity.damping += std::max(0.0, x(Unknown::kDamping));
   auto& flex = model.effects.get<StickFlex>();
   flex.compliance += std::max(0.0, x(Unknown::kStickCompliance));
-  if (x(Unknown::kStickCompliance) > 0.0) flex.damping += std::max(0.0, x(Unknown::kStickDamping));
+  if (x(Unknown::kStickCompliance) > 0.0) {
+    flex.damping += std::max(0.0, x(Unknown::kStickDamping));
+    flex.tip_mass += std::max(0.0, x(Unknown::kTipMass));
+  }
   auto& friction = model.effects.get<StringFriction>();
   friction.coefficient += std::max(0.0, x(Unknown::kFriction));
   if (x(Unknown::kFriction) > 0.0) friction.spin_gain += std::max(0.0, x(Unknown::kSpinGain));
@@ -48,9 +51,11 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
 }
 
 /// The recording as a camera without the faults of a fit would have made it: tips at the diabolo's time and
-/// where they are, the diabolo's centre, lengths and the string's length true. Orientations stay.
+/// where they are, the diabolo's centre, lengths and the string's length true. Orientations stay. A lag is
+/// undone as the delay that it is at first order.
 inline Recording corrected(const Recording& given, const UnknownVector& at) {
-  const double scale = 1.0 + at[index_of(Unknown::kLengthScale)], offset = at[index_of(Unknown::kTimeOffset)];
+  const double scale = 1.0 + at[index_of(Unknown::kLengthScale)],
+               offset = at[index_of(Unknown::kTimeOffset)] - at[index_of(Unknown::kLag)];
   const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
   Recording result = given;
   const Eigen::VectorXd times = row_times(given);

@@ -84,6 +84,7 @@ inline Fit prepared(const std::vector<Recording>& recordings) {
   // A string's centre line lies half its thickness outside the axle: some 0.7 mm.
   fit.centre[index_of(Unknown::kAxleRadius)] = fit.stages.front().recording.properties.axle_radius + 7e-4;
   fit.centre[index_of(Unknown::kDamping)] = 10.0;
+  fit.centre[index_of(Unknown::kTipMass)] = 0.011;  // of wooden and plastic sticks: 8 to 15 g
   fit.at = fit.centre;
   return fit;
 }
@@ -221,12 +222,14 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
       if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
   for (const Exchange& exchange : exchanged)
     if (exchange.name == "string_wrap") claim_wraps(result, fit, exchange.z);
-  std::vector<HeldOutRecording> held;
-  for (const Recording& recording : options.holdout)
-    held.push_back({make_stage(recording).recording, fit.at});
-  if (held.empty()) held = leave_out(fit, evidence, set);
+  std::vector<ActiveSet> without;
+  for (const Finding& f : result.findings)
+    if (f.claimed) without.push_back(with(set, *f.candidate, false));
+  const std::vector<HeldOutRecording> held = leave_out(fit, evidence, set, without, options.holdout);
   result.heldout = compare_held_out(held, options.base, physics, options.seed, options.threads,
                                     step("comparing on data left out", 0.85));
+  for (std::size_t i = 0; i < without.size(); ++i)  // claims come first
+    result.findings[i].worsening_ci95 = result.heldout.worsening_ci95[i];
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
   if (withdraw_what_does_not_help(result)) result.model = options.base;
   if (numerical)

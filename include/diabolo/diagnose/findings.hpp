@@ -32,7 +32,9 @@ struct Finding {
   long swapped = 0;  ///< frames, of body_swap
   std::vector<std::string> tied_with;
   std::vector<std::size_t> windows;  ///< in which it matters
-  std::string reason;                ///< why it is claimed, or not
+  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; of claims.
+  std::vector<std::optional<Interval>> worsening_ci95;
+  std::string reason;  ///< why it is claimed, or not
 };
 
 /// A force that is left over, without a name.

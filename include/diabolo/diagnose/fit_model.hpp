@@ -75,6 +75,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
     auto& flex = effects.get<StickFlex>();
     flex.compliance += x(Unknown::kStickCompliance) * scale;
     flex.damping += x(Unknown::kStickDamping);
+    flex.tip_mass += x(Unknown::kTipMass);
   }
   auto& friction = effects.get<StringFriction>();
   friction.coefficient += x(Unknown::kFriction);
@@ -102,16 +103,18 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   return {p, effects};
 }
 
-/// The tips with their derivatives by time offset and tip offsets.
+/// The tips with their derivatives by time offset, lag and tip offsets.
 inline Tips<FitDual> fit_tips(const StageTips& s) {
   const auto with = [](const Vector3<double>& value, const Vector3<double>& by_time,
-                       const Eigen::Matrix3d& by_offset, Unknown first) {
+                       const Vector3<double>& by_lag, const Eigen::Matrix3d& by_offset, Unknown first) {
     Vector3<FitDual> result;
     for (int k = 0; k < 3; ++k) {
       result[k] = FitDual(value[k]);
       auto& slope = result[k].gradient;
       slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] =
           static_cast<float>(by_time[k] * info_of(Unknown::kTimeOffset).scale);
+      slope[kStartUnknowns + index_of(Unknown::kLag)] =
+          static_cast<float>(by_lag[k] * info_of(Unknown::kLag).scale);
       for (int j = 0; j < 3; ++j)
         slope[kStartUnknowns + index_of(first) + j] =
             static_cast<float>(-by_offset(k, j) * info_of(first).scale);
@@ -119,13 +122,14 @@ inline Tips<FitDual> fit_tips(const StageTips& s) {
     return result;
   };
   Tips<FitDual> tips;
-  tips.left = with(s.tips.left, s.left_by_delay, s.left_frame, Unknown::kLeftX);
-  tips.right = with(s.tips.right, s.right_by_delay, s.right_frame, Unknown::kRightX);
+  tips.left = with(s.tips.left, s.tips.left_velocity, s.left_by_lag, s.left_frame, Unknown::kLeftX);
+  tips.right = with(s.tips.right, s.tips.right_velocity, s.right_by_lag, s.right_frame, Unknown::kRightX);
   tips.left_direction = s.tips.left_direction.cast<FitDual>();
   tips.right_direction = s.tips.right_direction.cast<FitDual>();
-  tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_frame_rate, Unknown::kLeftX);
-  tips.right_velocity =
-      with(s.tips.right_velocity, s.right_acceleration, s.right_frame_rate, Unknown::kRightX);
+  tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_velocity_by_lag,
+                            s.left_frame_rate, Unknown::kLeftX);
+  tips.right_velocity = with(s.tips.right_velocity, s.right_acceleration, s.right_velocity_by_lag,
+                             s.right_frame_rate, Unknown::kRightX);
   return tips;
 }
 

@@ -23,6 +23,9 @@ struct HeldOut {
   std::vector<std::optional<Interval>> improvement_ci95;           ///< of base less augmented [m]
   /// What the start's noise alone would put the augmented model off by, mean [m].
   std::vector<std::optional<double>> start_error;
+  /// Of what the augmented model's error grows by where one claim is taken out of it and all else fitted
+  /// again: claim by claim, horizon by horizon [m].
+  std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
   std::size_t windows = 0;
 };
 
@@ -44,29 +47,49 @@ inline std::vector<Fold> folds_of(const std::vector<Stage>& stages) {
   return folds;
 }
 
-/// A recording and the unknowns that others say it has.
+/// A recording and the unknowns that others say it has, and that they would say without this or that claim.
 struct HeldOutRecording {
   Recording recording;
   UnknownVector at;
+  std::vector<UnknownVector> without;
 };
 
-/// Unknowns for each fold by the other folds' evidence for the free ones. No window that touches a fold takes
-/// part.
+/// Scaled unknowns in SI units, within their bounds.
+inline UnknownVector within_bounds(const UnknownVector& scaled) {
+  UnknownVector at = scaled.cwiseProduct(scales());
+  for (int u = 0; u < kUnknowns; ++u) {
+    const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+    at[u] = std::clamp(at[u], info.minimum, info.maximum);
+  }
+  return at;
+}
+
+/// What is predicted without having been fitted: `holdout`, by all evidence; or, where that is empty, each
+/// fold by the other folds' evidence. No window that touches a fold takes part. Free are `free` and, for each
+/// claim in turn, a set of `without`.
 inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& evidence,
-                                               const ActiveSet& free) {
+                                               const ActiveSet& free, const std::vector<ActiveSet>& without,
+                                               const std::vector<Recording>& holdout) {
   std::vector<HeldOutRecording> result;
+  const auto add = [&](Recording recording, const std::vector<bool>& left_out) {
+    result.push_back({std::move(recording), within_bounds(evidence.solve_without(free, left_out)), {}});
+    for (const ActiveSet& set : without)
+      result.back().without.push_back(within_bounds(evidence.solve_without(set, left_out)));
+  };
+  std::vector<bool> nothing;
+  for (const Stage& stage : fit.stages) nothing.resize(nothing.size() + stage.windows.size());
+  for (const Recording& recording : holdout) {
+    add(make_stage(recording).recording, nothing);
+    result.back().at = fit.at;
+  }
+  if (!holdout.empty()) return result;
   for (const Fold& fold : folds_of(fit.stages)) {
     std::vector<bool> left_out;
     for (std::size_t s = 0; s < fit.stages.size(); ++s)
       for (const FitWindow& window : fit.stages[s].windows)
         left_out.push_back(s == fold.stage && window.first <= fold.last && window.last >= fold.first);
     if (std::ranges::count(left_out, false) < 4) continue;
-    UnknownVector at = evidence.solve_without(free, left_out).cwiseProduct(scales());
-    for (int u = 0; u < kUnknowns; ++u) {
-      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
-      at[u] = std::clamp(at[u], info.minimum, info.maximum);
-    }
-    result.push_back({cut(fit.stages[fold.stage].recording, fold.first, fold.last), at});
+    add(cut(fit.stages[fold.stage].recording, fold.first, fold.last), left_out);
   }
   return result;
 }
@@ -83,6 +106,8 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
   const std::size_t horizons = options.horizons.size();
   std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons),
       start_errors(horizons);
+  const std::size_t claims = recordings.empty() ? 0 : recordings.front().without.size();
+  std::vector<std::vector<std::vector<double>>> losses(claims, std::vector<std::vector<double>>(horizons));
   for (const HeldOutRecording& held : recordings) {
     const HorizonTask plain(held.recording, base, options);
     const HorizonTask better(corrected(held.recording, held.at),
@@ -97,6 +122,18 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
       with[i] = better.errors(i);
       scatter[i] = better.scatter(i, noise, seed);
     });
+    for (std::size_t c = 0; c < claims; ++c) {
+      const UnknownVector& at = held.without[c];
+      const HorizonTask poorer(corrected(held.recording, at), augmented_model(physics, at, "poorer"),
+                               options);
+      std::vector<std::vector<WindowError>> errors(count);
+      for_each_index(count, threads, watch, [&](std::size_t i) { errors[i] = poorer.errors(i); });
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t h = 0; h < horizons; ++h)
+          if (const WindowError& a = errors[i][h], &b = with[i][h];
+              a.comparable && b.comparable && !a.failed && !b.failed)
+            losses[c][h].push_back(a.model - b.model);
+    }
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t h = 0; h < horizons; ++h) {
         const WindowError &a = without[i][h], &b = with[i][h];
@@ -108,6 +145,12 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
       }
   }
   std::mt19937_64 generator(seed);
+  const auto interval_of = [&](const std::vector<double>& differences, std::size_t h) {
+    const std::size_t overlap =
+        1 + static_cast<std::size_t>(std::ceil(options.horizons[h] / options.starts_every));
+    const std::optional<ErrorSummary> summary = summarize(differences, overlap, generator);
+    return summary ? std::optional(summary->mean_ci95) : std::nullopt;
+  };
   for (std::size_t h = 0; h < horizons; ++h) {
     const bool any = !gains[h].empty();
     result.windows = std::max(result.windows, gains[h].size());
@@ -115,10 +158,12 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     result.augmented_error.push_back(any ? std::optional(mean_of(augmented_errors[h])) : std::nullopt);
     result.start_error.push_back(start_errors[h].empty() ? std::nullopt
                                                          : std::optional(mean_of(start_errors[h])));
-    const std::size_t overlap =
-        1 + static_cast<std::size_t>(std::ceil(options.horizons[h] / options.starts_every));
-    const std::optional<ErrorSummary> gain = summarize(gains[h], overlap, generator);
-    result.improvement_ci95.push_back(gain ? gain->mean_ci95 : std::nullopt);
+    result.improvement_ci95.push_back(interval_of(gains[h], h));
+  }
+  for (const auto& claim : losses) {
+    result.worsening_ci95.emplace_back();
+    for (std::size_t h = 0; h < horizons; ++h)
+      result.worsening_ci95.back().push_back(interval_of(claim[h], h));
   }
   return result;
 }

@@ -25,13 +25,17 @@ struct FitWindow {
   State<double> start;       ///< the present estimate; spin about the axle as in State
 };
 
-/// The tips at an instant, and how they change with a shift of time and with offsets in the sticks' frames.
+/// The tips at an instant, and how they change with a shift of time, with the time constant of a lag, and
+/// with offsets in the sticks' frames.
 struct StageTips {
   Tips<double> tips;
-  Vector3<double> left_acceleration, right_acceleration;  ///< [m/s^2]
-  Vector3<double> left_by_delay, right_by_delay;          ///< derivatives by the time offset [m/s]
-  Eigen::Matrix3d left_frame, right_frame;                ///< stick to world
-  Eigen::Matrix3d left_frame_rate, right_frame_rate;      ///< their derivatives [1/s]
+  Vector3<double> left_acceleration, right_acceleration;                                          ///< [m/s^2]
+  Vector3<double> left_by_lag = Vector3<double>::Zero(), right_by_lag = Vector3<double>::Zero();  ///< [m/s]
+  /// Derivatives of the velocities [m/s^2].
+  Vector3<double> left_velocity_by_lag = Vector3<double>::Zero(),
+                  right_velocity_by_lag = Vector3<double>::Zero();
+  Eigen::Matrix3d left_frame, right_frame;            ///< stick to world
+  Eigen::Matrix3d left_frame_rate, right_frame_rate;  ///< their derivatives [1/s]
 };
 
 /// A recording, made ready for a diagnosis.
@@ -153,13 +157,11 @@ inline Stage make_stage(const Recording& given) {
 /// Shortest time constant of a lag that is told from none [s].
 inline constexpr double kShortestLag = 3e-4;
 
-/// The time constant that a time offset stands for as kFilter or kServo [s].
-inline double lag_of(const UnknownVector& at) {
-  return std::max(kShortestLag, -at[index_of(Unknown::kTimeOffset)]);
-}
+/// The time constant of a kFilter or kServo [s].
+inline double lag_of(const UnknownVector& at) { return std::max(kShortestLag, at[index_of(Unknown::kLag)]); }
 
 /// Lets the tips follow the given ones as s' = (c - s) / tau; exact for a c that is straight between the
-/// substeps. With derivatives by the time offset, -tau.
+/// substeps.
 inline void lag_behind(std::vector<StageTips>& grid, double step, double tau) {
   const auto follow = [&](auto tip, double lag) {
     std::vector<Vector3<double>> result;
@@ -188,19 +190,21 @@ inline void lag_behind(std::vector<StageTips>& grid, double step, double tau) {
     out.tips.right = r[k];
     out.tips.left_velocity = left_velocity;
     out.tips.right_velocity = right_velocity;
-    out.left_by_delay = -(l2[k] - l[k]) / (more - tau);
-    out.right_by_delay = -(r2[k] - r[k]) / (more - tau);
+    out.left_by_lag = (l2[k] - l[k]) / (more - tau);
+    out.right_by_lag = (r2[k] - r[k]) / (more - tau);
+    out.left_velocity_by_lag = -(left_velocity + out.left_by_lag) / tau;
+    out.right_velocity_by_lag = -(right_velocity + out.right_by_lag) / tau;
   }
 }
 
-/// Tips at each substep from row 0 on, read at the recorded time plus the time offset, or as kServo lagging
+/// Tips at each substep from row 0 on, read at the recorded time plus the time offset, as kServo lagging
 /// behind the recorded ones, less the tip offsets.
 inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector& at,
                                          Delay delay = Delay::kClock) {
   const Eigen::Index rows = stage.times.size();
   const std::vector<Eigen::Matrix3d> left = stick_frames(stage.recording.left_orientation, rows),
                                      right = stick_frames(stage.recording.right_orientation, rows);
-  const double clock = delay == Delay::kClock ? at[index_of(Unknown::kTimeOffset)] : 0.0;
+  const double clock = at[index_of(Unknown::kTimeOffset)];
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));
   std::vector<StageTips> result(static_cast<std::size_t>((rows - 1) * stage.substeps + 1));
@@ -217,8 +221,6 @@ inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector
                          after = stage.motion->at(time + h, hint_after);
       out.left_acceleration = (after.left_velocity - before.left_velocity) / (2.0 * h);
       out.right_acceleration = (after.right_velocity - before.right_velocity) / (2.0 * h);
-      out.left_by_delay = delay == Delay::kClock ? out.tips.left_velocity : Vector3<double>::Zero();
-      out.right_by_delay = delay == Delay::kClock ? out.tips.right_velocity : Vector3<double>::Zero();
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(next);
       out.left_frame = left[a] * (1.0 - fraction) + left[b] * fraction;
       out.right_frame = right[a] * (1.0 - fraction) + right[b] * fraction;

@@ -33,6 +33,7 @@ enum class Unknown : int {
   kDamping,          ///< of the string [N s/m]; counts where there is compliance
   kStickCompliance,  ///< of one stick's tip [m/N]
   kStickDamping,     ///< of one stick's tip [N s/m]; counts where there is compliance
+  kTipMass,          ///< of one stick's tip [kg]; counts where there is compliance
   kFriction,         ///< capstan coefficient
   kSpinGain,         ///< mass times axle radius over moment of inertia [1/m]; counts where there is friction
   kWraps,            ///< of the string around the axle; a whole number, tried and never free
@@ -45,6 +46,7 @@ enum class Unknown : int {
   kStringMass,  ///< per length [kg/m]
   kSpinAir,     ///< [1/rad]
   kSpinAxle,    ///< [rad/s^2]
+  kLag,         ///< time constant of what Delay says [s]; never free with kClock
   // Latent accelerations: what is left, wherever it comes from [m/s^2], [rad/s^2].
   kStringTangent,
   kStringBinormal,
@@ -59,11 +61,11 @@ enum class Unknown : int {
 inline constexpr int kUnknowns = static_cast<int>(Unknown::kCount);
 inline constexpr int index_of(Unknown u) { return static_cast<int>(u); }
 
-/// What makes the recorded diabolo late, or early, against the sticks.
+/// What makes the recorded diabolo late against the sticks, beside the time offset.
 enum class Delay {
-  kClock,   ///< the one's clock against the others': time_offset
-  kFilter,  ///< a first-order low pass that the diabolo's track went through; late only
-  kServo,   ///< sticks that follow the recorded, commanded ones as through such a filter; late only
+  kClock,   ///< nothing
+  kFilter,  ///< a first-order low pass that the diabolo's track went through
+  kServo,   ///< sticks that follow the recorded, commanded ones as through such a filter
 };
 
 /// One number for each unknown, in SI units.
@@ -88,12 +90,12 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"marker_x", "m", 0.01, 0.01, -0.08, 0.08},
     {"marker_y", "m", 0.001, 0.003, -0.01, 0.01},
     {"marker_z", "m", 0.001, 0.003, -0.01, 0.01},
-    {"left_x", "m", 0.01, 0.01, -0.04, 0.04},
-    {"left_y", "m", 0.01, 0.01, -0.04, 0.04},
-    {"left_z", "m", 0.01, 0.01, -0.04, 0.04},
-    {"right_x", "m", 0.01, 0.01, -0.04, 0.04},
-    {"right_y", "m", 0.01, 0.01, -0.04, 0.04},
-    {"right_z", "m", 0.01, 0.01, -0.04, 0.04},
+    {"left_x", "m", 0.01, 0.005, -0.04, 0.04},
+    {"left_y", "m", 0.01, 0.005, -0.04, 0.04},
+    {"left_z", "m", 0.01, 0.005, -0.04, 0.04},
+    {"right_x", "m", 0.01, 0.005, -0.04, 0.04},
+    {"right_y", "m", 0.01, 0.005, -0.04, 0.04},
+    {"right_z", "m", 0.01, 0.005, -0.04, 0.04},
     {"string_length", "m", 0.01, 0.02, -0.08, 0.08},
     {"spin_coupling", "1/s", 0.1, 1.0, -1e3, 1e3},
     {"axle_radius", "m", 0.001, 0.0007, 0.0, 0.03},
@@ -102,6 +104,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"damping", "N s/m", 10.0, 10.0, 0.0, 1e3},
     {"stick_compliance", "m/N", 1e-3, 3e-3, 0.0, 1.0 / 30.0},
     {"stick_damping", "N s/m", 1.0, 2.0, 0.0, 1e3},
+    {"tip_mass", "kg", 0.01, 0.004, 0.0, 0.1},
     {"friction", "1", 0.1, 0.3, 0.0, 0.6},
     {"spin_gain", "1/m", 1.0, 5.0, 0.0, 100.0},
     {"wraps", "1", 1.0, 0.0, 0.0, 5.0},
@@ -114,6 +117,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"string_mass", "kg/m", 1e-3, 3e-3, 0.0, 0.1},
     {"spin_air", "1/rad", 1e-3, 5e-3, 0.0, 0.02},
     {"spin_axle", "rad/s^2", 1.0, 20.0, 0.0, 60.0},
+    {"lag", "s", 0.01, 0.0, 0.0, 0.1},
     {"string_tangent", "m/s^2", 0.1, 0.0, -10.0, 10.0},
     {"string_binormal", "m/s^2", 0.1, 0.0, -10.0, 10.0},
     {"flight_against_v", "m/s^2", 0.1, 0.0, -10.0, 10.0},

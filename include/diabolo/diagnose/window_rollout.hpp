@@ -91,7 +91,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
   D lag(0.0);
   Vector3<D> trail = state.position;
   if (filtered) {
-    lag = D(lag_of(at)) - (detail::unknown(Unknown::kTimeOffset, at) - D(at[index_of(Unknown::kTimeOffset)]));
+    lag = D(lag_of(at)) + (detail::unknown(Unknown::kLag, at) - D(at[index_of(Unknown::kLag)]));
     trail = state.position - state.velocity * lag;
   }
   Eigen::VectorXd line(n + 1);

@@ -92,6 +92,13 @@ inline Json where_of(const Finding& f, const std::vector<WindowFinding>& windows
   return {{"modes", modes}, {"direction", direction_of(*f.candidate)}, {"intervals", intervals}};
 }
 
+inline Json intervals_of(const std::vector<std::optional<Interval>>& intervals) {
+  Json list = Json::array();
+  for (const std::optional<Interval>& interval : intervals)
+    list.push_back(interval ? Json({interval->low, interval->high}) : Json(nullptr));
+  return list;
+}
+
 inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length, double given_gravity) {
   const bool physics = f.candidate->kind == CandidateKind::kPhysics, of_spin = is_of_spin(*f.candidate);
   return {{"name", f.candidate->name},
@@ -102,6 +109,7 @@ inline Json effect_of(const Finding& f, const Diagnosis& d, double given_length,
           {"confidence", f.confidence},
           {"parameters", parameters_of(f, given_length, given_gravity)},
           {"where", where_of(f, d.windows)},
+          {"worse_without_ci95_m", intervals_of(f.worsening_ci95)},
           // As a constant acceleration would: x = a t^2 / 2 at half a second, four times that at one.
           {"size",
            {{"acceleration_mps2", of_spin ? Json(nullptr) : Json(8.0 * f.size)},
@@ -132,20 +140,17 @@ inline Json ladder_of(const Finding& f) {
 }
 
 inline Json heldout_of(const HeldOut& h) {
-  Json base = Json::array(), augmented = base, improvement = base, start = base;
+  Json base = Json::array(), augmented = base, start = base;
   for (std::size_t i = 0; i < h.base_error.size(); ++i) {
     base.push_back(number_or_null(h.base_error[i]));
     augmented.push_back(number_or_null(h.augmented_error[i]));
     start.push_back(number_or_null(h.start_error[i]));
-    improvement.push_back(h.improvement_ci95[i]
-                              ? Json({h.improvement_ci95[i]->low, h.improvement_ci95[i]->high})
-                              : Json(nullptr));
   }
   return {{"heldout", h.whole_recordings ? "recordings" : "blocks"},
           {"horizons_s", h.horizons},
           {"base_error_m", base},
           {"augmented_error_m", augmented},
-          {"improvement_ci95_m", improvement},
+          {"improvement_ci95_m", intervals_of(h.improvement_ci95)},
           {"start_error_m", start},
           {"windows", h.windows}};
 }

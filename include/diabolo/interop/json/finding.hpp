@@ -105,10 +105,9 @@ inline Json parameters_of(const Finding& f, double given_length, double given_gr
     }
     case kLengthScale:
       return Json::array({plain("factor", kLengthScale, "1", 1.0)});
+    case kLag:
+      return Json::array({plain("seconds", kLag, "s")});
     case kTimeOffset:
-      // A lag is how late the one is; an offset, how early the diabolo is.
-      if (!alternative_to(f.candidate->name).empty())
-        return Json::array({with_deviation("seconds", -value(kTimeOffset), deviation(kTimeOffset), "s")});
       return Json::array({plain("seconds", kTimeOffset, "s")});
     case kMarkerX: {
       const auto [radius, spread] =
