@@ -86,6 +86,20 @@ test-plant: # The simulator behind the demonstration recordings is a CMake proje
 	@cmake --build $(BUILD)/plant -j $(JOBS)
 	@$(ctest) --test-dir $(BUILD)/plant
 
+# The C++ library of ur_rtde's published source, in a prefix of its own: no Python bindings, no examples.
+ur_rtde := $(BUILD)/ur_rtde
+$(ur_rtde)/.installed: .ci/ur-rtde-requirements.txt .ci/ur_rtde.cmake $(VENV)/.created
+	@$(packages) build ur-rtde
+	@rm -rf $(ur_rtde) $(ur_rtde)-source $(ur_rtde)-build
+	@$(VENV)/bin/python -m pip download --quiet --no-deps --no-binary ur_rtde -d $(ur_rtde)-source -r $<
+	@tar xzf $(ur_rtde)-source/*.tar.gz -C $(ur_rtde)-source --strip-components=1
+	@$(cmake) -S $(ur_rtde)-source -B $(ur_rtde)-build -DCMAKE_BUILD_TYPE=Release -DPYTHON_BINDINGS=OFF \
+	  -DEXAMPLES=OFF -DCMAKE_PROJECT_ur_rtde_INCLUDE=$(abspath .ci/ur_rtde.cmake) \
+	  -DCMAKE_INSTALL_PREFIX=$(abspath $(ur_rtde)) >/dev/null 2>&1
+	@cmake --build $(ur_rtde)-build -j $(JOBS) -- --quiet
+	@cmake --install $(ur_rtde)-build >/dev/null
+	@touch $@
+
 prove: $(VENV)/.package ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
 	@$(packages) build test plant
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
