@@ -70,6 +70,7 @@ class Client {
   void connect() {
     for (int pause = 100;; pause = std::min(2 * pause, 1000)) {
       try {
+        reporter_.trouble(host_ + ": it has told no state yet");
         receive_ = std::make_unique<ur_rtde::RTDEReceiveInterface>(
             host_, 500.0,
             std::vector<std::string>{"timestamp", "actual_q", "speed_scaling", "target_speed_fraction",
@@ -79,6 +80,7 @@ class Client {
         if (settings_.upper_registers) flags |= ur_rtde::RTDEControlInterface::FLAG_UPPER_RANGE_REGISTERS;
         control_ = std::make_unique<ur_rtde::RTDEControlInterface>(host_, 500.0, flags);
         prepare();
+        reporter_.trouble("");
         return;
       } catch (const std::exception& error) {
         reporter_.trouble(host_ + ": " + error.what());
@@ -200,6 +202,9 @@ class Client {
       }
       if (!wait([this] { return !receive_->isProtectiveStopped(); }, "the stop was not released")) return;
       servoing_ = refused_ = false;
+      // The command register still holds the last setpoint's command, and a program that starts would obey
+      // it.
+      control_->kickWatchdog();
       control_->reuploadScript();
       if (!wait([this] { return running_.load(); }, "the program did not start")) return;
       prepare();

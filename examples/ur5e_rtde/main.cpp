@@ -167,6 +167,10 @@ int main(int argc, char** argv) {
                  "Silence of a controller, or of this loop, that stops both arms [s]")
       ->check(CLI::Range(0.004, 0.2))
       ->capture_default_str();
+  app.add_option("--watchdog", options.arm.watchdog,
+                 "The controller stops its program after a silence of 1 / this [Hz]")
+      ->check(CLI::Range(1.0, 125.0))
+      ->capture_default_str();
   app.add_flag("--upper-registers", options.arm.upper_registers, "Where a fieldbus has the lower ones");
   app.add_flag("--dry-run", options.dry_run, "Plans and checks; connects to nothing");
   app.add_flag("--yes", options.yes, "Asks nothing: for tests on simulators only");

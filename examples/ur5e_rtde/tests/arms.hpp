@@ -43,6 +43,7 @@ inline ur5e::CellOptions patient() {
   options.right = loopback_address(1);
   options.settings.slow_call = 0.1;
   options.settings.watchdog = 5;
+  options.guard.tracking = 1.0;  // so that a silence is told as one
   options.control.stale_after = options.control.late_after = 0.1;
   options.control.recover_after = 0.3;
   return options;
@@ -63,7 +64,8 @@ struct Bench {
     Joints<double> joints = SetpointGuard::half(first, side) + Joints<double>::Constant(off);
     joints[5] -= off;
     server(side).reset();
-    server(side) = std::make_unique<stand_in::Server>(loopback_address(side == Side::kLeft ? 0 : 1), joints, 120);
+    server(side) =
+        std::make_unique<stand_in::Server>(loopback_address(side == Side::kLeft ? 0 : 1), joints, 120);
   }
 
   void connect() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plans played on two stand-in controllers through the real client. Figures of time are printed, not judged: the machine
-// of a test is no cell's.
+// Plans played on two stand-in controllers through the real client. Figures of time are printed, not judged:
+// the machine of a test is no cell's.
 #include <algorithm>
 #include <cstdio>
 #include <future>
@@ -14,7 +14,8 @@ namespace {
 
 double quantile(std::vector<double> values, double share) {
   std::ranges::sort(values);
-  return values.empty() ? 0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  return values.empty() ? 0
+                        : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 void print_timing(Bench& bench) {
@@ -34,8 +35,8 @@ void print_timing(Bench& bench) {
   std::printf(
       "timing: %zu setpoints, %.2f %% of %d ticks fresh, period mean %.4f p99 %.3f max %.2f ms, "
       "skew of the arms p99 %.3f ms, %d ticks with more than two\n",
-      left.size(), 100.0 * fresh / ticks, ticks, 1e3 * (left.back().time - left.front().time) /
-          static_cast<double>(left.size() - 1),
+      left.size(), 100.0 * fresh / ticks, ticks,
+      1e3 * (left.back().time - left.front().time) / static_cast<double>(left.size() - 1),
       quantile(periods, 0.99), quantile(periods, 1), quantile(skews, 0.99), bursts);
 }
 
@@ -49,8 +50,9 @@ TEST_CASE("two arms connect, start without a bump, and play a person's speed wit
   Bench bench(plan);
   const double begin = TickClock::now();
   bench.connect();
-  std::printf("connected after %.3f s; played %.2f times slower than planned, %.2f times where it is slowest\n",
-              TickClock::now() - begin, plan.as_played / plan.as_planned, plan.worst_factor);
+  std::printf(
+      "connected after %.3f s; played %.2f times slower than planned, %.2f times where it is slowest\n",
+      TickClock::now() - begin, plan.as_played / plan.as_planned, plan.worst_factor);
   bench.go_home();
   bench.run(plan);
   const Joints<double> left = bench.cell.control.reading(Side::kLeft).actual,
@@ -77,7 +79,8 @@ TEST_CASE("two arms connect, start without a bump, and play a person's speed wit
     }
     std::printf("%s arm: %.3g mm off the circle, at most %.3f rad/s\n", name_of(side), 1e3 * off, fastest);
     CHECK(fastest <= 3.2);
-    // Where the machine lets a tick of the client slip, two setpoints in a row look like one step: count those out.
+    // Where the machine lets a tick of the client slip, two setpoints in a row look like one step: count
+    // those out.
     if (sent.size() == bench.cell.session.size()) CHECK(largest_excess(sent) <= 1.02);
   }
   CHECK(bench.cell.session.size() >= plan.setpoints.size());
@@ -91,7 +94,9 @@ TEST_CASE("motions that are replaced midway join smoothly") {
   bench.make_run(begin);
   StickPlan running = begin;
   unsigned state = 20261122;
-  const auto random = [&state] { return static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24); };
+  const auto random = [&state] {
+    return static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24);
+  };
   int joined = 0;
   for (int i = 0; i < 12; ++i) {
     bench.cell.wait(0.2 + 0.3 * random());
@@ -99,9 +104,7 @@ TEST_CASE("motions that are replaced midway join smoothly") {
     const TipMotion<double> motion =
         circles(0.5 + 0.5 * random(), 3 + 2 * random(), 0.25 + 0.1 * random(), random());
     // Beside the loop, which must not wait: the watchdog would stop the arms.
-    auto next = std::async(std::launch::async, [&] {
-      return planner().replace(running, tick, motion, 0);
-    });
+    auto next = std::async(std::launch::async, [&] { return planner().replace(running, tick, motion, 0); });
     while (next.wait_for(std::chrono::seconds(0)) != std::future_status::ready) bench.cell.tick();
     const StickPlan plan = next.get();
     REQUIRE(plan.ok());
@@ -152,7 +155,8 @@ TEST_CASE("how late the arms follow is found out") {
     bench.make_run(plan);
     bench.play_out(plan);
     const ServoLag lag = estimate_lag(bench.cell.session.commanded(), bench.cell.session.actual());
-    std::printf("lookahead %.2f s, gain %.0f: %.1f ms late, %.2g rad left\n", lookahead, gain, 1e3 * lag.lag, lag.residual);
+    std::printf("lookahead %.2f s, gain %.0f: %.1f ms late, %.2g rad left\n", lookahead, gain, 1e3 * lag.lag,
+                lag.residual);
     CHECK(lag.certain);
     CHECK(lag.lag > lookahead);
     CHECK(lag.lag < lookahead + 0.02);  // two or three ticks on the way, more where the machine is busy
@@ -168,7 +172,8 @@ TEST_CASE("a controller that slows down slows the plan down, and both arms with 
   const std::size_t rows = bench.cell.session.size();
   bench.server(Side::kRight)->order("scaling 0.5 1.0");
   bench.cell.wait(1.0);
-  const double share = (bench.cell.control.plan_ticks() - before) / static_cast<double>(bench.cell.session.size() - rows);
+  const double share =
+      (bench.cell.control.plan_ticks() - before) / static_cast<double>(bench.cell.session.size() - rows);
   CHECK(share > 0.45);
   CHECK(share < 0.75);
   bench.play_out(plan);

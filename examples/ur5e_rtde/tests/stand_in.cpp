@@ -115,8 +115,9 @@ TEST_CASE("variables that are not there are named, and a slower client gets ever
 TEST_CASE("a packet of the wrong size closes its connection and no other") {
   Server server(loopback_address(0), kStart, 20);
   for (const std::string& wrong :
-       {packed(PacketType::kData, std::string("\1\0\0\0", 4)), packed(PacketType::kData, std::string("\1\0\0\0\0\0", 6)),
-        packed(PacketType::kData, "\2\0\0\0\0"), std::string("\0\2U", 3), packed(PacketType::kText, "hello")}) {
+       {packed(PacketType::kData, std::string("\1\0\0\0", 4)),
+        packed(PacketType::kData, std::string("\1\0\0\0\0\0", 6)), packed(PacketType::kData, "\2\0\0\0\0"),
+        std::string("\0\2U", 3), packed(PacketType::kText, "hello")}) {
     RtdeClient good(loopback_address(0)), bad(loopback_address(0));
     bad.inputs("input_int_register_0,");
     bad.send(wrong);
@@ -166,8 +167,10 @@ TEST_CASE("every command number is answered, with registers from 0 and from 24")
     for (std::int32_t command = 1; command <= 71; ++command) {
       if (command == kProtectiveStop || command == kSetWatchdog) continue;
       std::vector<double> arguments = Commander::servo(kStart);
-      if (command == kMoveJ || command == kMoveLJoints) arguments = {3.0, -1.0, 1.3, -1.9, 3.1, 0.0, 1.0, 1.0};
-      if (command == kSpeedJ || command == kServoStop || command == kStopJ || command == kStopL || command == kSpeedStop)
+      if (command == kMoveJ || command == kMoveLJoints)
+        arguments = {3.0, -1.0, 1.3, -1.9, 3.1, 0.0, 1.0, 1.0};
+      if (command == kSpeedJ || command == kServoStop || command == kStopJ || command == kStopL ||
+          command == kSpeedStop)
         arguments = {1.0, 0, 0, 0, 0, 0, 1.0};
       if (command == kServoL) continue;  // its target is a pose
       INFO("command " << command);
@@ -226,7 +229,8 @@ TEST_CASE("a servo follows a ramp late by its lookahead") {
   }
 }
 
-TEST_CASE("a sudden target, a number that is none, and a joint that is too fast stop the arm for its safety") {
+TEST_CASE(
+    "a sudden target, a number that is none, and a joint that is too fast stop the arm for its safety") {
   JointVector sudden = kStart;
   sudden[2] += 0.11;
   JointVector none = kStart;
@@ -289,10 +293,12 @@ TEST_CASE("programs start in remote control, with power and without a stop") {
     server.order(first);
     TestSocket script(loopback_address(0), 30003);
     script.send(program());
-    for (int i = 0; i < 100 && server.uploads() == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    for (int i = 0; i < 100 && server.uploads() == 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     REQUIRE(server.uploads() == 1);
     return server.ticks().back().runtime == Controller::kPlaying ||
-           (std::this_thread::sleep_for(std::chrono::milliseconds(50)), server.ticks().back().runtime == Controller::kPlaying);
+           (std::this_thread::sleep_for(std::chrono::milliseconds(50)),
+            server.ticks().back().runtime == Controller::kPlaying);
   };
   CHECK(starts("remote on"));
   CHECK_FALSE(starts("remote off"));
@@ -301,7 +307,8 @@ TEST_CASE("programs start in remote control, with power and without a stop") {
 }
 
 TEST_CASE("a stand-in stays on the loopback addresses, and ends by itself") {
-  CHECK_THROWS_WITH(Server("192.168.0.7", kStart, 1), "address: '192.168.0.7'; expected a loopback address, 127.x.x.x");
+  CHECK_THROWS_WITH(Server("192.168.0.7", kStart, 1),
+                    "address: '192.168.0.7'; expected a loopback address, 127.x.x.x");
   CHECK_THROWS_AS(Server("localhost", kStart, 1), std::invalid_argument);
   Server server(loopback_address(0), kStart, 0.2);
   CHECK_THROWS_AS(Server(loopback_address(0), kStart, 0.2), std::system_error);  // the port is taken
