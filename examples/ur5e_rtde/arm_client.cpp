@@ -171,7 +171,7 @@ class Client {
         break;
       }
       case ur5e::ArmCommand::kMove:
-        stop();
+        stop_servo();
         if (!control_->moveJ(joints, settings_.move_speed, settings_.move_acceleration, true))
           reporter_.trouble(host_ + ": a move was refused");
         break;
@@ -185,8 +185,12 @@ class Client {
   }
 
   void stop() {
+    const bool moves = control_->getAsyncOperationProgressEx().isAsyncOperationRunning();
+    if (running_ && !servoing_ && moves) control_->stopJ(kStopDeceleration, true);
+    stop_servo();
+  }
+  void stop_servo() {
     if (running_ && servoing_) control_->servoStop(kStopDeceleration);
-    if (running_ && !servoing_) control_->stopJ(kStopDeceleration, true);
     servoing_ = refused_ = false;
     reporter_.tell([](ur5e::ArmReport& report) { report.refused = false; });
   }

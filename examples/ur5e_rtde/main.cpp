@@ -54,6 +54,7 @@ bool playable(const diabolo::StickPlanner& planner, const diabolo::TipMotion<dou
   std::printf("Planned %.2f s, played in %.2f s: %.2f times slower on the whole, %.2f times at %.2f s.\n",
               check.as_planned, check.as_played, check.as_played / check.as_planned, check.worst_factor,
               check.worst_at);
+  if (check.worst_factor > 1.02) std::printf("Slower than planned, it does something else to the diabolo.\n");
   std::printf("The arms stay %.2f m apart (%s).\n", check.least_clearance, check.nearest_parts.c_str());
   return true;
 }

@@ -98,18 +98,27 @@ const StickPlan& circular_plan() {
   return plan;
 }
 
-double largest_distance(const Track& track, const StickArm& arm, const StickPlan& plan, double later) {
-  double largest = 0;
-  for (Eigen::Index i = 300; i < track.position.cols(); ++i) {
-    const double tick = std::clamp(static_cast<double>(i) - later / kTick, 0.0,
+/// How far a recorded tip is from where the plan has it, row by row, the smallest first; `later` [s] for the
+/// plan.
+std::vector<double> distances(const Track& track, const StickArm& arm, const StickPlan& plan, double later) {
+  std::vector<double> all;
+  for (Eigen::Index i = 300; i < track.position.cols();
+       ++i) {  // from where the gap of going home has faded out
+    const double tick = std::clamp(static_cast<double>(i) + 1 - later / kTick, 0.0,
                                    static_cast<double>(plan.setpoints.size() - 1));
     const auto before = static_cast<std::size_t>(tick);
     const PairJoints joints = plan.setpoint(before) + (tick - static_cast<double>(before)) *
                                                           (plan.setpoint(before + 1) - plan.setpoint(before));
     const Vector3<double> at = arm.tip_at(SetpointGuard::half(joints, arm.side));
-    largest = std::max(largest, (track.position.col(i) - at).norm());
+    all.push_back((track.position.col(i) - at).norm());
   }
-  return largest;
+  std::ranges::sort(all);
+  return all;
+}
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 }  // namespace
@@ -141,22 +150,28 @@ TEST_CASE("twenty seconds of circular acceleration, planned by the player, are p
          (commanded.right.position.col(i) - commanded.right.position.col(i - 1)).norm() / kTick});
   for (const bool is_left : {true, false}) {
     const StickArm& arm = is_left ? planner().left().arm() : planner().right().arm();
-    const double sent = largest_distance(is_left ? commanded.left : commanded.right, arm, plan, -kTick);
+    const Track& did = is_left ? actual.left : actual.right;
+    const double sent = distances(is_left ? commanded.left : commanded.right, arm, plan, 0).back();
     double lag = 0, least = 1;
     for (double later = 0; later < 0.1; later += 0.0005)
-      if (const double off = largest_distance(is_left ? actual.left : actual.right, arm, plan, later - kTick);
-          off < least)
+      if (const double off = root_mean_square(distances(did, arm, plan, later)); off < least)
         least = off, lag = later;
-    const double at_once = largest_distance(is_left ? actual.left : actual.right, arm, plan, -kTick);
+    const std::vector<double> at_once = distances(did, arm, plan, 0), late = distances(did, arm, plan, lag);
+    const auto most = static_cast<std::size_t>(0.99 * static_cast<double>(late.size()));
     std::printf(
-        "%s tip, at %.2f m/s at most: sent within %.1e m of the plan; there within %.1f mm, %.1f ms later "
-        "within %.1f mm\n",
-        name_of(arm.side), fastest, sent, 1e3 * at_once, 1e3 * lag, 1e3 * least);
+        "%s tip, at %.2f m/s at most: sent within %.1e m of the plan; there within %.1f mm, and %.1f ms "
+        "later within "
+        "%.1f mm (99 %% of the time; rms %.1f mm, at most %.1f mm)\n",
+        name_of(arm.side), fastest, sent, 1e3 * at_once[most], 1e3 * lag, 1e3 * late[most], 1e3 * least,
+        1e3 * late.back());
     CHECK(sent <= 1e-6);
     CHECK(lag >= 0.03);
     CHECK(lag <= 0.05);
-    CHECK(least <= 0.01);
-    CHECK(at_once <= fastest * 0.05 + 0.002);
+    // Where the machine lets ticks slip, the arm is where it was some ticks ago: 1 % of the time is left to
+    // that.
+    CHECK(late[most] <= 0.01);
+    CHECK(least <= 0.003);
+    CHECK(at_once[most] <= fastest * 0.05);
   }
   for (const std::filesystem::directory_entry& file : std::filesystem::directory_iterator(controllers.folder))
     CHECK(file.path().string().find(".tmp") == std::string::npos);
