@@ -17,13 +17,12 @@
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "arm_messages.hpp"
+#include "reporter.hpp"
 
 namespace {
 
@@ -33,34 +32,6 @@ using std::chrono::milliseconds;
 constexpr int kSocket = STDIN_FILENO;
 
 double now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
-
-/// Tells RtdeArm what is. Both threads use it.
-class Reporter {
- public:
-  void trouble(const std::string& sentence) {
-    const std::lock_guard lock(mutex_);
-    report_.trouble.fill('\0');
-    sentence.copy(report_.trouble.data(), report_.trouble.size() - 1);
-    send();
-  }
-  template <class Change>
-  void tell(const Change& change) {
-    const std::lock_guard lock(mutex_);
-    change(report_);
-    send();
-  }
-  /// The end of this process, at once: whatever state the client library is in must not keep it.
-  [[noreturn]] void leave(const std::string& sentence) {
-    trouble(sentence);
-    _exit(1);
-  }
-
- private:
-  void send() { ::send(kSocket, &report_, sizeof report_, MSG_NOSIGNAL | MSG_DONTWAIT); }
-
-  std::mutex mutex_;
-  ur5e::ArmReport report_;
-};
 
 class Client {
  public:
@@ -279,7 +250,7 @@ class Client {
 
   ur5e::ArmSettings settings_;
   std::string host_;
-  Reporter reporter_;
+  ur5e::Reporter reporter_{kSocket};
   std::unique_ptr<ur_rtde::RTDEReceiveInterface> receive_;
   std::unique_ptr<ur_rtde::RTDEControlInterface> control_;
   std::atomic<double> called_at_ = 0;

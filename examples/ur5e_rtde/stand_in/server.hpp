@@ -130,7 +130,7 @@ class Server {
   }
 
   void greet(const Door& door) {
-    for (int fd; (fd = accept(door.socket.fd(), nullptr, nullptr)) >= 0;) {
+    for (int fd; (fd = accept4(door.socket.fd(), nullptr, nullptr, Socket::kFlags)) >= 0;) {
       Socket socket(fd);
       if (refusing_ && door.kind != Kind::kOrders) continue;
       Connection& connection = connections_.emplace_back(std::move(socket), door.kind);

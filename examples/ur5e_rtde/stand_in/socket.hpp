@@ -2,7 +2,6 @@
 #pragma once
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -19,14 +18,14 @@
 
 namespace stand_in {
 
-/// A TCP socket that never blocks, closed with its owner.
+/// A TCP socket that never blocks, closed with its owner and in programs that are started.
 class Socket {
  public:
+  static constexpr int kFlags = SOCK_NONBLOCK | SOCK_CLOEXEC;  ///< that `fd` must have been made with
+
   explicit Socket(int fd) : fd_(fd) {
     const int on = 1;
     setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    fcntl(fd, F_SETFL, O_NONBLOCK);
-    fcntl(fd, F_SETFD, FD_CLOEXEC);
   }
   Socket(Socket&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
   Socket& operator=(Socket&& other) noexcept {
@@ -72,7 +71,7 @@ inline sockaddr_in loopback(const std::string& address, std::uint16_t port) {
 /// Throws std::invalid_argument as loopback() does, std::system_error where the port is taken.
 inline Socket listening(const std::string& address, std::uint16_t port) {
   const sockaddr_in place = loopback(address, port);
-  Socket socket(::socket(AF_INET, SOCK_STREAM, 0));
+  Socket socket(::socket(AF_INET, SOCK_STREAM | Socket::kFlags, 0));
   const int on = 1;
   setsockopt(socket.fd(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   if (bind(socket.fd(), reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0 ||

@@ -42,6 +42,8 @@ inline ur5e::CellOptions patient() {
   options.left = loopback_address(0);
   options.right = loopback_address(1);
   options.settings.slow_call = 0.1;
+  options.settings.move_speed = 1;
+  options.settings.move_acceleration = 4;
   options.settings.watchdog = 5;
   options.guard.tracking = 1.0;  // so that a silence is told as one
   options.control.stale_after = options.control.late_after = 0.1;

@@ -204,7 +204,7 @@ TEST_CASE(
 
 TEST_CASE("what keeps an arm from connecting is told") {
   ur5e::CellOptions options = patient();
-  options.control.connect_within = 2;
+  options.control.connect_within = 1;
   struct Case {
     const char* order;
     const char* said;

@@ -145,7 +145,7 @@ TEST_CASE("without the guard the controller's own stop is the answer, so the tes
 }
 
 TEST_CASE("how late the arms follow is found out") {
-  const StickPlan plan = planner().start(circles(2.0, 3));
+  const StickPlan plan = planner().start(circles(1.2, 4));
   for (const auto& [lookahead, gain] : {std::pair{0.03, 2000.0}, {0.1, 300.0}, {0.05, 500.0}}) {
     ur5e::CellOptions options = patient();
     options.settings.lookahead = lookahead;

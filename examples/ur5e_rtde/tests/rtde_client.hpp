@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <fcntl.h>
 #include <poll.h>
 
 #include <stdexcept>
@@ -13,9 +14,9 @@
 /// A connection to a port of a stand-in, for tests: waits two seconds for an answer, no longer.
 class TestSocket {
  public:
-  TestSocket(const std::string& address, std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  TestSocket(const std::string& address, std::uint16_t port)
+      : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     const sockaddr_in place = stand_in::loopback(address, port);
-    fcntl(socket_.fd(), F_SETFL, 0);
     if (connect(socket_.fd(), reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0)
       throw std::runtime_error("no connection to " + address);
     fcntl(socket_.fd(), F_SETFL, O_NONBLOCK);
