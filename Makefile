@@ -29,7 +29,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-plant test-python test-all prove mujoco sanitize fuzz stress bench \
+.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove mujoco sanitize fuzz stress bench \
   build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
@@ -85,6 +85,38 @@ test-plant: # The simulator behind the demonstration recordings is a CMake proje
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS)
 	@$(ctest) --test-dir $(BUILD)/plant
+
+# The C++ library of ur_rtde's published source, in a prefix of its own: no Python bindings, no examples.
+ur_rtde := $(BUILD)/ur_rtde
+$(ur_rtde)/source/.fetched: .ci/ur-rtde-requirements.txt $(VENV)/.created
+	@rm -rf $(@D)
+	@$(VENV)/bin/python -m pip download --quiet --no-deps --no-binary ur_rtde -d $(@D) -r $<
+	@tar xzf $(@D)/*.tar.gz -C $(@D) --strip-components=1
+	@touch $@
+
+$(ur_rtde)/.installed: $(ur_rtde)/source/.fetched .ci/ur_rtde.cmake
+	@$(packages) build ur-rtde
+	@$(cmake) -S $(<D) -B $(ur_rtde)/build -DCMAKE_BUILD_TYPE=Release -DPYTHON_BINDINGS=OFF -DEXAMPLES=OFF \
+	  -DCMAKE_PROJECT_ur_rtde_INCLUDE=$(abspath .ci/ur_rtde.cmake) \
+	  -DCMAKE_INSTALL_PREFIX=$(abspath $(ur_rtde)/prefix) >/dev/null 2>&1
+	@cmake --build $(ur_rtde)/build -j $(JOBS) -- --quiet
+	@cmake --install $(ur_rtde)/build >/dev/null
+	@touch $@
+
+ur-rtde: # The program for two UR5e on stand-in controllers, through ur_rtde's client where that can be fetched.
+	@$(packages) build test ur-rtde
+	@if $(MAKE) --no-print-directory $(ur_rtde)/source/.fetched; then \
+	  $(MAKE) --no-print-directory $(ur_rtde)/.installed; \
+	else \
+	  echo "ur_rtde could not be fetched: its client is left out, the stand-in controller alone is tested"; \
+	fi
+	@$(cmake) -S . -B $(BUILD)/ur5e/diabolo -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BATCH=OFF \
+	  -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF -DDIABOLO_BUILD_EXAMPLES=OFF >/dev/null
+	@cmake --install $(BUILD)/ur5e/diabolo --prefix $(BUILD)/ur5e/prefix --component cpp >/dev/null
+	@$(cmake) -S examples/ur5e_rtde -B $(BUILD)/ur5e/build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
+	  -DCMAKE_PREFIX_PATH='$(abspath $(BUILD)/ur5e/prefix);$(abspath $(ur_rtde)/prefix)' >/dev/null
+	@cmake --build $(BUILD)/ur5e/build -j $(JOBS) -- -k 0
+	@ctest --test-dir $(BUILD)/ur5e/build --output-on-failure --no-tests=error
 
 prove: $(VENV)/.package ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
 	@$(packages) build test plant

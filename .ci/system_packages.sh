@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Usage: system_packages.sh GROUP...   with groups build, test, plant, bench, lint, mujoco
+# Usage: system_packages.sh GROUP...   with groups build, test, plant, ur-rtde, bench, lint, mujoco
 # Looks for what the groups need and installs with apt-get what is missing; asks for nothing when all is there.
 set -euo pipefail
 
 readonly WANTED="a C++20 compiler, CMake 3.25, Ninja, Eigen 3.4, nlohmann-json, Python 3.10 with venv and headers; \
-for tests Catch2, CLI11 and Orocos KDL, for benchmarks Google Benchmark, for lint and fuzzing clang, clang-tidy and its runtime libraries"
+for tests Catch2, CLI11, Orocos KDL and Boost (system, thread, program_options), for benchmarks Google Benchmark, for lint and fuzzing clang, clang-tidy and its runtime libraries"
 python=${PYTHON:-python3}
 
 has_command() { command -v "$1" >/dev/null 2>&1; }
@@ -43,6 +43,12 @@ missing_packages() {
       has_header kdl/chain.hpp || echo liborocos-kdl-dev
       ;;
     plant) has_header CLI/CLI.hpp || echo libcli11-dev ;;
+    ur-rtde)
+      has_header CLI/CLI.hpp || echo libcli11-dev
+      has_header boost/system/error_code.hpp || echo libboost-system-dev
+      has_header boost/program_options.hpp || echo libboost-program-options-dev
+      has_header boost/thread/thread.hpp || echo libboost-thread-dev
+      ;;
     bench)
       has_header benchmark/benchmark.h || echo libbenchmark-dev
       has_header kdl/chain.hpp || echo liborocos-kdl-dev
@@ -55,7 +61,7 @@ missing_packages() {
       ;;
     mujoco) ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri ;;
     *)
-      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, bench, lint or mujoco" >&2
+      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, ur-rtde, bench, lint or mujoco" >&2
       exit 2
       ;;
   esac
