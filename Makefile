@@ -122,7 +122,7 @@ prove: $(VENV)/.package ## Put the diagnosis to the proof on a few recordings wh
 	@$(packages) build test plant
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
-	@$(VENV)/bin/python -m diabolo prove quick --cases 24 --plant $(BUILD)/plant/diabolo-plant
+	@$(VENV)/bin/python -m diabolo prove quick --cases 16 --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest

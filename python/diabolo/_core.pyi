@@ -679,6 +679,14 @@ class StickFlex:
     @damping.setter
     def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
+    @property
+    def tip_mass(self) -> float:
+        """
+        that moves with one tip [kg]; within [0.0, 1.0]
+        """
+    @tip_mass.setter
+    def tip_mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
 class StringMass:
     """
     A string that weighs something: while it is loose, half of it hangs on the diabolo.
