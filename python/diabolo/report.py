@@ -290,9 +290,8 @@ def _without(effect: dict[str, Any], horizons: list[float]) -> list[str]:
         return []
     horizon, (low, high) = next((row for row in reversed(told) if row[1][0] > 0.0), told[-1])
     sure = "" if low > 0.0 else ", so not shown to help there"
-    return [
-        f"without it {1e3 * low:.3g} to {1e3 * high:.3g} mm worse after {horizon:g} s on data not fitted{sure}"
-    ]
+    worse = f"{1e3 * low:.3g} to {1e3 * high:.3g} mm worse after {horizon:g} s"
+    return [f"without it {worse} on data not fitted{sure}"]
 
 
 def _sizes(row: dict[str, Any]) -> list[str]:

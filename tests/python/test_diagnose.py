@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import sys
+from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +11,19 @@ import diabolo
 import numpy as np
 import pytest
 from conftest import make_recording
-from diabolo import Calibration, Diagnosis, Model, Recording, RecordingError, diagnose, load_recording
+from diabolo import (
+    Calibration,
+    Diagnosis,
+    Model,
+    Parameters,
+    Recording,
+    RecordingError,
+    diagnose,
+    load_recording,
+)
 from diabolo.cli import main
 from diabolo.cli.demo import packaged_recordings
+from diabolo.cli.diagnose import check_written
 from diabolo.report import report_html
 
 
@@ -196,6 +207,19 @@ def test_the_command_writes_report_result_and_model(
     assert result == json.loads((out / "diagnosis.json").read_text())
     assert [entry["file"] for entry in result["inputs"]] == [Path(take).name for take in takes]
     assert result["sentence"].split(",")[0] in (out / "report.html").read_text()
+
+
+def test_a_written_model_that_predicts_otherwise_is_a_failure(tmp_path: Path) -> None:
+    take = next(str(path) for path in packaged_recordings() if path.stem == "swing")
+    file, model = tmp_path / "model.json", Model.consistent()
+    model.save(file)
+    arguments = Namespace(recordings=[take], calibration=None, threads=1)
+    check_written(file, model, arguments, Calibration.published())
+    file.write_text(Model(parameters=Parameters(string_length=1.2), own_string_length=True).to_json())
+    with pytest.raises(
+        SystemExit, match=r"model\.json: a new process that reads this model predicts otherwise"
+    ):
+        check_written(file, model, arguments, Calibration.published())
 
 
 @pytest.mark.parametrize(
