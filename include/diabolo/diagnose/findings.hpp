@@ -142,6 +142,14 @@ inline double unexplained_share(const std::vector<WindowFinding>& windows) {
   return static_cast<double>(count) / static_cast<double>(residuals.size());
 }
 
+/// Whether what a candidate comes out as lies within its search bounds, or a standard deviation beyond.
+inline bool is_possible(const Candidate& candidate, const Standing& standing) {
+  return std::ranges::all_of(candidate.unknowns, [&](Unknown u) {
+    const double value = standing.estimate[index_of(u)], more = standing.deviation(index_of(u));
+    return value > info_of(u).minimum - more && value < info_of(u).maximum + more;
+  });
+}
+
 /// Judges every candidate at the final fit.
 inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const Bank& bank,
                  const ActiveSet& set) {
@@ -173,9 +181,11 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
         f.material = f.material || value - 2.0 * f.deviation[index_of(u)] > candidate.floor;
       }
     }
-    f.claimed = f.sure && f.material && is_in(set, candidate);
+    const bool possible = candidate.kind == CandidateKind::kPhysics || is_possible(candidate, own);
+    f.claimed = f.sure && f.material && possible && is_in(set, candidate);
     f.reason = !f.sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"
                                                                      : "too small to be told from nothing")
+               : !possible   ? "farther off than any measurement: something else is at work"
                : !f.material ? "there, but too small to matter"
                              : "sure, and large enough to matter";
     if (f.claimed && candidate.kind == CandidateKind::kPhysics)
