@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from copy import copy
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -18,6 +19,7 @@ from ._core import (
     Model,
     Parameters,
     Plan,
+    Recording,
     State,
     StickSpline,
     TipLimits,
@@ -69,7 +71,7 @@ class PlannedPlay(NamedTuple):
 
 
 def plan(
-    start: State,
+    start: State | Sequence[State],
     seed: StickSpline,
     goals: Goals,
     model: AnyModel | Sequence[AnyModel] = "consistent",
@@ -84,7 +86,7 @@ def plan(
 ) -> Plan:
     """Find a motion of the tips near `seed` that reaches the goals and keeps the limits.
 
-    start: of the diabolo when the motion begins.
+    start: of the diabolo when the motion begins; of several models one for all, or one for each.
     model: what the diabolo may do. Several are planned for at once: their mean cost counts, and the first
         one is the nominal one.
     solver: "gradient" follows derivatives through the prediction; "walk" is the paper's random walk, whose
@@ -97,7 +99,7 @@ def plan(
     """
     return _core.plan(
         _models(model),
-        start,
+        [start] if isinstance(start, State) else list(start),
         seed,
         goals,
         limits or TipLimits(),
@@ -127,6 +129,7 @@ def plan_action(
     seconds: float = 10.0,
     random_seed: int = 1,
     dt: float = 4e-3,
+    sticks: ArrayLike | None = None,
 ) -> PlannedPlay:
     """Plan a figure of play from its home pose.
 
@@ -136,7 +139,10 @@ def plan_action(
     size, pace: of the seed's hands, relative to the usual ones.
     height: of a throw's apex above the tips, or of a hop [m]; sideways: how far to the left a swing goes or a
     throw comes down [m]; spin_gain: wanted of each cycle of acceleration [rad/s] (needs a model with string
-    friction). The rest is as for `plan`.
+    friction).
+    sticks: their directions throughout, unit vectors, shape (6,), left over right; by default not known, and
+    a StickFlex then gives in every direction. The rest is as for `plan`; of several models each starts where
+    it hangs, if no start is given, and goes on from where it is predicted to be.
 
         plan_action("throw_and_catch", height=0.6).answer
     """
@@ -150,38 +156,41 @@ def plan_action(
     models = _models(model)
     length = models[0].parameters.string_length
     left, right = _core.home_pose(figure, length)
-    initial = start or hanging(models[0], left, right, spin)
+    initials = [start or hanging(one, left, right, spin) for one in models]
     if start is None and figure == "stop":
-        initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
+        for initial in initials:
+            initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
+    pointing = np.zeros(6) if sticks is None else np.asarray(sticks, dtype=float)
     limits = limits or TipLimits()
     path: TipPath | None = None
     plans: list[Plan] = []
     wanted: list[Goals] = []
-    state, began = initial, time.perf_counter()
+    states_now, began = initials, time.perf_counter()
     for _ in range(cycles):
         action = _core.action(
             figure,
             left,
             right,
-            state,
+            states_now[0],
             length,
             size=size,
             pace=pace,
             height=(0.15 if figure == "hop" else 0.5) if height is None else height,
             sideways=0.3 if sideways is None else sideways,
             spin=spin_gain,
+            sticks=pointing,
         )
         wanted = wanted or [action.goals]
         if catches:
             thrown, caught, piece, _ = _core.plan_throw_and_catch(
-                models, state, action.seed, action.goals, limits, action.freedom, 100_000, seconds, dt
+                models, states_now, action.seed, action.goals, limits, action.freedom, 100_000, seconds, dt
             )
             has_flown = thrown.end.string_state == StringState.FLYING
             plans += [thrown, caught] if has_flown else [thrown]
         else:
             plans.append(
                 plan(
-                    state,
+                    states_now,
                     action.seed,
                     action.goals,
                     models,
@@ -195,12 +204,12 @@ def plan_action(
             )
             piece = plans[-1].path
         path = piece if path is None else path.followed_by(piece)
-        state = plans[-1].end
+        states_now = [_end(one, now, piece) for one, now in zip(models, states_now, strict=True)]
     assert path is not None
     took = time.perf_counter() - began
     flight = 0.8 if figure in ("throw", "side_throw") and not catches else 0.0
-    time_s, states, codes, lefts, rights = _core.foresee(models[0], initial, path, flight=flight)
-    return PlannedPlay(name, path, plans, wanted, initial, time_s, states, codes, lefts, rights, took)
+    time_s, states, codes, lefts, rights = _core.foresee(models[0], initials[0], path, flight=flight)
+    return PlannedPlay(name, path, plans, wanted, initials[0], time_s, states, codes, lefts, rights, took)
 
 
 def hanging(model: AnyModel, left: ArrayLike, right: ArrayLike, spin: float = 0.0) -> State:
@@ -227,6 +236,27 @@ def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
         close = float(np.linalg.norm(states[-1, :3] - play.states[-1, :3])) < 0.3
         ended += close and codes[-1] != StringState.FLYING
     return ended / len(models)
+
+
+def model_for(model: AnyModel, recording: Recording) -> Model:
+    """The model with the string's length, mass and axle radius of the recording where it leaves them to it,
+    as one that `diagnose` made does: to plan on it for the set-up that was recorded."""
+    (one,) = _models(model)
+    fields = one.to_dict()
+    parameters = copy(one.parameters)
+    if not one.own_string_length:
+        parameters.string_length = recording.string_length
+    if not one.own_mass:
+        parameters.mass = recording.properties.mass
+    if not one.own_axle_radius:
+        parameters.axle_radius = recording.properties.axle_radius
+    return Model(**{**fields, "parameters": parameters})
+
+
+def _end(model: Model, start: State, path: TipPath) -> State:
+    """Where a model predicts the diabolo to be at the end of a path."""
+    _, states, codes, _, _ = _core.foresee(model, start, path)
+    return State(states[-1, :3], states[-1, 3:6], float(states[-1, 6]), StringState(codes[-1]))
 
 
 def _models(given: AnyModel | Sequence[AnyModel]) -> list[Model]:

@@ -47,7 +47,7 @@ TEST_CASE("a throw is caught again and hangs at rest, on one smooth path") {
 
 TEST_CASE("what does not fly is not caught") {
   const PlanProblem<> problem = throwing("throw", 0.6);
-  const Seam seam{0.0, problem.seed.points.front(), {}, problem.start};
+  const Seam seam{0.0, problem.seed.points.front(), {}, problem.seed.sticks, problem.start};
   CHECK_THROWS_WITH(catch_action(seam, seam.tips, kLength, 0.03, 9.8), Contains("does not fly"));
 }
 
