@@ -16,12 +16,12 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from session import GAINS, KINDS, cycles, draw, throws
+from session import GAINS, KINDS, cycles, diagnosed, draw, throws
 
 Line = dict[str, Any]
 
@@ -45,19 +45,31 @@ def run(given: argparse.Namespace) -> None:
         key: Line = {"what": given.what, "kind": given.kind, "seed": given.seed, "draw": number}
         if given.what == "cycles":
             key |= {"action": given.action, "rounds": given.rounds, "look_every": given.look_every}
-        if any(key.items() <= line.items() for line in lines_of(given.results)):
+        lines = lines_of(given.results)
+        if any(key.items() <= line.items() for line in lines):
             continue
-        line = key | drawn(given.plant, key)
+        line = key | drawn(given.plant, key, lines)
         append(given.results, line)
         print(text_of(line), flush=True)
 
 
-def drawn(program: Path, key: Line) -> Line:
+def drawn(program: Path, key: Line, before: Sequence[Line] = ()) -> Line:
+    """A draw; a plant that was diagnosed in an earlier one is not diagnosed again."""
     rng = np.random.default_rng([key["seed"], key["draw"]])
     plant = draw(program, rng)
+    diagnosis = None
+    if key["kind"] in ("diagnosed", "guessed"):
+        same = (line["diagnosis"] for line in before if _same_plant(line, key) and line["diagnosis"])
+        diagnosis = next(same, None) or diagnosed(plant)
     if key["what"] == "throws":
-        return throws(plant, key["draw"], key["kind"], rng)
-    return cycles(plant, key["action"], key["rounds"], key["kind"], key["look_every"])
+        found = throws(plant, key["draw"], key["kind"], rng, diagnosis)
+    else:
+        found = cycles(plant, key["action"], key["rounds"], key["kind"], key["look_every"], diagnosis)
+    return found | {"diagnosis": diagnosis}
+
+
+def _same_plant(line: Line, key: Line) -> bool:
+    return bool(line["seed"] == key["seed"] and line["draw"] == key["draw"])
 
 
 def text_of(line: Line) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import tempfile
 import time
 from itertools import takewhile
@@ -20,10 +21,10 @@ GAINS = {"linear_acceleration": 6.0, "circular_acceleration": 3.0}
 """Wanted of a cycle [rad/s]."""
 CYCLES_SPIN = 60.0  # at their begin [rad/s]
 LIMITS = TipLimits(string_margin=0.004)
-KINDS = ("diagnosed", "truth", "consistent", "spread")
-"""What the planner knows: the model that `diagnose` made from 30 s of the plant's own play; the plant's own
-numbers; the length of the string alone, with nothing else at work (`consistent`), or with a spread of all
-that may be (`spread`)."""
+KINDS = ("diagnosed", "guessed", "truth", "consistent", "spread")
+"""What the planner knows: the model that `diagnose` made from 30 s of the plant's own play, as it was written
+(`diagnosed`) or with its best guess of the air (`guessed`); the plant's own numbers (`truth`); the length of
+the string alone, with nothing else at work (`consistent`) or with a spread of all that may be (`spread`)."""
 
 
 def draw(program: Path, rng: np.random.Generator) -> Plant:
@@ -60,37 +61,40 @@ def spread(length: float) -> list[Model]:
     ]
 
 
-def known(plant: Plant, kind: str, line: dict[str, Any]) -> list[Model]:
-    """What the planner plans on; how it came to be goes into the line."""
+def known(plant: Plant, kind: str, diagnosis: dict[str, Any] | None) -> list[Model]:
+    """What the planner plans on."""
     if kind == "consistent":
         return [Model(Parameters(string_length=plant.length), name=kind)]
     if kind == "spread":
         return spread(plant.length)
     if kind == "truth":
         return [plant.known()]
+    assert diagnosis is not None
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "model.json"
+        file.write_text(json.dumps(diagnosis["model"]))
+        model = Model.load(file)
+    if kind == "guessed":
+        model = diabolo.best_guess(model, diagnosis)
+    return [model]
+
+
+def diagnosed(plant: Plant) -> dict[str, Any]:
+    """What `diabolo diagnose` says of 30 s of the plant's own play."""
     takes = plant.practice()
     began = time.perf_counter()
     found = diabolo.diagnose(takes, threads=1)
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "model.json"
-        found.model.save(file)  # what `diabolo diagnose --out` writes
-        model = diabolo.model_for(Model.load(file), takes[0])
-    line["diagnosis"] = {
+    return {
         "recorded_s": sum(float(take.time[-1] - take.time[0]) for take in takes),
         "takes": len(takes),
         "took_s": time.perf_counter() - began,
         "sentence": found.sentence,
-        "friction": model.string_friction.coefficient,
-        "spin_gain": model.string_friction.spin_gain,
-        "stick_compliance": model.stick_flex.compliance,
-        "string_compliance": model.string_elasticity.compliance,
-        "finite_axle": model.finite_axle.radius,
-        "tilt": [model.gravity_tilt.x, model.gravity_tilt.y],
-        "drag": [model.air.linear_drag, model.air.quadratic_drag],
-        "string_mass": model.string_mass.linear_density,
-        "wraps": model.parameters.wraps,
+        "model": json.loads(diabolo.model_for(found.model, takes[0]).to_json()),
+        "ladder": [
+            {key: entry[key] for key in ("name", "estimate", "z", "claimed")}
+            for entry in found.result["ladder"]
+        ],
     }
-    return [model]
 
 
 class Player:
@@ -137,14 +141,16 @@ class Player:
         return self.add(action.seed, action.goals, action.freedom, seam)
 
 
-def throws(plant: Plant, number: int, kind: str, rng: np.random.Generator) -> dict[str, Any]:
+def throws(
+    plant: Plant, number: int, kind: str, rng: np.random.Generator, diagnosis: dict[str, Any] | None = None
+) -> dict[str, Any]:
     """A throw of the plant, its catch, and both again with the aim moved by what the first one missed."""
     name = "throw" if number % 3 < 2 else "side_throw"
     height = float(rng.uniform(0.3, 1.0))
     sideways = 0.0 if name == "throw" else float(rng.uniform(0.1, 0.3))
     spin = float(rng.uniform(100.0, 200.0))
     line: dict[str, Any] = {"plant": plant.facts(), "height": height, "sideways": sideways, "spin": spin}
-    models = known(plant, kind, line)
+    models = known(plant, kind, diagnosis)
     player = Player(plant, models, _core.home_pose(name, plant.length), spin, steers=False)
     aimed_height, aim = height, 0.0
     for which in ("first", "corrected"):
@@ -171,11 +177,13 @@ def throws(plant: Plant, number: int, kind: str, rng: np.random.Generator) -> di
     return line
 
 
-def cycles(plant: Plant, name: str, count: int, kind: str, every: int) -> dict[str, Any]:
+def cycles(
+    plant: Plant, name: str, count: int, kind: str, every: int, diagnosis: dict[str, Any] | None = None
+) -> dict[str, Any]:
     """Cycles of acceleration, each planned from the predicted end of the one before, with a look every so
     many."""
     line: dict[str, Any] = {"plant": plant.facts(), "action": name, "rounds": count, "look_every": every}
-    models = known(plant, kind, line)
+    models = known(plant, kind, diagnosis)
     player = Player(plant, models, _core.home_pose(name, plant.length), CYCLES_SPIN, steers=True)
     ends: list[float] = []
     played = None

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -251,6 +251,28 @@ def model_for(model: AnyModel, recording: Recording) -> Model:
     if not one.own_axle_radius:
         parameters.axle_radius = recording.properties.axle_radius
     return Model(**{**fields, "parameters": parameters})
+
+
+def best_guess(model: Model, result: Mapping[str, Any]) -> Model:
+    """The model that a diagnosis made, with its likeliest air drag and Magnus lift where they were too unsure
+    to be claimed: a claim has to be sure, a plan is best made for what is likeliest.
+
+    result: `Diagnosis.result`, or what its file holds. Of an estimate that is z standard deviations away from
+    zero the share 1 - 1 / z^2 counts; where z is below one, nothing.
+    """
+    claims = {entry["name"]: entry for entry in result["ladder"]}
+
+    def guess(name: str) -> float:
+        entry = claims.get(name)
+        if entry is None or entry["claimed"] or not abs(entry["z"]) > 1.0:
+            return 0.0
+        return float(entry["estimate"] * (1.0 - 1.0 / entry["z"] ** 2))
+
+    guessed = copy(model)
+    if not claims.get("air_drag_linear", {}).get("claimed", False):
+        guessed.air.quadratic_drag += max(0.0, guess("air_drag_quadratic"))
+    guessed.magnus_lift.coefficient += guess("magnus_lift")
+    return guessed
 
 
 def _end(model: Model, start: State, path: TipPath) -> State:

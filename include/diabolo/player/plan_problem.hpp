@@ -33,7 +33,12 @@ struct PlanProblem {
   static constexpr double kReportedStep = 1e-3;  ///< [s]
   static constexpr double kFlight = 1.2;         ///< how long a flight is followed [s]
 
-  double string_length() const { return models.front().parameters().string_length; }
+  /// The shortest that it may have [m]: the tips of a plan stay within it.
+  double string_length() const {
+    double shortest = models.front().parameters().string_length;
+    for (const Model& model : models) shortest = std::min(shortest, model.parameters().string_length);
+    return shortest;
+  }
 
   /// Throws std::invalid_argument where something is missing or out of its range.
   void validate() const {

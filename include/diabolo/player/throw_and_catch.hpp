@@ -38,8 +38,9 @@ inline Fall fall_to(const State<double>& state, double level, double gravity) {
 
 /// Catches a diabolo that flies: the string, all but straight, comes under the place where it falls through
 /// the height of the hands, gives way, and the hands come home to `home`. Where not only seam.state but
-/// `others` are possible too, the string is there under the middle of their places, from the first that may
-/// fall to the last. Throws std::invalid_argument where a diabolo does not fly, or comes down too soon.
+/// `others` are possible too, the string is there under the middle of their places, from before the first
+/// fall until after the last: what was foreseen are examples, so that it takes three times their spread.
+/// Throws std::invalid_argument where a diabolo does not fly, or comes down too soon.
 inline Action catch_action(const Seam& seam, const TipColumn<double>& home, double string_length,
                            double catch_slack, double gravity,
                            const std::vector<State<double>>& others = {}) {
@@ -62,11 +63,12 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
   Action action;
   action.name = "catch";
   action.seed.begin = seam.time;
+  const double early = std::max(first - (last - first), 0.7 * first), late = last + (last - first);
   action.seed.points = {seam.tips, pose(half - 0.02, level), pose(half, level)};
-  action.seed.durations = {0.7 * first, 0.3 * first};
-  if (last - first > kSpreadOfCatches) {  // it waits for the last
+  action.seed.durations = {0.7 * early, 0.3 * early};
+  if (late - early > kSpreadOfCatches) {  // it waits
     action.seed.points.push_back(pose(half, level));
-    action.seed.durations.push_back(last - first);
+    action.seed.durations.push_back(late - early);
   }
   for (const TipColumn<double>& point : {pose(0.55 * half, level - 0.12), home, home})
     action.seed.points.push_back(point);
@@ -117,7 +119,7 @@ ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, cons
   const auto tips = result.path.derivatives_at(time);
   const Seam seam{time, tips[0], {tips[1], tips[2]}, throwing.seed.sticks, catching.start};
   const Parameters<double>& parameters = throwing.models.front().parameters();
-  const Action action = catch_action(seam, throwing.seed.points.front(), parameters.string_length,
+  const Action action = catch_action(seam, throwing.seed.points.front(), throwing.string_length(),
                                      parameters.catch_slack, parameters.gravity, catching.starts);
   catching.seed = action.seed;
   catching.goals = action.goals;
