@@ -156,11 +156,10 @@ def plan_action(
     models = _models(model)
     length = models[0].parameters.string_length
     left, right = _core.home_pose(figure, length)
-    initials = [start or hanging(one, left, right, spin) for one in models]
+    initials = [start or hanging(one, left, right, spin, sticks) for one in models]
     if start is None and figure == "stop":
         for initial in initials:
             initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
-    pointing = np.zeros(6) if sticks is None else np.asarray(sticks, dtype=float)
     limits = limits or TipLimits()
     path: TipPath | None = None
     plans: list[Plan] = []
@@ -178,7 +177,7 @@ def plan_action(
             height=(0.15 if figure == "hop" else 0.5) if height is None else height,
             sideways=0.3 if sideways is None else sideways,
             spin=spin_gain,
-            sticks=pointing,
+            sticks=_directions(sticks),
         )
         wanted = wanted or [action.goals]
         if catches:
@@ -212,12 +211,20 @@ def plan_action(
     return PlannedPlay(name, path, plans, wanted, initials[0], time_s, states, codes, lefts, rights, took)
 
 
-def hanging(model: AnyModel, left: ArrayLike, right: ArrayLike, spin: float = 0.0) -> State:
+def hanging(
+    model: AnyModel,
+    left: ArrayLike,
+    right: ArrayLike,
+    spin: float = 0.0,
+    sticks: ArrayLike | None = None,
+) -> State:
     """The diabolo at rest below resting tips [m], where the model lets it hang: friction leans it to the
-    side, and what gives lowers it."""
+    side, and what gives lowers it. sticks: as for `plan_action`."""
     (one,) = _models(model)
     state = _core.hanging_state(left, right, one.parameters.string_length, spin)
-    rest = StickSpline([0.0, 0.15], np.tile(left, (2, 1)), np.tile(right, (2, 1))).path()
+    rest = StickSpline(
+        [0.0, 0.15], np.tile(left, (2, 1)), np.tile(right, (2, 1)), sticks=_directions(sticks)
+    ).path()
     for _ in range(60):  # let go, and stopped again, until it stays
         before = state.position
         _, states, _, _, _ = _core.foresee(one, state, rest)
@@ -254,25 +261,35 @@ def model_for(model: AnyModel, recording: Recording) -> Model:
 
 
 def best_guess(model: Model, result: Mapping[str, Any]) -> Model:
-    """The model that a diagnosis made, with its likeliest air drag and Magnus lift where they were too unsure
-    to be claimed: a claim has to be sure, a plan is best made for what is likeliest.
+    """The model that a diagnosis made, as a plan is best made on: with the string's length put right, where
+    it was measured wrongly, and with the likeliest air drag and Magnus lift where they were too unsure to be
+    claimed.
 
+    model: that of the diagnosis with what it leaves to the recording, see `model_for`.
     result: `Diagnosis.result`, or what its file holds. Of an estimate that is z standard deviations away from
     zero the share 1 - 1 / z^2 counts; where z is below one, nothing.
     """
-    claims = {entry["name"]: entry for entry in result["ladder"]}
+    found = {entry["name"]: entry for entry in result["ladder"]}
 
-    def guess(name: str) -> float:
-        entry = claims.get(name)
-        if entry is None or entry["claimed"] or not abs(entry["z"]) > 1.0:
+    def claimed(name: str) -> bool:
+        return name in found and bool(found[name]["claimed"])
+
+    def likeliest(name: str) -> float:
+        if name not in found or claimed(name) or not abs(found[name]["z"]) > 1.0:
             return 0.0
-        return float(entry["estimate"] * (1.0 - 1.0 / entry["z"] ** 2))
+        return float(found[name]["estimate"] * (1.0 - 1.0 / found[name]["z"] ** 2))
 
-    guessed = copy(model)
-    if not claims.get("air_drag_linear", {}).get("claimed", False):
-        guessed.air.quadratic_drag += max(0.0, guess("air_drag_quadratic"))
-    guessed.magnus_lift.coefficient += guess("magnus_lift")
-    return guessed
+    guess = copy(model)
+    if claimed("string_length") and not model.own_string_length:
+        guess.parameters.string_length += found["string_length"]["estimate"]
+    if not claimed("air_drag_linear"):
+        guess.air.quadratic_drag += max(0.0, likeliest("air_drag_quadratic"))
+    guess.magnus_lift.coefficient += likeliest("magnus_lift")
+    return guess
+
+
+def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:
+    return np.zeros(6) if sticks is None else np.asarray(sticks, dtype=float)
 
 
 def _end(model: Model, start: State, path: TipPath) -> State:

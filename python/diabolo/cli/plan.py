@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -21,9 +22,10 @@ from .._core import (
     Waypoint,
     load_recording,
 )
+from ..diagnosis import SCHEMA as DIAGNOSIS_SCHEMA
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS
-from ..player import ACTIONS, PlannedPlay, model_for, plan_action
+from ..player import ACTIONS, PlannedPlay, best_guess, model_for, plan_action
 from ..view import view_html
 from . import files, plots
 from .arguments import add_command, read_model
@@ -47,7 +49,7 @@ def add_parser(commands: Any) -> None:
         "exit status: 0 where every goal is reached, 1 where one is missed (the plan that comes closest is\n"
         "written all the same), 2 for bad input.",
         example="  diabolo plan throw_and_catch --goal height=0.6 --out throw.csv --html throw.html\n"
-        "  diabolo plan linear_acceleration --cycles 4 --model diagnosis/model.json --recording TAKE.csv\n"
+        "  diabolo plan throw --model d/model.json --diagnosis d/diagnosis.json --recording TAKE.csv\n"
         "  diabolo plan hop --robots",
     )
     parser.add_argument("action", metavar="ACTION", choices=ACTIONS, help=", ".join(ACTIONS))
@@ -85,6 +87,12 @@ def add_parser(commands: Any) -> None:
         help="of the set-up: its string length, mass and axle radius count where the model leaves them to a "
         "recording, as a diagnosed one does",
     )
+    parser.add_argument(
+        "--diagnosis",
+        metavar="FILE.json",
+        help="what `diabolo diagnose` wrote beside the model: the string's length as it found it, and its "
+        "best guess of the air where it was too unsure to claim any",
+    )
     parser.add_argument("--cycles", metavar="N", type=int, default=1, help="so many in a row; default 1")
     parser.add_argument(
         "--spin", metavar="W", type=float, default=100.0, help="at the start [rad/s]; default 100"
@@ -108,7 +116,7 @@ def run(arguments: argparse.Namespace) -> int:
     if out is not None and out.suffix != ".csv":
         raise ValueError(f"{out}: expected a name that ends in .csv")
     inputs = [arguments.model] if arguments.model not in DEFAULT_MODELS else []
-    inputs += [arguments.recording] if arguments.recording else []
+    inputs += [file for file in (arguments.recording, arguments.diagnosis) if file]
     beside = out.with_suffix(".json") if out else None
     files.check_outputs([out, beside, arguments.plot, arguments.html, arguments.json], inputs)
     if arguments.plot:
@@ -127,6 +135,8 @@ def run(arguments: argparse.Namespace) -> int:
     model = read_model(arguments.model)
     if arguments.recording:
         model = model_for(model, load_recording(arguments.recording))
+    if arguments.diagnosis:
+        model = best_guess(model, _read_diagnosis(Path(arguments.diagnosis)))
     played = plan_action(
         arguments.action,
         model,
@@ -245,6 +255,16 @@ def text_of(found: dict[str, Any]) -> str:
             f"; flight {found['flight_s']:.2f} s, up to {found['highest_above_tips_m']:.2f} m above the tips"
         )
     return text
+
+
+def _read_diagnosis(path: Path) -> dict[str, Any]:
+    try:
+        result = json.loads(path.read_text())
+    except ValueError as error:
+        raise ValueError(f"{path}: no JSON: {error}") from None
+    if not isinstance(result, dict) or result.get("schema") != DIAGNOSIS_SCHEMA:
+        raise ValueError(f"{path}: expected a file of the schema {DIAGNOSIS_SCHEMA}")
+    return result
 
 
 def _robot_limits(wanted: bool, asked: dict[str, float]) -> RobotLimits | None:
