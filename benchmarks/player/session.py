@@ -41,7 +41,7 @@ def draw(program: Path, rng: np.random.Generator) -> Plant:
 
 
 def spread(length: float) -> list[Model]:
-    """Models of all that may be with a string of that length: the middle, and four corners."""
+    """Models of all that may be with a string of that length, in usual air: the middle, and four corners."""
 
     def one(friction: float, stick: float, string: float) -> Model:
         return Model(
@@ -50,6 +50,8 @@ def spread(length: float) -> list[Model]:
             string_friction=diabolo.StringFriction(coefficient=friction, spin_gain=3.4),
             string_elasticity=diabolo.StringElasticity(compliance=length / string, damping=10.0),
             stick_flex=diabolo.StickFlex(compliance=1.0 / stick, damping=3.0),
+            air=diabolo.Air(quadratic_drag=0.03),
+            magnus_lift=diabolo.MagnusLift(coefficient=8e-4),
         )
 
     return [

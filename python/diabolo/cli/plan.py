@@ -126,11 +126,15 @@ def run(arguments: argparse.Namespace) -> int:
     goals = _numbers("--goal", arguments.goal, GOALS)
     usual = TipLimits()
     asked = _numbers("--limit", arguments.limit, LIMITS)
+    joints = {name.removeprefix("joint_"): asked[name] for name in JOINT_LIMITS if name in asked}
+    if joints and not arguments.robots:
+        raise ValueError(f"--limit joint_{next(iter(joints))}: counts with --robots only")
+    others: Any = _robot_limits(joints) if arguments.robots else None
     limits = TipLimits(
         speed=asked.get("speed", usual.speed),
         acceleration=asked.get("acceleration", usual.acceleration),
         jerk=asked.get("jerk", usual.jerk),
-        others=_robot_limits(arguments.robots, asked),
+        others=others,
     )
     model = read_model(arguments.model)
     if arguments.recording:
@@ -267,13 +271,8 @@ def _read_diagnosis(path: Path) -> dict[str, Any]:
     return result
 
 
-def _robot_limits(wanted: bool, asked: dict[str, float]) -> RobotLimits | None:
+def _robot_limits(joints: dict[str, float]) -> RobotLimits:
     """Those of the paper's two arms."""
-    joints = {name.removeprefix("joint_"): asked[name] for name in JOINT_LIMITS if name in asked}
-    if not wanted:
-        if joints:
-            raise ValueError(f"--limit joint_{next(iter(joints))}: counts with --robots only")
-        return None
     arms = [StickArm(side) for side in ("left", "right")]
     left, right = (StickMap(arm, SeedGrid.build(arm)) for arm in arms)
     return RobotLimits(left, right, **joints)
