@@ -29,8 +29,8 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove mujoco sanitize fuzz stress bench \
-  build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
+.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove prove-player mujoco sanitize \
+  fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 26
@@ -123,6 +123,12 @@ prove: $(VENV)/.package ## Put the diagnosis to the proof on a few recordings wh
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
 	@$(VENV)/bin/python -m diabolo prove quick --cases 16 --plant $(BUILD)/plant/diabolo-plant
+
+prove-player: $(VENV)/.package ## Play a few plans on the independent plant, and see that they do what is wanted
+	@$(packages) build test plant
+	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
+	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
+	@$(VENV)/bin/python benchmarks/player/prove.py small --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest

@@ -1,210 +1,210 @@
 # SPDX-License-Identifier: MIT
 """Puts plans to the proof on the independent plant.
 
-    .venv/bin/python benchmarks/player/prove.py throws --plant build/plant/diabolo-plant
-    .venv/bin/python benchmarks/player/prove.py cycles --plant build/plant/diabolo-plant
+    .venv/bin/python benchmarks/player/prove.py throws --count 100 --kind diagnosed
+    .venv/bin/python benchmarks/player/prove.py cycles --action circular_acceleration --look-every 5
+    .venv/bin/python benchmarks/player/prove.py report
+    .venv/bin/python benchmarks/player/prove.py small
 
-Plants are drawn; the planner gets what a diagnosis would say of each, within its usual errors (`diagnosed`),
-or nothing but the length of the string (`consistent`).
+Each draw of a plant is a line of the results' file; what is there is not run again, so that a run may be
+ended at any time and gone on with. `small` is for every day: it exits with status 1 where it falls short.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import os
 import sys
-import time
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-import diabolo
 import numpy as np
-from diabolo import Freedom, Goals, Model, Parameters, Plan, State, TipLimits, TipPath, _core
-from plant import Plant, Truth
+from session import GAINS, KINDS, cycles, diagnosed, draw, throws
 
-REACTION = 0.12
-"""From what is seen to the motion that answers it [s]."""
-GAINS = {"linear_acceleration": 6.0, "circular_acceleration": 3.0}
-"""Wanted of a cycle [rad/s]."""
-LIMITS = TipLimits(string_margin=0.004)
+Line = dict[str, Any]
 
 
-def draw(program: Path, rng: np.random.Generator, steers: bool) -> Plant:
-    return Plant(
-        program,
-        friction=float(rng.uniform(0.15, 0.35)),
-        bending_stiffness=float(rng.uniform(250.0, 800.0)),
-        stiffness=float(rng.uniform(1000.0, 5000.0)),
-        drag=float(rng.uniform(0.015, 0.045)),
-        magnus=float(rng.uniform(0.0002, 0.0015)),
-        length=float(rng.uniform(1.42, 1.47)),
-        steers=steers,
-        seed=int(rng.integers(1, 1000)),
-    )
+def lines_of(results: Path) -> list[Line]:
+    return [json.loads(line) for line in results.read_text().splitlines()] if results.exists() else []
 
 
-def plain(plant: Plant) -> Model:
-    return Model(Parameters(string_length=plant.length), name="consistent")
+def append(results: Path, line: Line) -> None:
+    """In one write, so that no line is ever there in part."""
+    results.parent.mkdir(parents=True, exist_ok=True)
+    file = os.open(results, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
+    try:
+        os.write(file, (json.dumps(line) + "\n").encode())
+    finally:
+        os.close(file)
 
 
-class Player:
-    """Plans piece by piece for a plant that is played from the beginning each time."""
-
-    def __init__(self, plant: Plant, model: Model, home: Any, spin: float) -> None:
-        self.plant, self.model, self.spin = plant, model, spin
-        self.left, self.right = home
-        still = diabolo.StickSpline([0.0, 0.5], [self.left] * 2, [self.right] * 2).path()
-        self.start: State = plant.play(still, spin, 0.1).state(0.0)
-        self.begin()
-
-    def begin(self) -> None:
-        self.horizon = diabolo.Horizon(self.model, self.left, self.right, self.start, 0.0)
-        self.longest_planning = 0.0
-
-    @property
-    def path(self) -> TipPath:
-        return self.horizon.path
-
-    def add(self, seed: Any, goals: Goals, freedom: Freedom, seam: Any) -> Plan:
-        began = time.perf_counter()
-        plan = diabolo.plan(seam.state, seed, goals, self.model, limits=LIMITS, freedom=freedom)
-        self.longest_planning = max(self.longest_planning, time.perf_counter() - began)
-        assert self.horizon.join(seam, plan, seam.time, 0.0)
-        return plan
-
-    def throw(self, name: str, height: float, sideways: float, aim: float) -> Plan:
-        seam = self.horizon.seam_at(self.path.end)
-        action = _core.action(
-            name, self.left, self.right, seam.state, self.plant.length, height=height, sideways=sideways
-        )
-        goals = action.goals
-        landing = goals.landing + np.array([0.0, aim, 0.0])
-        goals = Goals(apex=height, landing=landing)
-        return self.add(seam.joined(action.seed), goals, action.freedom, seam)
-
-    def catch(self, truth: Truth) -> Plan:
-        """From what is seen REACTION before the new piece sets in."""
-        seen = truth.state(self.path.end)
-        self.horizon.observe(self.path.end, seen)
-        seam = self.horizon.seam_at(self.path.end + REACTION)
-        action = seam.catch(self.left, self.right, self.model)
-        return self.add(action.seed, action.goals, action.freedom, seam)
-
-
-def flight(truth: Truth, path: TipPath) -> tuple[float, float]:
-    """Apex above the resting tips, and the sideways place of landing at their height [m]."""
-    tips = path.derivatives(np.array([path.end]))[0][0]
-    level = 0.5 * (tips[2] + tips[5])
-    top = int(truth.position[:, 2].argmax())
-    down = top + int(np.argmax(truth.position[top:, 2] <= level))
-    return float(truth.position[top, 2] - level), float(truth.position[down, 1])
-
-
-def throws(program: Path, count: int, kind: str, rng: np.random.Generator) -> None:
-    print(
-        "plant  throw       asked  first: apex  landing  caught   corrected: apex  landing  caught  plan [ms]"
-    )
-    results = []
-    for i in range(count):
-        plant = draw(program, rng, steers=False)
-        model = plain(plant) if kind == "consistent" else plant.model(rng)
-        name = "throw" if i % 3 < 2 else "side_throw"
-        height = float(rng.uniform(0.3, 1.0))
-        sideways = 0.0 if name == "throw" else float(rng.uniform(0.1, 0.3))
-        spin = float(rng.uniform(100.0, 200.0))
-        player = Player(plant, model, _core.home_pose(name, plant.length), spin)
-        wanted_apex, wanted_place, aimed_height, aim = height, sideways, height, 0.0
-        row: list[Any] = []
-        for _ in range(2):
-            player.begin()
-            apex = place = float("nan")
-            try:
-                player.throw(name, aimed_height, sideways, aim)
-                down = 2.0 * float(np.sqrt(2.0 * (height + 0.1) / 9.81))  # of the flight
-                truth = plant.play(player.path, spin, down)
-                apex, place = flight(truth, player.path)
-                player.catch(truth)
-                caught = plant.play(player.path, spin).held_at(player.path.end)
-            except (ValueError, RuntimeError) as error:  # nothing flew, or a tip ran into the diabolo
-                print(f"  {error}", file=sys.stderr)
-                caught = False
-            row += [apex, place, caught]
-            if np.isfinite(apex):
-                aimed_height += wanted_apex - apex
-                aim += wanted_place - place
-        results.append((wanted_apex, wanted_place, *row))
-        first, second = (f"{row[k]:.3f}   {row[k + 1] - sideways:+.3f}   {row[k + 2]!s:6s}" for k in (0, 3))
-        print(
-            f"{i:5d}  {name:10s}  {height:.2f}   {first}   {second}   {1e3 * player.longest_planning:.0f}",
-            flush=True,
-        )
-    for at, what in ((2, "first throw"), (5, "after one correction")):
-        apex = [abs(r[at] / r[0] - 1.0) for r in results]
-        place = [abs(r[at + 1] - r[1]) for r in results]
-        close, aside = sum(a <= 0.05 for a in apex), sum(p <= 0.05 for p in place)
-        caught = sum(bool(r[at + 2]) for r in results)
-        print(
-            f"{kind}, {what}: height within 5 % in {close} of {count} (median "
-            f"{100 * np.nanmedian(apex):.1f} %), landing within 5 cm in {aside} (median "
-            f"{100 * np.nanmedian(place):.1f} cm), caught {caught}"
-        )
-
-
-def cycles(plant: Plant, name: str, count: int, kind: str, every: int, rng: Any) -> None:
-    model = plain(plant) if kind == "consistent" else plant.model(rng)
-    spin = 60.0
-    player = Player(plant, model, _core.home_pose(name, plant.length), spin)
-    done = 0
-    truth = None
-    for done in range(count):
-        seam = player.horizon.seam_at(player.path.end)
-        gain = GAINS[name] if kind == "diagnosed" else None  # without friction no motion gains any
-        action = _core.action(name, player.left, player.right, seam.state, plant.length, spin=gain)
-        player.add(seam.joined(action.seed), action.goals, action.freedom, seam)
-        if (done + 1) % every != 0 and done + 1 < count:
+def run(given: argparse.Namespace) -> None:
+    for number in range(given.first, given.first + given.count):
+        key: Line = {"what": given.what, "kind": given.kind, "seed": given.seed, "draw": number}
+        if given.what == "cycles":
+            key |= {"action": given.action, "rounds": given.rounds, "look_every": given.look_every}
+        lines = lines_of(given.results)
+        if any(key.items() <= line.items() for line in lines):
             continue
-        truth = plant.play(player.path, spin, 0.2)
-        if not truth.held_at(player.path.end):
-            break
-        seen = player.path.end - REACTION
-        player.horizon.observe(seen, truth.state(seen))
+        line = key | drawn(given.plant, key, lines)
+        append(given.results, line)
+        print(text_of(line), flush=True)
+
+
+def drawn(program: Path, key: Line, before: Sequence[Line] = ()) -> Line:
+    """A draw; a plant that was diagnosed in an earlier one is not diagnosed again."""
+    rng = np.random.default_rng([key["seed"], key["draw"]])
+    plant = draw(program, rng)
+    diagnosis = None
+    if key["kind"] in ("diagnosed", "guessed"):
+        same = (line["diagnosis"] for line in before if _same_plant(line, key) and line["diagnosis"])
+        diagnosis = next(same, None) or diagnosed(plant)
+    if key["what"] == "throws":
+        found = throws(plant, key["draw"], key["kind"], rng, diagnosis)
     else:
-        done = count
-    assert truth is not None
-    last = truth.spin[int(np.searchsorted(truth.time, min(player.path.end, truth.time[-1]))) - 1]
-    if done < count:  # the last look shows since when it was lost
-        cycle = player.path.end / (done + 1)
-        done = sum(truth.held_at(cycle * (i + 1)) for i in range(done + 1))
-    looks = "open loop" if every >= count else f"a look every {every} cycles"
+        found = cycles(plant, key["action"], key["rounds"], key["kind"], key["look_every"], diagnosis)
+    return found | {"diagnosis": diagnosis}
+
+
+def _same_plant(line: Line, key: Line) -> bool:
+    return bool(line["seed"] == key["seed"] and line["draw"] == key["draw"])
+
+
+def text_of(line: Line) -> str:
+    if line["what"] == "cycles":
+        return (
+            f"{line['action']}, {line['kind']}, draw {line['draw']}: {line['done']} of {line['rounds']} "
+            f"cycles, spin at the end {line['end_spin']:.0f} rad/s"
+        )
+
+    def outcome(which: str) -> str:
+        one = line[which]
+        if one["apex"] is None:
+            return f"{which}: {line[f'{which}_error']}"
+        return (
+            f"{which}: {one['apex']:.3f} m, {one['place'] - line['sideways']:+.3f} m aside, "
+            f"{'caught' if one['caught'] else 'lost'}"
+        )
+
+    asked = f"{line['kind']}, draw {line['draw']}: asked {line['height']:.2f} m"
+    return f"{asked}; {outcome('first')}; {outcome('corrected')}"
+
+
+def wilson(count: int, of: int) -> tuple[float, float]:
+    """95 % interval of a share."""
+    z, share = 1.96, count / of
+    middle, square = share + z * z / (2 * of), z * np.sqrt(share * (1 - share) / of + z * z / (4 * of * of))
+    return (middle - square) / (1 + z * z / of), (middle + square) / (1 + z * z / of)
+
+
+def share_text(found: Iterable[bool]) -> str:
+    several = list(found)
+    low, high = wilson(sum(several), len(several))
+    return f"{sum(several)} of {len(several)} [{100 * low:.0f}, {100 * high:.0f}] %"
+
+
+def errors(lines: list[Line], which: str) -> tuple[list[float], list[float], list[bool]]:
+    """Relative errors of the height, those of the place [m], what was caught; a missed throw is infinite."""
+
+    def of(line: Line, what: str, wanted: float) -> float:
+        found = line[which][what]
+        return np.inf if found is None else abs(found - wanted)
+
+    heights = [of(line, "apex", line["height"]) / line["height"] for line in lines]
+    places = [of(line, "place", line["sideways"]) for line in lines]
+    return heights, places, [line[which]["caught"] for line in lines]
+
+
+def report(given: argparse.Namespace) -> None:
+    lines = lines_of(given.results)
     print(
-        f"{name}, {kind}, {looks}: {done} of {count} cycles, "
-        f"spin {truth.spin[0]:.0f} to {last:.0f} rad/s, friction {plant.friction:.2f}, planning at most "
-        f"{1e3 * player.longest_planning:.0f} ms",
-        flush=True,
+        "| planner knows | throws | height within 5 % | within 20 % | median | landing within 5 cm | median "
+        "| caught |"
     )
+    print("|---|---|---|---|---|---|---|---|")
+    for kind in KINDS:
+        thrown = [line for line in lines if line["what"] == "throws" and line["kind"] == kind]
+        for which in ("first", "corrected") if thrown else ():
+            heights, places, caught = errors(thrown, which)
+            print(
+                f"| {kind}, {which} | {len(thrown)} | {share_text(h <= 0.05 for h in heights)} "
+                f"| {share_text(h <= 0.2 for h in heights)} | {100 * np.median(heights):.1f} % "
+                f"| {share_text(p <= 0.05 for p in places)} | {100 * np.median(places):.1f} cm "
+                f"| {share_text(caught)} |"
+            )
+    for line in lines:
+        if line["what"] == "cycles":
+            print(text_of(line) + f", a look every {line['look_every']}")
 
 
-def main() -> None:
+def small(given: argparse.Namespace) -> int:
+    """Three throws and four cycles; the least that they must come to."""
+    seed = given.seed
+    thrown = [
+        {"what": "throws", "kind": kind, "seed": seed, "draw": number}
+        for number, kind in enumerate(("truth", "spread", "truth"))
+    ]
+    lines = [key | drawn(given.plant, key) for key in thrown]
+    heights, _, caught = errors(lines, "corrected")
+    turned: Line = {
+        "what": "cycles",
+        "kind": "truth",
+        "seed": seed,
+        "draw": 3,
+        "action": "linear_acceleration",
+        "rounds": 4,
+        "look_every": 4,
+    }
+    lines.append(turned | drawn(given.plant, turned))
+    for line in lines:
+        print(text_of(line))
+    known = [height for height, line in zip(heights, lines, strict=False) if line["kind"] == "truth"]
+    short = [
+        what
+        for what, good in (
+            ("a throw was not caught", all(caught)),
+            ("a height is off by more than 5 %", max(known) <= 0.05),
+            ("a height of the spread is off by more than 20 %", max(heights) <= 0.2),
+            ("cycles were lost", lines[-1]["done"] == 4),
+            ("the cycles gained less than 10 rad/s", lines[-1]["end_spin"] >= 70.0),
+        )
+        if not good
+    ]
+    print("short of the mark: " + "; ".join(short) if short else "all that must be reached is")
+    return 1 if short else 0
+
+
+def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("what", choices=("throws", "cycles"))
+    parser.add_argument("what", choices=("throws", "cycles", "report", "small"))
     parser.add_argument("--plant", type=Path, default=Path("build/plant/diabolo-plant"))
-    parser.add_argument("--kind", choices=("diagnosed", "consistent"), default="diagnosed")
-    parser.add_argument("--count", type=int, default=12, help="plants of throws, cycles of accelerations")
-    parser.add_argument("--action", default="linear_acceleration", help="of cycles")
-    parser.add_argument("--look-every", type=int, default=1, help="so many cycles")
-    parser.add_argument("--plants", type=int, default=3, help="of cycles")
+    parser.add_argument("--results", type=Path, default=Path("build/player/proof.jsonl"))
+    parser.add_argument("--count", type=int, default=15, help="draws of a plant")
+    parser.add_argument("--first", type=int, default=0, help="number of the first draw")
+    parser.add_argument("--kind", choices=KINDS, default="diagnosed", help="what the planner knows")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--action", choices=tuple(GAINS), default="linear_acceleration", help="of cycles")
+    parser.add_argument("--rounds", type=int, default=20, help="cycles of a draw")
+    parser.add_argument("--look-every", type=int, default=20, help="so many cycles")
     given = parser.parse_args()
-    rng = np.random.default_rng(given.seed)
-    if given.what == "throws":
-        throws(given.plant, given.count, given.kind, rng)
-        return
-    for _ in range(given.plants):
-        cycles(
-            draw(given.plant, rng, steers=True), given.action, given.count, given.kind, given.look_every, rng
-        )
+    if not given.plant.exists() and given.what != "report":
+        print(f"{given.plant}: not there; `make prove-player` builds it", file=sys.stderr)
+        return 2
+    if given.what == "report":
+        report(given)
+    elif given.what == "small":
+        return small(given)
+    else:
+        run(given)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)

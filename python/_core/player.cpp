@@ -58,7 +58,7 @@ Goals make_goals(std::vector<Waypoint> waypoints, std::optional<Waypoint> final_
 }
 
 Spline make_spline(const std::vector<double>& times, const Array& left, const Array& right, bool loop,
-                   const std::optional<std::pair<Column, Column>>& start) {
+                   const std::optional<std::pair<Column, Column>>& start, const Column& sticks) {
   const py::ssize_t size = static_cast<py::ssize_t>(times.size());
   const std::vector<Vector> lefts = to_rows(left, "left", size), rights = to_rows(right, "right", size);
   Spline spline;
@@ -69,6 +69,7 @@ Spline make_spline(const std::vector<double>& times, const Array& left, const Ar
     if (i > 0) spline.durations.push_back(times[i] - times[i - 1]);
   }
   if (start) spline.start = SplineStart<double>{start->first, start->second};
+  spline.sticks = sticks;
   spline.validate();
   return spline;
 }
@@ -123,9 +124,13 @@ py::tuple play_of(const Play<double>& play) {
 
 Simulator simulator(const Model& model) { return Simulator(model.parameters, model.effects); }
 
-Problem make_problem(const std::vector<Model>& models, const State<double>& start, const Spline& seed,
-                     const Goals& goals, const TipLimits& limits, const Freedom& freedom, double dt) {
-  Problem problem{{}, start, seed, goals, limits, freedom, dt};
+/// `starts`: one for all models, or one for each.
+Problem make_problem(const std::vector<Model>& models, const std::vector<State<double>>& starts,
+                     const Spline& seed, const Goals& goals, const TipLimits& limits, const Freedom& freedom,
+                     double dt) {
+  if (starts.empty()) throw std::invalid_argument("plan: no start state; at least one expected");
+  Problem problem{{}, starts.front(), seed, goals, limits, freedom, dt};
+  if (starts.size() > 1) problem.starts = starts;
   for (const Model& model : models) problem.models.push_back(simulator(model));
   return problem;
 }
@@ -136,10 +141,10 @@ Budget budget_of(int evaluations, double seconds, const std::atomic<bool>& cance
   return {evaluations, [end = deadline(seconds), &cancel] { return cancel.load() || end(); }};
 }
 
-Plan make_plan(const std::vector<Model>& models, const State<double>& start, const Spline& seed,
+Plan make_plan(const std::vector<Model>& models, const std::vector<State<double>>& starts, const Spline& seed,
                const Goals& goals, const TipLimits& limits, const Freedom& freedom, const std::string& solver,
                int evaluations, double seconds, std::uint64_t random_seed, double dt) {
-  const Problem problem = make_problem(models, start, seed, goals, limits, freedom, dt);
+  const Problem problem = make_problem(models, starts, seed, goals, limits, freedom, dt);
   Plan plan;
   run_interruptibly([&](const std::atomic<bool>& cancel) {
     const Budget budget = budget_of(evaluations, seconds, cancel);
@@ -155,10 +160,10 @@ Plan make_plan(const std::vector<Model>& models, const State<double>& start, con
 }
 
 /// The plans of throw and catch, and the path of both.
-py::tuple make_throw_and_catch(const std::vector<Model>& models, const State<double>& start,
+py::tuple make_throw_and_catch(const std::vector<Model>& models, const std::vector<State<double>>& starts,
                                const Spline& seed, const Goals& goals, const TipLimits& limits,
                                const Freedom& freedom, int evaluations, double seconds, double dt) {
-  const Problem problem = make_problem(models, start, seed, goals, limits, freedom, dt);
+  const Problem problem = make_problem(models, starts, seed, goals, limits, freedom, dt);
   ThrowAndCatch both;
   run_interruptibly([&](const std::atomic<bool>& cancel) {
     both = plan_throw_and_catch(problem, GradientSearch{}, budget_of(evaluations, seconds, cancel));
@@ -177,7 +182,7 @@ py::tuple foresee(const Model& model, const State<double>& start, const Path& pa
 /// The paper's residual of a path, for solvers of one's own; infinite where it breaks a limit.
 double cost(const std::vector<Model>& models, const State<double>& start, const Spline& motion,
             const Goals& goals, const TipLimits& limits, double dt) {
-  const Problem problem = make_problem(models, start, motion, goals, limits, Freedom{}, dt);
+  const Problem problem = make_problem(models, {start}, motion, goals, limits, Freedom{}, dt);
   problem.validate();
   const Path path = path_of(motion);
   return keeps(path, limits, problem.string_length()) ? problem.cost(path, dt, false) : INFINITY;
@@ -300,8 +305,10 @@ void bind_motions(py::module_& module) {
                      R"(A motion of the tips by control points: a clamped or periodic cubic spline.
 
 times [s], shape (M,); left and right [m], shape (M, 3); loop: it ends as it begins; start: velocity and
-acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right.)")
-      .def(py::init(&make_spline), "times"_a, "left"_a, "right"_a, "loop"_a = false, "start"_a = py::none())
+acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right; sticks: their
+directions, unit vectors, likewise, zero where not known; StickFlex alone looks at them.)")
+      .def(py::init(&make_spline), "times"_a, "left"_a, "right"_a, "loop"_a = false, "start"_a = py::none(),
+           "sticks"_a = Column(Column::Zero()))
       .def_property_readonly("times", &times_of)
       .def_property_readonly("left", [](const Spline& s) { return points_of(s, 0); })
       .def_property_readonly("right", [](const Spline& s) { return points_of(s, 1); })
@@ -330,12 +337,14 @@ acceleration of both tips that it goes on from, two arrays of the shape (6,), le
       "action",
       [](const std::string& name, const Vector& left, const Vector& right, const State<double>& start,
          double string_length, double size, double pace, double height, double sideways,
-         std::optional<double> spin) {
-        return action_named(name, column(left, right), start, string_length,
-                            {size, pace, height, sideways, spin});
+         std::optional<double> spin, const Column& sticks) {
+        Action action = action_named(name, column(left, right), start, string_length,
+                                     {size, pace, height, sideways, spin});
+        action.seed.sticks = sticks;
+        return action;
       },
       "name"_a, "left"_a, "right"_a, "start"_a, "string_length"_a, "size"_a = 1.0, "pace"_a = 1.0,
-      "height"_a = 0.5, "sideways"_a = 0.3, "spin"_a = py::none(),
+      "height"_a = 0.5, "sideways"_a = 0.3, "spin"_a = py::none(), "sticks"_a = Column(Column::Zero()),
       "The figure of that name from a pose of the tips and a state of the diabolo.");
 }
 
@@ -360,10 +369,10 @@ void bind_plans(py::module_& module) {
           "Times, states (N, 7), string states, left and right tips.")
       .def_property_readonly(
           "end", [](const Plan& plan) { return plan.play.end().state; }, "State at the end of the motion.");
-  module.def("plan", &make_plan, "models"_a, "start"_a, "seed"_a, "goals"_a, "limits"_a, "freedom"_a,
+  module.def("plan", &make_plan, "models"_a, "starts"_a, "seed"_a, "goals"_a, "limits"_a, "freedom"_a,
              "solver"_a, "evaluations"_a, "seconds"_a, "random_seed"_a, "dt"_a, "See diabolo.plan.");
   module.def(
-      "plan_throw_and_catch", &make_throw_and_catch, "models"_a, "start"_a, "seed"_a, "goals"_a, "limits"_a,
+      "plan_throw_and_catch", &make_throw_and_catch, "models"_a, "starts"_a, "seed"_a, "goals"_a, "limits"_a,
       "freedom"_a, "evaluations"_a, "seconds"_a, "dt"_a,
       "Plans of a throw and of the catch that follows, the path of both, and whether both are reached.");
   module.def("foresee", &foresee, "model"_a, "start"_a, "path"_a, "dt"_a = 1e-3, "flight"_a = 0.0,
@@ -378,20 +387,23 @@ void bind_plans(py::module_& module) {
       .def_property_readonly("right", [](const Seam& s) { return Vector(s.tips.tail<3>()); })
       .def(
           "catch",
-          [](const Seam& seam, const Vector& left, const Vector& right, const Model& model) {
+          [](const Seam& seam, const Vector& left, const Vector& right, const Model& model,
+             const std::vector<State<double>>& others) {
             return catch_action(seam, column(left, right), model.parameters.string_length,
-                                model.parameters.catch_slack, model.parameters.gravity);
+                                model.parameters.catch_slack, model.parameters.gravity, others);
           },
-          "home_left"_a, "home_right"_a, "model"_a, "The action that catches the diabolo, which flies.");
+          "home_left"_a, "home_right"_a, "model"_a, "others"_a = std::vector<State<double>>(),
+          "The action that catches the diabolo, which flies, as it is or as in one of the other states.");
   py::class_<FullHorizon>(module, "Horizon", R"(Motion that is planned piece by piece while it is played.
 
     seam = horizon.seam(now)         # where a plan that is begun now can set in
     piece = ...                      # a plan from seam.state, its seed seam.joined(...)
     horizon.join(seam, piece, now, planning_time)  # False where it comes too late)")
-      .def(py::init(
-               [](const Model& model, const Vector& left, const Vector& right, const State<double>& state,
-                  double begin) { return FullHorizon(simulator(model), column(left, right), state, begin); }),
-           "model"_a, "left"_a, "right"_a, "state"_a, "begin"_a = 0.0)
+      .def(py::init([](const Model& model, const Vector& left, const Vector& right,
+                       const State<double>& state, double begin, const Column& sticks) {
+             return FullHorizon(simulator(model), column(left, right), state, begin, sticks);
+           }),
+           "model"_a, "left"_a, "right"_a, "state"_a, "begin"_a = 0.0, "sticks"_a = Column(Column::Zero()))
       .def_property_readonly("path", &FullHorizon::path)
       .def("observe", &FullHorizon::observe, "time"_a, "state"_a,
            "Takes over an observed state; predictions begin with the latest one.")

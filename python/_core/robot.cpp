@@ -13,6 +13,7 @@
 #include "diabolo/robot/build_seed_grid.hpp"
 #include "diabolo/robot/check_plan.hpp"
 #include "diabolo/robot/inverse_near.hpp"
+#include "diabolo/robot/plan_limits.hpp"
 #include "diabolo/robot/seed_grid_file.hpp"
 #include "diabolo/robot/tip_plan_file.hpp"
 
@@ -327,6 +328,21 @@ world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for 
            "the joints are NaN.")
       .def("slopes", &slopes, "points"_a,
            "How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.");
+
+  py::class_<RobotLimits>(
+      module, "RobotLimits",
+      R"(What two arms, each a StickMap, ask of a path: TipLimits(others=RobotLimits(left, right)).
+
+Reach, the joints' speed [rad/s], acceleration [rad/s^2] and jerk [rad/s^3], of which `share` may be used up, and
+what must stay between the arms [m]. Called with a TipPath, it returns a list of LimitUse.)")
+      .def(py::init([](const StickMap& left, const StickMap& right, double speed, double acceleration,
+                       double jerk, double least_clearance, double share) {
+             return RobotLimits(StickPlanner(left, right, to_limits(speed, acceleration, jerk)),
+                                least_clearance, share);
+           }),
+           "left"_a, "right"_a, "speed"_a = limits.speed[0], "acceleration"_a = limits.acceleration[0],
+           "jerk"_a = limits.jerk[0], "least_clearance"_a = 0.10, "share"_a = 0.97)
+      .def("__call__", &RobotLimits::operator(), "path"_a, Unlocked());
 
   module.def("keep_limits", &limit, "joints"_a, "speed"_a = limits.speed[0],
              "acceleration"_a = limits.acceleration[0], "jerk"_a = limits.jerk[0],

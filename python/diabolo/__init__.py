@@ -54,7 +54,7 @@ from .enums import (
     ThinRule,
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
-from .player import PlannedPlay, hanging, plan, plan_action, success_rate
+from .player import PlannedPlay, best_guess, hanging, model_for, plan, plan_action, success_rate
 from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
 from .view import view_html
 
@@ -112,10 +112,12 @@ __all__ = [
     "Waypoint",
     "__version__",
     "baseline",
+    "best_guess",
     "diagnose",
     "evaluate",
     "hanging",
     "load_recording",
+    "model_for",
     "plan",
     "plan_action",
     "position_errors",

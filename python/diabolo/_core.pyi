@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
+__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1690,9 +1690,10 @@ class StickSpline:
     A motion of the tips by control points: a clamped or periodic cubic spline.
     
     times [s], shape (M,); left and right [m], shape (M, 3); loop: it ends as it begins; start: velocity and
-    acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right.
+    acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right; sticks: their
+    directions, unit vectors, likewise, zero where not known; StickFlex alone looks at them.
     """
-    def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None) -> None:
+    def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None:
         ...
     def path(self) -> TipPath:
         """
@@ -1784,9 +1785,9 @@ class Seam:
     """
     Where a new piece of motion sets in.
     """
-    def catch(self, home_left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], home_right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], model: Model) -> Action:
+    def catch(self, home_left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], home_right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], model: Model, others: collections.abc.Sequence[State] = []) -> Action:
         """
-        The action that catches the diabolo, which flies.
+        The action that catches the diabolo, which flies, as it is or as in one of the other states.
         """
     def joined(self, seed: StickSpline) -> StickSpline:
         """
@@ -1812,7 +1813,7 @@ class Horizon:
         piece = ...                      # a plan from seam.state, its seed seam.joined(...)
         horizon.join(seam, piece, now, planning_time)  # False where it comes too late
     """
-    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None:
         ...
     def join(self, seam: Seam, plan: Plan, now: typing.SupportsFloat | typing.SupportsIndex, planning_time: typing.SupportsFloat | typing.SupportsIndex) -> bool:
         ...
@@ -1930,7 +1931,18 @@ class StickMap:
     @property
     def grid(self) -> SeedGrid:
         ...
-def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Action:
+class RobotLimits:
+    """
+    What two arms, each a StickMap, ask of a path: TipLimits(others=RobotLimits(left, right)).
+    
+    Reach, the joints' speed [rad/s], acceleration [rad/s^2] and jerk [rad/s^3], of which `share` may be used up, and
+    what must stay between the arms [m]. Called with a TipPath, it returns a list of LimitUse.
+    """
+    def __call__(self, path: TipPath) -> list[LimitUse]:
+        ...
+    def __init__(self, left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1, share: typing.SupportsFloat | typing.SupportsIndex = 0.97) -> None:
+        ...
+def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """
     The figure of that name from a pose of the tips and a state of the diabolo.
     """
@@ -1982,7 +1994,7 @@ def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
     """
     The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's.
     """
-def plan(models: collections.abc.Sequence[Model], start: State, seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
+def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
     """
     See diabolo.plan.
     """
@@ -1990,7 +2002,7 @@ def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: Sti
     """
     The paper's residual of a motion; infinite where it breaks a limit.
     """
-def plan_throw_and_catch(models: collections.abc.Sequence[Model], start: State, seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
+def plan_throw_and_catch(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
     """
     Plans of a throw and of the catch that follows, the path of both, and whether both are reached.
     """

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from typing import Literal, NamedTuple, TypeAlias
+from collections.abc import Mapping, Sequence
+from copy import copy
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,7 @@ from ._core import (
     Model,
     Parameters,
     Plan,
+    Recording,
     State,
     StickSpline,
     TipLimits,
@@ -69,7 +71,7 @@ class PlannedPlay(NamedTuple):
 
 
 def plan(
-    start: State,
+    start: State | Sequence[State],
     seed: StickSpline,
     goals: Goals,
     model: AnyModel | Sequence[AnyModel] = "consistent",
@@ -84,7 +86,7 @@ def plan(
 ) -> Plan:
     """Find a motion of the tips near `seed` that reaches the goals and keeps the limits.
 
-    start: of the diabolo when the motion begins.
+    start: of the diabolo when the motion begins; of several models one for all, or one for each.
     model: what the diabolo may do. Several are planned for at once: their mean cost counts, and the first
         one is the nominal one.
     solver: "gradient" follows derivatives through the prediction; "walk" is the paper's random walk, whose
@@ -97,7 +99,7 @@ def plan(
     """
     return _core.plan(
         _models(model),
-        start,
+        [start] if isinstance(start, State) else list(start),
         seed,
         goals,
         limits or TipLimits(),
@@ -127,6 +129,7 @@ def plan_action(
     seconds: float = 10.0,
     random_seed: int = 1,
     dt: float = 4e-3,
+    sticks: ArrayLike | None = None,
 ) -> PlannedPlay:
     """Plan a figure of play from its home pose.
 
@@ -136,7 +139,10 @@ def plan_action(
     size, pace: of the seed's hands, relative to the usual ones.
     height: of a throw's apex above the tips, or of a hop [m]; sideways: how far to the left a swing goes or a
     throw comes down [m]; spin_gain: wanted of each cycle of acceleration [rad/s] (needs a model with string
-    friction). The rest is as for `plan`.
+    friction).
+    sticks: their directions throughout, unit vectors, shape (6,), left over right; by default not known, and
+    a StickFlex then gives in every direction. The rest is as for `plan`; of several models each starts where
+    it hangs, if no start is given, and goes on from where it is predicted to be.
 
         plan_action("throw_and_catch", height=0.6).answer
     """
@@ -150,38 +156,40 @@ def plan_action(
     models = _models(model)
     length = models[0].parameters.string_length
     left, right = _core.home_pose(figure, length)
-    initial = start or hanging(models[0], left, right, spin)
+    initials = [start or hanging(one, left, right, spin, sticks) for one in models]
     if start is None and figure == "stop":
-        initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
+        for initial in initials:
+            initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
     limits = limits or TipLimits()
     path: TipPath | None = None
     plans: list[Plan] = []
     wanted: list[Goals] = []
-    state, began = initial, time.perf_counter()
+    states_now, began = initials, time.perf_counter()
     for _ in range(cycles):
         action = _core.action(
             figure,
             left,
             right,
-            state,
+            states_now[0],
             length,
             size=size,
             pace=pace,
             height=(0.15 if figure == "hop" else 0.5) if height is None else height,
             sideways=0.3 if sideways is None else sideways,
             spin=spin_gain,
+            sticks=_directions(sticks),
         )
         wanted = wanted or [action.goals]
         if catches:
             thrown, caught, piece, _ = _core.plan_throw_and_catch(
-                models, state, action.seed, action.goals, limits, action.freedom, 100_000, seconds, dt
+                models, states_now, action.seed, action.goals, limits, action.freedom, 100_000, seconds, dt
             )
             has_flown = thrown.end.string_state == StringState.FLYING
             plans += [thrown, caught] if has_flown else [thrown]
         else:
             plans.append(
                 plan(
-                    state,
+                    states_now,
                     action.seed,
                     action.goals,
                     models,
@@ -195,20 +203,28 @@ def plan_action(
             )
             piece = plans[-1].path
         path = piece if path is None else path.followed_by(piece)
-        state = plans[-1].end
+        states_now = [_end(one, now, piece) for one, now in zip(models, states_now, strict=True)]
     assert path is not None
     took = time.perf_counter() - began
     flight = 0.8 if figure in ("throw", "side_throw") and not catches else 0.0
-    time_s, states, codes, lefts, rights = _core.foresee(models[0], initial, path, flight=flight)
-    return PlannedPlay(name, path, plans, wanted, initial, time_s, states, codes, lefts, rights, took)
+    time_s, states, codes, lefts, rights = _core.foresee(models[0], initials[0], path, flight=flight)
+    return PlannedPlay(name, path, plans, wanted, initials[0], time_s, states, codes, lefts, rights, took)
 
 
-def hanging(model: AnyModel, left: ArrayLike, right: ArrayLike, spin: float = 0.0) -> State:
+def hanging(
+    model: AnyModel,
+    left: ArrayLike,
+    right: ArrayLike,
+    spin: float = 0.0,
+    sticks: ArrayLike | None = None,
+) -> State:
     """The diabolo at rest below resting tips [m], where the model lets it hang: friction leans it to the
-    side, and what gives lowers it."""
+    side, and what gives lowers it. sticks: as for `plan_action`."""
     (one,) = _models(model)
     state = _core.hanging_state(left, right, one.parameters.string_length, spin)
-    rest = StickSpline([0.0, 0.15], np.tile(left, (2, 1)), np.tile(right, (2, 1))).path()
+    rest = StickSpline(
+        [0.0, 0.15], np.tile(left, (2, 1)), np.tile(right, (2, 1)), sticks=_directions(sticks)
+    ).path()
     for _ in range(60):  # let go, and stopped again, until it stays
         before = state.position
         _, states, _, _, _ = _core.foresee(one, state, rest)
@@ -227,6 +243,59 @@ def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
         close = float(np.linalg.norm(states[-1, :3] - play.states[-1, :3])) < 0.3
         ended += close and codes[-1] != StringState.FLYING
     return ended / len(models)
+
+
+def model_for(model: AnyModel, recording: Recording) -> Model:
+    """The model with the string's length, mass and axle radius of the recording where it leaves them to it,
+    as one that `diagnose` made does: to plan on it for the set-up that was recorded."""
+    (one,) = _models(model)
+    fields = one.to_dict()
+    parameters = copy(one.parameters)
+    if not one.own_string_length:
+        parameters.string_length = recording.string_length
+    if not one.own_mass:
+        parameters.mass = recording.properties.mass
+    if not one.own_axle_radius:
+        parameters.axle_radius = recording.properties.axle_radius
+    return Model(**{**fields, "parameters": parameters})
+
+
+def best_guess(model: Model, result: Mapping[str, Any]) -> Model:
+    """The model that a diagnosis made, as a plan is best made on: with the string's length put right, where
+    it was measured wrongly, and with the likeliest air drag and Magnus lift where they were too unsure to be
+    claimed.
+
+    model: that of the diagnosis with what it leaves to the recording, see `model_for`.
+    result: `Diagnosis.result`, or what its file holds. Of an estimate that is z standard deviations away from
+    zero the share 1 - 1 / z^2 counts; where z is below one, nothing.
+    """
+    found = {entry["name"]: entry for entry in result["ladder"]}
+
+    def claimed(name: str) -> bool:
+        return name in found and bool(found[name]["claimed"])
+
+    def likeliest(name: str) -> float:
+        if name not in found or claimed(name) or not abs(found[name]["z"]) > 1.0:
+            return 0.0
+        return float(found[name]["estimate"] * (1.0 - 1.0 / found[name]["z"] ** 2))
+
+    guess = copy(model)
+    if claimed("string_length") and not model.own_string_length:
+        guess.parameters.string_length += found["string_length"]["estimate"]
+    if not claimed("air_drag_linear"):
+        guess.air.quadratic_drag += max(0.0, likeliest("air_drag_quadratic"))
+    guess.magnus_lift.coefficient += likeliest("magnus_lift")
+    return guess
+
+
+def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:
+    return np.zeros(6) if sticks is None else np.asarray(sticks, dtype=float)
+
+
+def _end(model: Model, start: State, path: TipPath) -> State:
+    """Where a model predicts the diabolo to be at the end of a path."""
+    _, states, codes, _, _ = _core.foresee(model, start, path)
+    return State(states[-1, :3], states[-1, 3:6], float(states[-1, 6]), StringState(codes[-1]))
 
 
 def _models(given: AnyModel | Sequence[AnyModel]) -> list[Model]:

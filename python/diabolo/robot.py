@@ -2,6 +2,7 @@
 """The paper's two UR5e: kinematics, joints of the stick's tip, limits, and whether a plan can be played."""
 
 from ._core import (
+    RobotLimits,
     SeedGrid,
     StickArm,
     StickMap,
@@ -17,6 +18,7 @@ FAULTS = ("reached", "outside the box of the seed grid", "out of reach", "a join
 
 __all__ = [
     "FAULTS",
+    "RobotLimits",
     "SeedGrid",
     "StickArm",
     "StickMap",

@@ -111,6 +111,22 @@ TEST_CASE("a rollout follows a path as it follows the same motion in samples") {
   CHECK((by_path - start.position).norm() > 1e-2);
 }
 
+TEST_CASE("the tips of a path know where the sticks point, in its samples and after it too") {
+  Random random(8106);
+  StickSpline<double> spline = random_spline(random, SplineEnds::kClamped);
+  spline.sticks << 0.6, 0.0, 0.8, 0.8, 0.0, 0.6;
+  TipPath<double> path = path_of(spline);
+  path.append(path_of(random_spline(random, SplineEnds::kClamped)));  // of one that does not know
+  for (const double time : {path.begin() - 1.0, path.begin(), path.begin() + 0.3}) {
+    CHECK((path.at(time).left_direction - Vector3<double>(0.6, 0.0, 0.8)).norm() == 0.0);
+    CHECK((path.at(time).right_direction - Vector3<double>(0.8, 0.0, 0.6)).norm() == 0.0);
+    CHECK((sampled(path, 0.01).at(time).right_direction - Vector3<double>(0.8, 0.0, 0.6)).norm() < 1e-12);
+  }
+  CHECK(path.at(path.end()).left_direction.isZero(0.0));
+  spline.sticks[0] = 0.7;
+  CHECK_THROWS_WITH(path_of(spline), Contains("neither a unit vector nor zero"));
+}
+
 TEST_CASE("a spline that is none is refused in a sentence") {
   Random random(8105);
   StickSpline<double> spline = random_spline(random, SplineEnds::kPeriodic);

@@ -45,9 +45,46 @@ TEST_CASE("a throw is caught again and hangs at rest, on one smooth path") {
   }
 }
 
+TEST_CASE("a plan for several models catches every flight among theirs, and one for the middle does not") {
+  const auto model_of = [](double gravity, double length) {
+    Parameters<double> parameters = Parameters<double>::consistent();
+    parameters.gravity = gravity;
+    parameters.string_length = length;
+    return Predictor<double>(parameters);
+  };
+  PlanProblem<> problem = throwing("throw", 0.6);
+  const auto lost = [&problem, &model_of](const TipPath<double>& path) {
+    int count = 0;
+    for (const double gravity : {9.5, 9.65, 9.8, 9.95, 10.1})
+      for (const double length : {kLength - 0.003, kLength + 0.003}) {
+        const Play<double> whole = play(model_of(gravity, length), problem.start, path, {.dt = 1e-3});
+        count += whole.end().state.string_state == StringState::kFlying;
+      }
+    return count;
+  };
+  CHECK(lost(plan_throw_and_catch(problem, GradientSearch{}, {}).path) > 0);
+  problem.models = {model_of(9.8, kLength), model_of(9.5, kLength - 0.003), model_of(10.1, kLength + 0.003)};
+  const ThrowAndCatch robust = plan_throw_and_catch(problem, GradientSearch{}, {});
+  INFO(robust.thrown.answer << "; " << robust.caught.answer);
+  CHECK(lost(robust.path) == 0);
+  CHECK(keeps(robust.path, problem.limits, kLength - 0.003));
+}
+
+TEST_CASE("each model may begin in a state of its own, and there is one for each or none") {
+  PlanProblem<> problem = throwing("throw", 0.6);
+  problem.models.push_back(kModel);
+  problem.starts = {problem.start};
+  CHECK_THROWS_WITH(problem.validate(), Contains("1 start states; expected 2"));
+  problem.starts.push_back(problem.start);
+  const TipPath<double> path = path_of(problem.seed);
+  CHECK(problem.cost(path, 4e-3, false) == Approx(throwing("throw", 0.6).cost(path, 4e-3, false)));
+  problem.starts[1].position.y() += 0.1;
+  CHECK(problem.cost(path, 4e-3, false) > throwing("throw", 0.6).cost(path, 4e-3, false) + 1e-3);
+}
+
 TEST_CASE("what does not fly is not caught") {
   const PlanProblem<> problem = throwing("throw", 0.6);
-  const Seam seam{0.0, problem.seed.points.front(), {}, problem.start};
+  const Seam seam{0.0, problem.seed.points.front(), {}, problem.seed.sticks, problem.start};
   CHECK_THROWS_WITH(catch_action(seam, seam.tips, kLength, 0.03, 9.8), Contains("does not fly"));
 }
 
@@ -100,6 +137,7 @@ TEST_CASE("an observed state takes the place of the predicted one") {
   seen.velocity.y() = 0.5;
   horizon.observe(1.0, seen);
   CHECK(horizon.seam_at(1.0).state.spin == 80.0);
+  CHECK(horizon.seam_at(1.0).sticks.isZero(0.0));
   CHECK(horizon.seam_at(1.2).state.position.y() > 0.05);
   CHECK_THROWS_WITH(horizon.observe(0.5, seen), Contains("before the last one"));
   seen.spin = NAN;

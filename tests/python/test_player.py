@@ -8,8 +8,8 @@ from pathlib import Path
 import diabolo
 import numpy as np
 import pytest
-from conftest import Command
-from diabolo import Goals, Model, Parameters, StickSpline, StringFriction, TipLimits, Waypoint
+from conftest import Command, make_recording
+from diabolo import Goals, Model, Parameters, StickSpline, StringFriction, TipLimits, Waypoint, robot
 from diabolo.cli.plan import recording_of
 from diabolo.enums import StringState
 from diabolo.player import ACTIONS
@@ -63,6 +63,74 @@ def test_limits_in_python_are_kept() -> None:
     )
     assert plan.limits[-1].name == "elbow"
     assert plan.limits[-1].value <= 0.32
+
+
+def test_a_plan_for_two_arms_is_played_as_planned(command: Command, tmp_path: Path) -> None:
+    out = tmp_path / "hop.csv"
+    done = command("plan", "hop", "--robots", "--goal", "height=0.05", "--out", str(out))
+    assert done.returncode == 0, done.stdout + done.stderr
+    left, right = (
+        robot.StickMap(arm, robot.SeedGrid.build(arm)) for arm in map(robot.StickArm, ("left", "right"))
+    )
+    check = robot.check_plan(left, right, robot.load_tip_plan(out))
+    assert check["playable"], check["troubles"]
+    assert check["worst_factor"] == pytest.approx(1.0, abs=0.02)
+    slower = robot.RobotLimits(left, right, speed=0.1)
+    path = diabolo.plan_action("hop").path
+    assert max(use.excess for use in slower(path)) > max(
+        use.excess for use in robot.RobotLimits(left, right)(path)
+    )
+
+
+def test_model_for_takes_what_is_the_recordings() -> None:
+    take = make_recording("swing", 1.0)
+    take.string_length = 1.39
+    model = Model(Parameters(string_length=1.2, mass=0.4), own_mass=True)
+    there = diabolo.model_for(model, take).parameters
+    assert there.string_length == 1.39
+    assert there.mass == 0.4
+    assert there.axle_radius == take.properties.axle_radius
+    assert model.parameters.string_length == 1.2
+
+
+def test_best_guess_counts_what_was_too_unsure_to_be_claimed() -> None:
+    def guessed(**entries: tuple[float, float, bool]) -> Model:
+        ladder = [
+            {"name": name, "estimate": estimate, "z": z, "claimed": claimed}
+            for name, (estimate, z, claimed) in entries.items()
+        ]
+        return diabolo.best_guess(Model(), {"ladder": ladder})
+
+    assert guessed(air_drag_quadratic=(0.04, 2.0, False)).air.quadratic_drag == pytest.approx(0.03)
+    assert guessed(magnus_lift=(-1e-3, -2.0, False)).magnus_lift.coefficient == pytest.approx(-7.5e-4)
+    for none in ((0.04, 0.9, False), (0.04, 9.0, True), (-0.04, -3.0, False)):
+        assert guessed(air_drag_quadratic=none).air.quadratic_drag == 0.0
+    assert guessed(string_length=(0.05, 5.0, True)).parameters.string_length == pytest.approx(LENGTH + 0.05)
+    assert guessed(string_length=(0.05, 3.0, False)).parameters.string_length == LENGTH
+    both = guessed(air_drag_quadratic=(0.04, 2.0, False), air_drag_linear=(0.1, 9.0, True))
+    assert both.air.quadratic_drag == 0.0
+
+
+def test_sticks_give_only_square_to_their_directions() -> None:
+    model = Model(stick_flex=diabolo.StickFlex(compliance=1.0 / 300.0, damping=3.0))
+    along_the_pull = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0]
+    unknown, forward, upright = (
+        diabolo.plan_action("swing", model, sticks=sticks).states[0, 2]
+        for sticks in (None, [1.0, 0.0, 0.0, 1.0, 0.0, 0.0], along_the_pull)
+    )
+    assert forward == pytest.approx(unknown, abs=1e-4)  # the strands are square to them
+    assert upright > unknown + 2e-3
+    with pytest.raises(ValueError, match="neither a unit vector nor zero"):
+        diabolo.plan_action("swing", sticks=[2.0, 0.0, 0.0, 2.0, 0.0, 0.0])
+
+
+def test_start_states_are_one_or_one_for_each_model() -> None:
+    start, seed = swing()
+    goals = Goals(final_state=Waypoint(start.position))
+    with pytest.raises(ValueError, match="2 start states; expected 3"):
+        diabolo.plan([start, start], seed, goals, [Parameters()] * 3)
+    with pytest.raises(ValueError, match="no start state"):
+        diabolo.plan([], seed, goals)
 
 
 def test_random_walk_repeats_itself() -> None:
@@ -174,6 +242,25 @@ def test_command_writes_what_the_readers_read(command: Command, tmp_path: Path) 
     assert '"title":"throw"' in text
 
 
+def test_the_exit_status_tells_a_missed_goal(command: Command, tmp_path: Path) -> None:
+    out = tmp_path / "throw.csv"
+    done = command("plan", "throw", "--goal", "height=1.2", "--limit", "speed=1.5", "--out", str(out))
+    assert done.returncode == 1
+    assert "apex is missed by" in done.stdout
+    assert not done.stderr
+    assert out.exists()
+    assert "1 where one is missed" in command("plan", "--help").stdout
+
+
+def test_command_plans_for_the_set_up_of_a_recording(command: Command, tmp_path: Path) -> None:
+    take = make_recording("swing", 1.0)
+    take.save(tmp_path / "take.csv")
+    out = tmp_path / "swing.csv"
+    done = command("plan", "swing", "--recording", str(tmp_path / "take.csv"), "--out", str(out))
+    assert done.returncode == 0, done.stderr
+    assert diabolo.load_recording(out).string_length == take.string_length
+
+
 def test_command_complains_in_one_sentence(command: Command, tmp_path: Path) -> None:
     for arguments, words in (
         (["somersault"], "invalid choice"),
@@ -182,6 +269,8 @@ def test_command_complains_in_one_sentence(command: Command, tmp_path: Path) -> 
         (["throw", "--limit", "speed=0"], "speed"),
         (["throw", "--out", str(tmp_path / "plan.txt")], "ends in .csv"),
         (["throw", "--cycles", "3"], "not caught"),
+        (["hop", "--limit", "joint_speed=2"], "with --robots only"),
+        (["hop", "--diagnosis", __file__], "no JSON"),
     ):
         done = command("plan", *arguments)
         assert done.returncode == 2

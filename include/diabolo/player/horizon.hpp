@@ -15,6 +15,7 @@ struct Seam {
   double time = 0.0;          ///< [s]
   TipColumn<double> tips;     ///< [m]
   SplineStart<double> start;  ///< velocity and acceleration of the tips
+  TipColumn<double> sticks;   ///< their directions, as in Tips
   State<double> state;        ///< of the diabolo
 };
 
@@ -28,14 +29,11 @@ class Horizon {
   using Model = Predictor<double, Effects...>;
   static constexpr double kMargin = 1.3;  ///< planning may take so many times as long as the last time
 
-  /// The tips rest at `tips` from `begin` [s] on, over `state`.
-  Horizon(Model model, const TipColumn<double>& tips, const State<double>& state, double begin)
-      : model_(std::move(model)), observed_(state), observed_time_(begin) {
-    TipPiece<double> rest;
-    rest.begin = begin;
-    rest.duration = kRest;
-    rest.c = {tips, TipColumn<double>::Zero(), TipColumn<double>::Zero(), TipColumn<double>::Zero()};
-    path_ = TipPath<double>({rest});
+  /// The tips rest at `tips` from `begin` [s] on, over `state`; `sticks` are their directions throughout.
+  Horizon(Model model, const TipColumn<double>& tips, const State<double>& state, double begin,
+          const TipColumn<double>& sticks = TipColumn<double>::Zero())
+      : model_(std::move(model)), sticks_(sticks), observed_(state), observed_time_(begin) {
+    path_ = rest(begin, kRest, tips);
   }
 
   /// What the tips do: the past, and what is planned. After its end they rest.
@@ -63,6 +61,7 @@ class Horizon {
     const double within = std::clamp(time, path_.begin(), path_.end());
     const auto tips = path_.derivatives_at(within);
     result.tips = tips[0];
+    result.sticks = sticks_;
     if (time < path_.end()) result.start = {tips[1], tips[2]};
     result.state = observed_;
     const double duration = time - observed_time_;
@@ -80,14 +79,8 @@ class Horizon {
     planning_time_ = planning_time;
     if (now > seam.time) return false;
     TipPath<double> joined = path_.until(seam.time);
-    if (const double gap = seam.time - joined.end(); gap > 1e-12) {  // the tips have rested since
-      TipPiece<double> rest;
-      rest.begin = joined.end();
-      rest.duration = gap;
-      rest.c.fill(TipColumn<double>::Zero());
-      rest.c[0] = seam.tips;
-      joined.append(TipPath<double>({rest}));
-    }
+    if (const double gap = seam.time - joined.end(); gap > 1e-12)  // the tips have rested since
+      joined.append(rest(joined.end(), gap, seam.tips));
     joined.append(plan.path);
     path_ = std::move(joined);
     return true;
@@ -96,7 +89,14 @@ class Horizon {
  private:
   static constexpr double kRest = 1e-3;  ///< of the first piece [s]
 
+  TipPath<double> rest(double begin, double duration, const TipColumn<double>& tips) const {
+    const TipColumn<double> none = TipColumn<double>::Zero();
+    const TipPiece<double> piece{begin, duration, {tips, none, none, none}, sticks_};
+    return TipPath<double>({piece});
+  }
+
   Model model_;
+  TipColumn<double> sticks_;
   TipPath<double> path_;
   State<double> observed_;
   double observed_time_;
@@ -108,6 +108,7 @@ inline StickSpline<double> joined_at(const Seam& seam, StickSpline<double> seed)
   seed.begin = seam.time;
   seed.points.front() = seam.tips;
   seed.start = seam.start;
+  seed.sticks = seam.sticks;
   return seed;
 }
 

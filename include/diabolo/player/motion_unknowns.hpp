@@ -59,6 +59,7 @@ class MotionUnknowns {
     StickSpline<Scalar> spline;
     spline.begin = Scalar(seed_.begin);
     spline.ends = seed_.ends;
+    spline.sticks = seed_.sticks;
     for (const TipColumn<double>& point : seed_.points) spline.points.push_back(point.cast<Scalar>());
     if (seed_.start)
       spline.start =

@@ -137,7 +137,7 @@ Plan judged(const PlanProblem<Effects...>& problem, const StickSpline<double>& m
   plan.motion = motion;
   plan.path = path_of(motion);
   constexpr double dt = PlanProblem<Effects...>::kReportedStep;
-  plan.play = problem.played(problem.models.front(), plan.path, dt);
+  plan.play = problem.played(0, problem.models.front(), plan.path, dt);
   for (const GoalError<double>& error :
        goal_errors(plan.play, problem.goals, problem.models.front().parameters(), false))
     plan.goals.push_back({error.name, error.weight, error.size(), error.tolerance,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,17 +28,28 @@ struct PlanProblem {
   TipLimits limits{};
   Freedom freedom{};
   double dt = 4e-3;  ///< longest step of the search [s]; what is reported comes from kReportedStep
+  std::vector<State<double>> starts{};  ///< one for each model where they begin otherwise than at `start`
 
   static constexpr double kReportedStep = 1e-3;  ///< [s]
   static constexpr double kFlight = 1.2;         ///< how long a flight is followed [s]
 
-  double string_length() const { return models.front().parameters().string_length; }
+  /// The shortest that it may have [m]: the tips of a plan stay within it.
+  double string_length() const {
+    double shortest = models.front().parameters().string_length;
+    for (const Model& model : models) shortest = std::min(shortest, model.parameters().string_length);
+    return shortest;
+  }
 
   /// Throws std::invalid_argument where something is missing or out of its range.
   void validate() const {
     if (models.empty()) throw std::invalid_argument("plan: no model; at least one expected");
-    if (!start.position.allFinite() || !start.velocity.allFinite() || !std::isfinite(start.spin))
-      throw std::invalid_argument("plan: the start state must be finite");
+    if (!starts.empty() && starts.size() != models.size())
+      throw std::invalid_argument("plan: " + std::to_string(starts.size()) + " start states; expected " +
+                                  std::to_string(models.size()) + ", one for each model, or none");
+    for (std::size_t m = 0; m < models.size(); ++m)
+      if (const State<double>& state = start_of(m);
+          !state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
+        throw std::invalid_argument("plan: the start state must be finite");
     if (!(dt >= 1e-4 && dt <= 0.02))
       throw std::invalid_argument("plan, dt: must be within 0.0001 and 0.02 s");
     seed.validate();
@@ -48,18 +61,21 @@ struct PlanProblem {
     if (duration > 60.0) throw std::invalid_argument("plan: the seed lasts longer than 60 s");
   }
 
-  /// What a motion leads to with one of the models.
+  const State<double>& start_of(std::size_t m) const { return starts.empty() ? start : starts[m]; }
+
+  /// What a motion leads to with model number `m`, given in this Scalar.
   template <class Scalar>
-  Play<Scalar> played(const Predictor<Scalar, Effects...>& model, const TipPath<Scalar>& path,
+  Play<Scalar> played(std::size_t m, const Predictor<Scalar, Effects...>& model, const TipPath<Scalar>& path,
                       double longest_step) const {
-    return play(model, start, path, {.dt = longest_step, .flight = goals.throws() ? kFlight : 0.0});
+    return play(model, start_of(m), path, {.dt = longest_step, .flight = goals.throws() ? kFlight : 0.0});
   }
 
   /// The paper's residual of a motion, the mean over all models.
   double cost(const TipPath<double>& path, double longest_step, bool smooth) const {
     double sum = 0.0;
-    for (const Model& model : models)
-      sum += total_cost(goal_errors(played(model, path, longest_step), goals, model.parameters(), smooth));
+    for (std::size_t m = 0; m < models.size(); ++m)
+      sum += total_cost(
+          goal_errors(played(m, models[m], path, longest_step), goals, models[m].parameters(), smooth));
     return sum / static_cast<double>(models.size());
   }
 };
@@ -128,7 +144,7 @@ class PlanResiduals {
     const double share = 1.0 / std::sqrt(static_cast<double>(models.size()));
     std::vector<Scalar> parts;
     for (std::size_t m = 0; m < models.size(); ++m) {
-      const Play<Scalar> play = problem_.played(models[m], path, dt);
+      const Play<Scalar> play = problem_.played(m, models[m], path, dt);
       const std::vector<GoalError<Scalar>> errors =
           goal_errors(play, problem_.goals, problem_.models[m].parameters(), true);
       for (const GoalError<Scalar>& error : errors)

@@ -38,6 +38,8 @@ struct StickSpline {
   std::vector<TipColumn<Scalar>> points;  ///< one more than durations [m]; of a loop, first = last
   SplineEnds ends = SplineEnds::kClamped;
   std::optional<SplineStart<Scalar>> start{};  ///< at rest where it is not given; not for loops
+  /// Directions of both sticks throughout, unit vectors, left over right; zero where they are not known.
+  TipColumn<double> sticks = TipColumn<double>::Zero();
 
   Scalar end() const {
     Scalar time = begin;
@@ -46,7 +48,7 @@ struct StickSpline {
   }
 
   /// Throws std::invalid_argument where there are not enough points, a duration is not positive, a point is
-  /// not finite, or a loop does not close.
+  /// not finite, a direction is none, or a loop does not close.
   void validate() const {
     if (points.size() < 2 || durations.size() + 1 != points.size())
       throw std::invalid_argument("stick spline: " + std::to_string(points.size()) + " points and " +
@@ -60,6 +62,8 @@ struct StickSpline {
       for (int k = 0; k < 6; ++k)
         if (!all(is_finite(points[i][k])))
           throw std::invalid_argument("stick spline, point " + std::to_string(i) + ": is not finite");
+    if (!is_direction<double>(sticks.head<3>()) || !is_direction<double>(sticks.tail<3>()))
+      throw std::invalid_argument("stick spline: a stick's direction is neither a unit vector nor zero");
     if (ends == SplineEnds::kClamped) return;
     if (points.size() < 4) throw std::invalid_argument("stick spline: a loop needs at least four points");
     if (start) throw std::invalid_argument("stick spline: a loop has no start velocity of its own");
@@ -148,6 +152,7 @@ TipPath<Scalar> path_of(const StickSpline<Scalar>& spline) {
     const Scalar inverse = Scalar(1) / h[i], sixth = h[i] * Scalar(1.0 / 6.0);
     pieces[i].begin = time;
     pieces[i].duration = h[i];
+    pieces[i].sticks = spline.sticks;
     pieces[i].c = {a, TipColumn<Scalar>((b - a) * inverse - (p * Scalar(2) + q) * sixth),
                    TipColumn<Scalar>(p * Scalar(0.5)),
                    TipColumn<Scalar>((q - p) * Scalar(inverse * Scalar(1.0 / 6.0)))};

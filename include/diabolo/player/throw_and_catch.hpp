@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <vector>
 
@@ -11,19 +13,49 @@
 
 namespace diabolo {
 
-/// Catches a diabolo that flies: the string, all but straight, comes under the place where it falls through
-/// the height of the hands, gives way, and the hands come home to `home`. Throws std::invalid_argument where
-/// the diabolo does not fly, or comes down too soon.
-inline Action catch_action(const Seam& seam, const TipColumn<double>& home, double string_length,
-                           double catch_slack, double gravity) {
-  if (seam.state.string_state != StringState::kFlying)
+/// Falls that are farther apart in time than this have a point of the catch each [s].
+inline constexpr double kSpreadOfCatches = 0.01;
+
+namespace detail {
+
+/// When after now a flying diabolo falls through a height [s], and where [m].
+struct Fall {
+  double time;
+  Vector3<double> place;
+};
+
+inline Fall fall_to(const State<double>& state, double level, double gravity) {
+  if (state.string_state != StringState::kFlying)
     throw std::invalid_argument("catch: the diabolo does not fly");
-  const Vector3<double>&p = seam.state.position, &v = seam.state.velocity;
-  const double level = 0.5 * (seam.tips[2] + seam.tips[5]);
+  const Vector3<double>&p = state.position, &v = state.velocity;
   const double square = v.z() * v.z() + 2.0 * gravity * (p.z() - level);
   const double time = square > 0.0 ? (v.z() + std::sqrt(square)) / gravity : 0.0;
   if (time < 0.12) throw std::invalid_argument("catch: the diabolo comes down in less than 0.12 s");
-  const Vector3<double> place = p + v * time;
+  return {time, p + v * time};
+}
+
+}  // namespace detail
+
+/// Catches a diabolo that flies: the string, all but straight, comes under the place where it falls through
+/// the height of the hands, gives way, and the hands come home to `home`. Where not only seam.state but
+/// `others` are possible too, the string is there under the middle of their places, from before the first
+/// fall until after the last: what was foreseen are examples, so that it takes three times their spread.
+/// Throws std::invalid_argument where a diabolo does not fly, or comes down too soon.
+inline Action catch_action(const Seam& seam, const TipColumn<double>& home, double string_length,
+                           double catch_slack, double gravity,
+                           const std::vector<State<double>>& others = {}) {
+  const double level = 0.5 * (seam.tips[2] + seam.tips[5]);
+  const detail::Fall nominal = detail::fall_to(seam.state, level, gravity);
+  double first = nominal.time, last = nominal.time;
+  Vector3<double> lowest = nominal.place, highest = nominal.place;
+  for (const State<double>& other : others) {
+    const detail::Fall fall = detail::fall_to(other, level, gravity);
+    first = std::min(first, fall.time);
+    last = std::max(last, fall.time);
+    lowest = lowest.cwiseMin(fall.place);
+    highest = highest.cwiseMax(fall.place);
+  }
+  const Vector3<double> place = 0.5 * (lowest + highest);
   const double half = 0.5 * (string_length - 0.5 * catch_slack);
   const auto pose = [&](double half_gap, double z) {
     return detail::tips_column(place.x(), place.y() + half_gap, z, place.y() - half_gap, z);
@@ -31,10 +63,18 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
   Action action;
   action.name = "catch";
   action.seed.begin = seam.time;
-  action.seed.points = {
-      seam.tips, pose(half - 0.02, level), pose(half, level), pose(0.55 * half, level - 0.12), home, home};
-  action.seed.durations = {0.7 * time, 0.3 * time, 0.3, 0.45, 0.25};
+  const double early = std::max(first - (last - first), 0.7 * first), late = last + (last - first);
+  action.seed.points = {seam.tips, pose(half - 0.02, level), pose(half, level)};
+  action.seed.durations = {0.7 * early, 0.3 * early};
+  if (late - early > kSpreadOfCatches) {  // it waits
+    action.seed.points.push_back(pose(half, level));
+    action.seed.durations.push_back(late - early);
+  }
+  for (const TipColumn<double>& point : {pose(0.55 * half, level - 0.12), home, home})
+    action.seed.points.push_back(point);
+  for (const double duration : {0.3, 0.45, 0.25}) action.seed.durations.push_back(duration);
   action.seed.start = seam.start;
+  action.seed.sticks = seam.sticks;
   action.freedom.times = false;
   action.freedom.last_point = false;
   action.freedom.forward = true;
@@ -53,22 +93,34 @@ struct ThrowAndCatch {
   bool reached = false;  ///< both
 };
 
-/// Plans a throw and, from its predicted end, the catch.
+/// Plans a throw and, from its predicted end, the catch: with several models, of every flight that one of
+/// them predicts.
 template <template <class> class... Effects>
 ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, const GradientSearch& search,
                                    const Budget& budget) {
   ThrowAndCatch result;
   result.thrown = search(throwing, budget);
   result.path = result.thrown.path;
-  const PlayInstant<double>& end = result.thrown.play.end();
-  if (end.state.string_state != StringState::kFlying) return result;
-  const auto tips = result.path.derivatives_at(end.time);
-  const Seam seam{end.time, tips[0], {tips[1], tips[2]}, end.state};
-  const Parameters<double>& parameters = throwing.models.front().parameters();
-  const Action action = catch_action(seam, throwing.seed.points.front(), parameters.string_length,
-                                     parameters.catch_slack, parameters.gravity);
   PlanProblem<Effects...> catching = throwing;
-  catching.start = seam.state;
+  catching.models.clear();
+  catching.starts.clear();
+  for (std::size_t m = 0; m < throwing.models.size(); ++m) {
+    const State<double> end =
+        throwing.played(m, throwing.models[m], result.path, throwing.kReportedStep).end().state;
+    if (end.string_state != StringState::kFlying) {
+      if (m == 0) return result;
+      continue;
+    }
+    catching.models.push_back(throwing.models[m]);
+    catching.starts.push_back(end);
+  }
+  catching.start = catching.starts.front();
+  const double time = result.path.end();
+  const auto tips = result.path.derivatives_at(time);
+  const Seam seam{time, tips[0], {tips[1], tips[2]}, throwing.seed.sticks, catching.start};
+  const Parameters<double>& parameters = throwing.models.front().parameters();
+  const Action action = catch_action(seam, throwing.seed.points.front(), throwing.string_length(),
+                                     parameters.catch_slack, parameters.gravity, catching.starts);
   catching.seed = action.seed;
   catching.goals = action.goals;
   catching.freedom = action.freedom;

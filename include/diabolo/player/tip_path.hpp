@@ -23,6 +23,7 @@ template <class Scalar>
 struct TipPiece {
   Scalar begin{0}, duration{0};  ///< [s]
   std::array<TipColumn<Scalar>, 4> c;
+  TipColumn<double> sticks = TipColumn<double>::Zero();  ///< their directions, as in Tips
 
   /// Position [m] and its first three derivatives [m/s, m/s^2, m/s^3] at `s` [s] after the begin.
   std::array<TipColumn<Scalar>, 4> at(const Scalar& s) const {
@@ -75,6 +76,8 @@ class TipPath {
     Tips<Scalar> tips;
     tips.left = value.template head<3>();
     tips.right = value.template tail<3>();
+    tips.left_direction = piece.sticks.template head<3>().template cast<Scalar>();
+    tips.right_direction = piece.sticks.template tail<3>().template cast<Scalar>();
     if (before || after) return tips;
     const TipColumn<Scalar> rate =
         (piece.c[3] * Scalar(Scalar(3) * u) + piece.c[2] * Scalar(2)) * u + piece.c[1];
@@ -127,7 +130,7 @@ inline TipMotion<double> sampled(const TipPath<double>& path, double interval) {
   if (!(interval > 0.0)) throw std::invalid_argument("interval: must be positive");
   const auto count = static_cast<std::size_t>(std::ceil((path.end() - path.begin()) / interval - 1e-9));
   std::vector<double> times;
-  std::vector<Vector3<double>> left, right;
+  std::vector<Vector3<double>> left, right, left_stick, right_stick;
   std::size_t hint = 0;
   for (std::size_t i = 0; i <= count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count);
@@ -135,8 +138,12 @@ inline TipMotion<double> sampled(const TipPath<double>& path, double interval) {
     const Tips<double> tips = path.at(times.back(), hint);
     left.push_back(tips.left);
     right.push_back(tips.right);
+    left_stick.push_back(tips.left_direction);
+    right_stick.push_back(tips.right_direction);
   }
-  return {times, left, right, Interpolation::kSpline};
+  TipMotion<double> motion(times, left, right, Interpolation::kSpline);
+  motion.point_along(left_stick, right_stick);
+  return motion;
 }
 
 }  // namespace diabolo

@@ -52,12 +52,13 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns its exit status: 0, 2 for bad input, 130 after Ctrl-C."""
+    """Run the command; returns its exit status: 0, 1 where a plan misses its goal, 2 for bad input, 130
+    after Ctrl-C."""
     try:
         if sys.stdout is None:
             raise ValueError("standard output is closed; there would be nowhere to print to")
         parsed = make_parser().parse_args(arguments)
-        parsed.run(parsed)
+        status: int = parsed.run(parsed) or 0
         sys.stdout.flush()
     except (ValueError, ArithmeticError, OSError) as error:
         if isinstance(error, OSError) and error.filename is None:  # of what is printed
@@ -69,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("diabolo: interrupted", file=sys.stderr)
         return 130
-    return 0
+    return status
 
 
 def _sentence(error: Exception) -> str:

@@ -21,7 +21,7 @@ def add_command(
     commands: Any,
     name: str,
     *,
-    run: Callable[[argparse.Namespace], None],
+    run: Callable[[argparse.Namespace], int | None],
     summary: str,
     text: str,
     example: str,

@@ -4,16 +4,28 @@
 from __future__ import annotations
 
 import argparse
+import json
 import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .._core import DiaboloProperties, Recording, TipLimits, Waypoint
+from .._core import (
+    DiaboloProperties,
+    Recording,
+    RobotLimits,
+    SeedGrid,
+    StickArm,
+    StickMap,
+    TipLimits,
+    Waypoint,
+    load_recording,
+)
+from ..diagnosis import SCHEMA as DIAGNOSIS_SCHEMA
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS
-from ..player import ACTIONS, PlannedPlay, plan_action
+from ..player import ACTIONS, PlannedPlay, best_guess, model_for, plan_action
 from ..view import view_html
 from . import files, plots
 from .arguments import add_command, read_model
@@ -22,7 +34,8 @@ from .simulate import played_recording
 SCHEMA = "diabolo.plan/1"
 RATE = 240.0  # of the recording that is written [Hz]
 GOALS = ("height", "sideways", "spin")
-LIMITS = ("speed", "acceleration", "jerk")
+JOINT_LIMITS = ("joint_speed", "joint_acceleration", "joint_jerk")
+LIMITS = ("speed", "acceleration", "jerk", *JOINT_LIMITS)
 
 
 def add_parser(commands: Any) -> None:
@@ -32,9 +45,12 @@ def add_parser(commands: Any) -> None:
         run=run,
         summary="find stick motions for a figure of play",
         text="Find a motion of the stick tips that makes the diabolo do what is wanted, and write it with\n"
-        "what it leads to: as a tidy recording, a picture and a page.",
+        "what it leads to: as a tidy recording, a picture and a page.\n\n"
+        "exit status: 0 where every goal is reached, 1 where one is missed (the plan that comes closest is\n"
+        "written all the same), 2 for bad input.",
         example="  diabolo plan throw_and_catch --goal height=0.6 --out throw.csv --html throw.html\n"
-        "  diabolo plan linear_acceleration --cycles 4 --model diagnosis/model.json --plot plan.png",
+        "  diabolo plan throw --model d/model.json --diagnosis d/diagnosis.json --recording TAKE.csv\n"
+        "  diabolo plan hop --robots",
     )
     parser.add_argument("action", metavar="ACTION", choices=ACTIONS, help=", ".join(ACTIONS))
     parser.add_argument(
@@ -50,13 +66,32 @@ def add_parser(commands: Any) -> None:
         metavar="NAME=X",
         action="append",
         default=[],
-        help="of the tips: speed (4 m/s), acceleration (60 m/s^2), jerk (none); may be given again",
+        help="of the tips: speed (4 m/s), acceleration (60 m/s^2), jerk (none); with --robots also of the "
+        "joints: joint_speed (2.98 rad/s), joint_acceleration (15 rad/s^2), joint_jerk (500 rad/s^3); may be "
+        "given again",
+    )
+    parser.add_argument(
+        "--robots",
+        action="store_true",
+        help="only what two UR5e, mounted as in the paper, can play: reach, joints, 0.1 m between the arms",
     )
     parser.add_argument(
         "--model",
         metavar="NAME",
         default="consistent",
         help="what the diabolo does: consistent (default), paper, published or a model file",
+    )
+    parser.add_argument(
+        "--recording",
+        metavar="TAKE.csv",
+        help="of the set-up: its string length, mass and axle radius count where the model leaves them to a "
+        "recording, as a diagnosed one does",
+    )
+    parser.add_argument(
+        "--diagnosis",
+        metavar="FILE.json",
+        help="what `diabolo diagnose` wrote beside the model: the string's length as it found it, and its "
+        "best guess of the air where it was too unsure to claim any",
     )
     parser.add_argument("--cycles", metavar="N", type=int, default=1, help="so many in a row; default 1")
     parser.add_argument(
@@ -75,11 +110,13 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--json", metavar="FILE", help="write a summary as JSON; - is standard output")
 
 
-def run(arguments: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> int:
+    """0, or 1 where a goal is missed."""
     out = Path(arguments.out) if arguments.out else None
     if out is not None and out.suffix != ".csv":
         raise ValueError(f"{out}: expected a name that ends in .csv")
     inputs = [arguments.model] if arguments.model not in DEFAULT_MODELS else []
+    inputs += [file for file in (arguments.recording, arguments.diagnosis) if file]
     beside = out.with_suffix(".json") if out else None
     files.check_outputs([out, beside, arguments.plot, arguments.html, arguments.json], inputs)
     if arguments.plot:
@@ -89,12 +126,21 @@ def run(arguments: argparse.Namespace) -> None:
     goals = _numbers("--goal", arguments.goal, GOALS)
     usual = TipLimits()
     asked = _numbers("--limit", arguments.limit, LIMITS)
+    joints = {name.removeprefix("joint_"): asked[name] for name in JOINT_LIMITS if name in asked}
+    if joints and not arguments.robots:
+        raise ValueError(f"--limit joint_{next(iter(joints))}: counts with --robots only")
+    others: Any = _robot_limits(joints) if arguments.robots else None
     limits = TipLimits(
         speed=asked.get("speed", usual.speed),
         acceleration=asked.get("acceleration", usual.acceleration),
         jerk=asked.get("jerk", usual.jerk),
+        others=others,
     )
     model = read_model(arguments.model)
+    if arguments.recording:
+        model = model_for(model, load_recording(arguments.recording))
+    if arguments.diagnosis:
+        model = best_guess(model, _read_diagnosis(Path(arguments.diagnosis)))
     played = plan_action(
         arguments.action,
         model,
@@ -126,6 +172,7 @@ def run(arguments: argparse.Namespace) -> None:
     files.write_json(arguments.json, found)
     if arguments.json != files.STDOUT:
         print(text_of(found))
+    return 0 if played.reached else 1
 
 
 def recording_of(
@@ -212,6 +259,23 @@ def text_of(found: dict[str, Any]) -> str:
             f"; flight {found['flight_s']:.2f} s, up to {found['highest_above_tips_m']:.2f} m above the tips"
         )
     return text
+
+
+def _read_diagnosis(path: Path) -> dict[str, Any]:
+    try:
+        result = json.loads(path.read_text())
+    except ValueError as error:
+        raise ValueError(f"{path}: no JSON: {error}") from None
+    if not isinstance(result, dict) or result.get("schema") != DIAGNOSIS_SCHEMA:
+        raise ValueError(f"{path}: expected a file of the schema {DIAGNOSIS_SCHEMA}")
+    return result
+
+
+def _robot_limits(joints: dict[str, float]) -> RobotLimits:
+    """Those of the paper's two arms."""
+    arms = [StickArm(side) for side in ("left", "right")]
+    left, right = (StickMap(arm, SeedGrid.build(arm)) for arm in arms)
+    return RobotLimits(left, right, **joints)
 
 
 def _numbers(option: str, given: list[str], known: tuple[str, ...]) -> dict[str, float]:
