@@ -120,7 +120,7 @@ TEST_CASE("a fault of one arm stops both, with the reason, and stays") {
 
 TEST_CASE("a client that is killed leaves its arm to the controller's watchdog") {
   ur5e::CellOptions options = patient();
-  options.settings.watchdog = 25;
+  options.settings.watchdog = 10;
   Bench bench(plan(), options);
   double killed_at = 0;
   make_fault(bench, Side::kRight, ControlFaultKind::kLost, [&] {
@@ -133,7 +133,7 @@ TEST_CASE("a client that is killed leaves its arm to the controller's watchdog")
     if (stopped_at == 0 && tick.time > killed_at && tick.runtime == stand_in::Controller::kStopped)
       stopped_at = tick.time;
   std::printf("killed client: the program stopped after %.1f ms\n", 1e3 * (stopped_at - killed_at));
-  CHECK(stopped_at - killed_at < 0.3);  // 60 ms where the machine has time
+  CHECK(stopped_at - killed_at < 0.5);  // 0.1 s and a few ticks where the machine has time
   CHECK(bench.cell.control.recover(bench.cell.now).empty());
   CHECK(bench.cell.until(ControlState::kIdle, 12));
 }

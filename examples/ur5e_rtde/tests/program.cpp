@@ -78,8 +78,8 @@ struct Controllers {
     std::vector<std::string> all{"--left",    loopback_address(0),
                                  "--right",   loopback_address(1),
                                  "--yes",     "--stale",
-                                 "0.15",      "--watchdog",
-                                 "5",         "--log",
+                                 "0.2",       "--watchdog",
+                                 "2",         "--log",
                                  log.string()};
     all.insert(all.end(), more.begin(), more.end());
     return all;

@@ -285,6 +285,16 @@ TEST_CASE("without its commands the watchdog stops the program") {
   CHECK(commander.state[0] == 2);
   CHECK(commander.wait_for(0, 1));
   CHECK(server.reason() == "the watchdog");
+
+  Controller controller(kStart);  // the same tick by tick: 40 ms after the last command
+  controller.upload(program());
+  controller.inputs().get<std::int32_t>("input_int_register_0") = kSetWatchdog;
+  controller.inputs().get<double>("input_double_register_0") = 25;
+  int ticks = 0;
+  controller.command_written();
+  for (; ticks < 100 && controller.runtime() == Controller::kPlaying; ++ticks) controller.tick();
+  CHECK(ticks >= 20);
+  CHECK(ticks <= 21);
 }
 
 TEST_CASE("programs start in remote control, with power and without a stop") {
