@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/alternatives.hpp"
+#include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/select.hpp"

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diabolo/diagnose/findings.hpp"
+
+namespace diabolo {
+
+/// No claim stands whose model predicts worse than the base what it was not fitted to. Returns whether that
+/// was so.
+inline bool withdraw_what_does_not_help(Diagnosis& d) {
+  bool better = false, worse = false;
+  for (const std::optional<Interval>& interval : d.heldout.improvement_ci95) {
+    better = better || (interval && interval->low > 0.0);
+    worse = worse || (interval && interval->high < 0.0);
+  }
+  if (better || !worse) return false;
+  for (Finding& f : d.findings) {
+    if (!f.claimed) continue;
+    f.claimed = false;
+    f.reason = "does not help on data that were left out";
+  }
+  return true;
+}
+
+/// The first of what a finding is tied with, in plain words.
+inline std::string tied_plainly(const Finding& finding) {
+  for (const Candidate& candidate : candidates())
+    if (!finding.tied_with.empty() && candidate.name == finding.tied_with.front())
+      return std::string(candidate.plain);
+  return "another effect";
+}
+
+/// Headline and sentence.
+inline void conclude(Diagnosis& d) {
+  std::vector<const Finding*> physics, faults;
+  for (const Finding& f : d.findings)
+    if (f.claimed) (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
+  const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
+  const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
+  const auto names = [](const std::vector<const Finding*>& list) {
+    std::string text;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + std::string(list[i]->candidate->plain);
+    return text;
+  };
+  if (!d.reason.empty()) {
+    d.headline = Headline::kInsufficientData;
+    d.sentence = "Nothing can be concluded: " + d.reason + ".";
+  } else if (tied != leading.end()) {
+    d.headline = Headline::kTie;
+    d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
+                 names(leading) + " would explain it, and so would " + tied_plainly(**tied) +
+                 " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell.";
+  } else if (!physics.empty()) {
+    d.headline = Headline::kNamed;
+    d.sentence = "The simulator leaves out " + names(physics) +
+                 (faults.empty() ? "." : "; the measurement is off by " + names(faults) + ".");
+  } else if (!faults.empty()) {
+    d.headline = Headline::kMeasurementFault;
+    d.sentence = "The measurement is off by " + names(faults) + "; no physics is missing.";
+  } else if (d.numerical && *d.numerical > 0.1) {
+    d.headline = Headline::kNumerical;
+    d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
+  } else if (d.unexplained > kUnexplainedShare) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence = "Something without a name is left: " + std::to_string(std::lround(100.0 * d.unexplained)) +
+                 " % of the windows are off by more than five times what the others are.";
+  } else if (!d.leftovers.empty()) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence =
+        "A force that has no name is left: " + std::string(info_of(d.leftovers.front().unknown).name) + ".";
+  } else {
+    d.headline = Headline::kNothingMissing;
+    d.sentence = "Nothing is missing that this recording could show.";
+  }
+}
+
+}  // namespace diabolo
