@@ -194,6 +194,17 @@ def test_bad_input_is_named(played: Recording) -> None:
         diagnose(played, budget=0.0)
 
 
+def test_rules_that_are_numerical_are_told_from_physics() -> None:
+    swing = next(path for path in packaged_recordings() if path.stem == "swing")
+    take = load_recording(str(swing))
+    answer = diagnose(take, "published")
+    names = [effect["name"] for effect in answer.effects]
+    assert names[0] == "solver_artefact"  # before any physics
+    assert 0.5 < answer.effects[0]["parameters"][0]["value"] <= 1.0
+    assert "string_friction" in names
+    assert "solver_artefact" not in [effect["name"] for effect in diagnose(take).effects]
+
+
 def test_the_command_writes_report_result_and_model(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -223,17 +223,16 @@ inline double left_over(const Fit& fit) {
   return quantile(sizes, 0.5);
 }
 
-/// Which share of the base's error its numerical rules make: one less the ratio of what the consistent rules
-/// leave over to what the base's do, both with starts fitted. Not above one.
+/// Which share of what the base leaves over beside what was found its numerical rules make: one less the
+/// ratio of what the consistent rules leave to what the base's do, starts fitted to each. Not above one.
 template <class D = detail::FitDual>
-double compare_rules(Fit fit, const Model& base, const Model& physics, int threads, const Watch& watch = {}) {
-  fit.at = fit.centre;
-  const auto rest = [&](const Model& model) {
-    refine<D>(fit, model, ActiveSet::Constant(false), 3, threads, watch);
-    return left_over(fit);
+double compare_rules(const Fit& fit, const Model& base, const Model& physics, int threads,
+                     const Watch& watch = {}) {
+  const auto rest = [&](Fit trial, const Model& model) {
+    refine<D>(trial, model, ActiveSet::Constant(false), 3, threads, watch);
+    return left_over(trial);
   };
-  const double consistent = rest(physics), own = rest(base);
-  return 1.0 - consistent / std::max(own, 1e-9);
+  return 1.0 - rest(fit, physics) / std::max(rest(fit, base), 1e-9);
 }
 
 }  // namespace diabolo
