@@ -24,9 +24,10 @@ inline Eigen::VectorXd step_within(const Eigen::MatrixXd& normal, const Eigen::V
                                    double radius) {
   const double largest = std::max(normal.diagonal().maxCoeff(), 1e-12);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(slope.size());
-  for (double damping = 1e-9 * largest; damping < 1e6 * largest; damping *= 4.0) {
+  constexpr int kDampings = 25;  // from 1e-9 on, four times more each
+  for (int i = 0; i < kDampings; ++i) {
     Eigen::MatrixXd damped = normal;
-    damped.diagonal().array() += damping;
+    damped.diagonal().array() += std::ldexp(1e-9 * largest, 2 * i);
     step = -solve_symmetric(damped, slope).col(0);
     if (step.norm() <= radius) break;
   }

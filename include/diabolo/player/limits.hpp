@@ -85,7 +85,7 @@ inline std::vector<LimitUse> limit_uses(const TipPath<double>& path, const TipLi
     for (const TipPiece<double>& piece : path.pieces()) {
       const double h = piece.duration, h2 = h * h;
       std::array<Vector3<double>, 4> c;
-      for (std::size_t k = 0; k < 4; ++k) c[k] = piece.c[k].segment<3>(3 * side);
+      for (std::size_t k = 0; k < 4; ++k) c[k] = piece.c[k].segment<3>(Eigen::Index{3} * side);
       const std::array<Vector3<double>, 3> v{c[1], Vector3<double>(2.0 * h * c[2]),
                                              Vector3<double>(3.0 * h2 * c[3])};
       const PolynomialMaximum fastest = maximum_on_unit_interval(detail::squared(v), 1e-10);

@@ -116,8 +116,10 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
       result.points[i] = seed.points[0] + (seed.points[i] - seed.points[0]) * size;
     return result;
   };
-  for (double pace = 1.05; pace < 1.5; pace += 0.05)
-    if (keeps(path_of(scaled(1.0, pace)), limits, string_length)) return scaled(1.0, pace);
+  for (int percent = 105; percent < 150; percent += 5)
+    if (const StickSpline<double> slower = scaled(1.0, 0.01 * percent);
+        keeps(path_of(slower), limits, string_length))
+      return slower;
   const StickSpline<double> still = scaled(0.0, 1.0);
   const LimitUse broken = worst(limit_uses(path_of(still), limits, string_length));
   if (broken.excess > 0.0) {

@@ -43,7 +43,8 @@ struct GridBox {
   }
   /// Its place in a list that runs along z first and along x last.
   std::size_t place(int x, int y, int z) const {
-    return static_cast<std::size_t>((x * knots[1] + y) * knots[2] + z);
+    const auto size = [](int count) { return static_cast<std::size_t>(count); };
+    return (size(x) * size(knots[1]) + size(y)) * size(knots[2]) + size(z);
   }
 };
 

@@ -151,7 +151,8 @@ class StickPlanner {
   void limit(const JointPath& path, std::size_t before, StickPlan& plan) const {
     const double offset = static_cast<double>(before) * kTick;
     const LimitedMotion motion = keep_limits(path, limits_, offset);
-    for (double planned = offset; planned < path.length(); planned += kTick) {
+    for (std::size_t tick = before; static_cast<double>(tick) * kTick < path.length(); ++tick) {
+      const double planned = static_cast<double>(tick) * kTick;
       const double factor = motion.stretch.factor(planned);
       if (factor <= plan.worst_factor) continue;
       plan.worst_factor = factor;
