@@ -46,17 +46,22 @@ class Take(NamedTuple):
 
 
 def own_takes() -> Iterator[Take]:
-    """A swing, an acceleration, and then throws, which show the air."""
+    """A swing, hops, an acceleration, and then throws."""
 
     def hold(duration: float) -> dict[str, Any]:
         return {"type": "hold", "duration": duration}
 
-    swing = {"type": "swing", "amplitude": 0.1, "frequency": 0.75, "cycles": 3}
-    yield Take(220.0, 0.6, 0.0, [hold(0.4), swing, hold(0.3)])
-    yield Take(60.0, 0.486, 0.14, [hold(0.4), {"type": "linear_acceleration", "count": 4}, hold(0.3)])
-    for k in range(40):
-        throw = {"type": "throw", "size": (1.0, 1.05, 0.95)[k % 3]}
-        yield Take(150.0 + 20.0 * (k % 5), 0.51, 0.0, [hold(0.4), throw, hold(0.3)])
+    def wave(kind: str, amplitude: float, frequency: float, cycles: int) -> dict[str, Any]:
+        return {"type": kind, "amplitude": amplitude, "frequency": frequency, "cycles": cycles}
+
+    swing = [hold(0.5), wave("swing", 0.1, 0.75, 4), hold(0.3), wave("beat", 0.06, 1.4, 3), hold(0.4)]
+    yield Take(220.0, 0.6, 0.0, swing)
+    yield Take(180.0, 0.6, 0.0, [hold(0.5), {"type": "hop", "count": 4}, hold(0.6)])
+    yield Take(60.0, 0.486, 0.14, [hold(0.5), {"type": "linear_acceleration", "count": 5}, hold(0.5)])
+    bounce = wave("bounce", 0.04, 1.2, 2)
+    for k in range(12):
+        throw = {"type": "throw", "size": (1.0, 0.95, 1.05)[k % 3]}
+        yield Take(150.0 + 10.0 * k, 0.51, 0.0, [hold(0.4), throw, hold(0.6), bounce, hold(0.4)])
 
 
 @dataclass

@@ -1,29 +1,49 @@
 # SPDX-License-Identifier: MIT
-"""How often a throw and its catch, played without a look, succeed over a spread of models.
+"""How often a throw and its catch, both played without a look, succeed over a spread of models.
 
     .venv/bin/python benchmarks/player/robust.py
 
-The spread is what a diagnosis leaves open: friction 0.015, string length 2 mm, stick stiffness 7 %. One plan
-is made for the middle of it, one for five models at once; both are predicted with fresh draws.
+The spread is what a diagnosis leaves open (friction 0.015, string length 2 mm, stick stiffness 7 %), three
+times that, or all that may be with a string of known length (session.spread). One plan is made for the middle
+of it, one for five models at once; both are predicted with fresh draws.
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 
 import diabolo
 import numpy as np
-from diabolo import Model, Parameters
+from diabolo import Model, Parameters, PlannedPlay, _core
+from diabolo.enums import StringState
+from session import spread
+
+SPIN = 150.0  # [rad/s]
 
 
-def draw(rng: np.random.Generator, spread: float) -> Model:
-    friction = 0.25 + spread * rng.normal(0.0, 0.015)
-    stiffness = 450.0 * (1.0 + spread * rng.normal(0.0, 0.07))
+def diagnosed(rng: np.random.Generator, times: float) -> Model:
+    friction = 0.25 + times * rng.normal(0.0, 0.015)
+    stiffness = 450.0 * (1.0 + times * rng.normal(0.0, 0.07))
     return Model(
-        Parameters(string_length=1.45 + spread * rng.normal(0.0, 0.002), spin_coupling=0.0),
-        string_friction=diabolo.StringFriction(coefficient=friction, spin_gain=3.4),
+        Parameters(string_length=1.45 + times * rng.normal(0.0, 0.002), spin_coupling=0.0),
+        string_friction=diabolo.StringFriction(coefficient=max(0.0, friction), spin_gain=3.4),
         stick_flex=diabolo.StickFlex(compliance=1.0 / stiffness, damping=3.0),
     )
+
+
+def anything(rng: np.random.Generator) -> Model:
+    model = spread(1.45)[0]
+    model.string_friction.coefficient = float(rng.uniform(0.1, 0.35))
+    model.string_elasticity.compliance = 1.45 / float(rng.uniform(1000.0, 5000.0))
+    model.stick_flex.compliance = 1.0 / float(rng.uniform(250.0, 800.0))
+    return model
+
+
+def caught(play: PlannedPlay, model: Model) -> bool:
+    """Whether the diabolo ends on the string, below the hands."""
+    _, states, codes, left, right = _core.foresee(model, play.start, play.path)
+    return bool(codes[-1] != StringState.FLYING and states[-1, 2] < 0.5 * (left[-1, 2] + right[-1, 2]))
 
 
 def main() -> None:
@@ -33,16 +53,26 @@ def main() -> None:
     parser.add_argument("--draws", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
+    print("| spread | height [m] | planned for one | planned for five | planning of the latter [s] |")
+    print("|---|---|---|---|---|")
+    spreads: dict[str, tuple[list[Model], Callable[[np.random.Generator], Model]]] = {}
     rng = np.random.default_rng(given.seed)
-    nominal = draw(rng, 0.0)
-    planned_for = [nominal, *(draw(rng, 1.0) for _ in range(4))]
-    fresh = [draw(rng, 1.0) for _ in range(given.draws)]
-    print("height [m]  planned for one  for five  time of the latter [s]")
-    for height in (0.3, 0.5, 0.7, 0.9):
-        one = diabolo.plan_action("throw_and_catch", nominal, height=height, spin=150.0)
-        five = diabolo.plan_action("throw_and_catch", planned_for, height=height, spin=150.0)
-        rates = [diabolo.success_rate(play, fresh) for play in (one, five)]
-        print(f"{height:10.1f} {100 * rates[0]:14.0f} % {100 * rates[1]:7.0f} % {five.planning_time:12.2f}")
+    for name, times in (("of a diagnosis", 1.0), ("three times that", 3.0)):
+        five = [diagnosed(rng, 0.0), *(diagnosed(rng, times) for _ in range(4))]
+        spreads[name] = five, lambda rng, times=times: diagnosed(rng, times)  # type: ignore[misc]
+    spreads["all that may be"] = spread(1.45), anything
+    for name, (five, fresh) in spreads.items():
+        models = [fresh(rng) for _ in range(given.draws)]
+        for height in (0.3, 0.5, 0.7, 0.9):
+            plans = [
+                diabolo.plan_action("throw_and_catch", planned, height=height, spin=SPIN, seconds=100.0)
+                for planned in (five[0], five)
+            ]
+            rates = [100.0 * np.mean([caught(play, model) for model in models]) for play in plans]
+            print(
+                f"| {name} | {height} | {rates[0]:.0f} % | {rates[1]:.0f} % | {plans[1].planning_time:.1f} |",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

@@ -84,10 +84,9 @@ def test_a_plan_for_two_arms_is_played_as_planned(command: Command, tmp_path: Pa
 
 def test_model_for_takes_what_is_the_recordings() -> None:
     take = make_recording("swing", 1.0)
-    take.string_length = 1.39
     model = Model(Parameters(string_length=1.2, mass=0.4), own_mass=True)
     there = diabolo.model_for(model, take).parameters
-    assert there.string_length == 1.39
+    assert there.string_length == take.string_length == LENGTH
     assert there.mass == 0.4
     assert there.axle_radius == take.properties.axle_radius
     assert model.parameters.string_length == 1.2
