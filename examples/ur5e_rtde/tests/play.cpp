@@ -100,7 +100,7 @@ TEST_CASE("motions that are replaced midway join smoothly") {
   int joined = 0;
   for (int i = 0; i < 12; ++i) {
     bench.cell.wait(0.2 + 0.3 * random());
-    const auto tick = static_cast<std::size_t>(bench.cell.control.plan_ticks()) + 200;
+    const auto tick = static_cast<std::size_t>(bench.cell.control.plan_ticks()) + 300;
     const TipMotion<double> motion =
         circles(0.5 + 0.5 * random(), 3 + 2 * random(), 0.25 + 0.1 * random(), random());
     // Beside the loop, which must not wait: the watchdog would stop the arms.
