@@ -117,7 +117,7 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
     return result;
   };
   for (int percent = 105; percent < 150; percent += 5)
-    if (const StickSpline<double> slower = scaled(1.0, 0.01 * percent);
+    if (StickSpline<double> slower = scaled(1.0, 0.01 * percent);
         keeps(path_of(slower), limits, string_length))
       return slower;
   const StickSpline<double> still = scaled(0.0, 1.0);
