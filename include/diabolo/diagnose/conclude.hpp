@@ -12,6 +12,9 @@
 
 namespace diabolo {
 
+/// What stands out by so many standard deviations is there, whatever it is.
+inline constexpr double kStrong = 10.0;
+
 /// No claim stands whose model predicts worse than the base what it was not fitted to. Returns whether that
 /// was so.
 inline bool withdraw_what_does_not_help(Diagnosis& d) {
@@ -24,6 +27,7 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
   for (Finding& f : d.findings) {
     if (!f.claimed) continue;
     f.claimed = false;
+    d.withdrawn = d.withdrawn || (f.candidate->kind == CandidateKind::kPhysics && std::abs(f.z) > kStrong);
     f.reason = "does not help on data that were left out";
   }
   return true;
@@ -68,6 +72,9 @@ inline void conclude(Diagnosis& d) {
   } else if (d.numerical && *d.numerical > 0.1) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
+  } else if (d.withdrawn) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence = "Something is missing, but no explanation of it helps on data that were left out.";
   } else if (d.unexplained > kUnexplainedShare) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something without a name is left: " + std::to_string(std::lround(100.0 * d.unexplained)) +

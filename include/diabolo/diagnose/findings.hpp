@@ -77,6 +77,7 @@ struct Diagnosis {
   Model model;
   HeldOut heldout;
   double unexplained = 0.0;         ///< share of the windows that are far off after all
+  bool withdrawn = false;           ///< physics that stands out, but does not help on what was left out
   std::optional<double> numerical;  ///< share of the base's error that its numerical rules make
 };
 
