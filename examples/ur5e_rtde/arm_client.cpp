@@ -137,8 +137,8 @@ class Client {
           return control_->servoJ(joints, 0, 0, diabolo::kTick, settings_.lookahead, settings_.gain);
         });
         kicked_ = now();
-        if (taken == refused_) reporter_.tell([&](ur5e::ArmReport& report) { report.refused = !taken; });
-        refused_ = !taken;
+        if (taken) states_since_refusal_ = kNotRefused;
+        if (!taken && states_since_refusal_ == kNotRefused) states_since_refusal_ = 0;
         break;
       }
       case ur5e::ArmCommand::kMove:
@@ -162,8 +162,8 @@ class Client {
   }
   void stop_servo() {
     if (running_ && servoing_) control_->servoStop(kStopDeceleration);
-    servoing_ = refused_ = false;
-    reporter_.tell([](ur5e::ArmReport& report) { report.refused = false; });
+    servoing_ = false;
+    states_since_refusal_ = kNotRefused;
   }
 
   void unlock() {
@@ -176,7 +176,8 @@ class Client {
         dashboard.disconnect();
       }
       if (!wait([this] { return !receive_->isProtectiveStopped(); }, "the stop was not released")) return;
-      servoing_ = refused_ = false;
+      servoing_ = false;
+      states_since_refusal_ = kNotRefused;
       // The command register still holds the last setpoint's command, and a program that starts would obey
       // it.
       control_->kickWatchdog();
@@ -204,8 +205,9 @@ class Client {
         if (called_at > 0 && now() - called_at > settings_.slow_call)
           reporter_.leave(host_ + ": the client took too long over a setpoint; it had lost its connection");
         if (!receive_->isConnected()) reporter_.leave(host_ + ": the connection broke");
-        if (receive_->getTimestamp() == told && now() - last < 0.005) continue;
-        told = report();
+        const bool fresh = receive_->getTimestamp() != told;
+        if (!fresh && now() - last < 0.005) continue;
+        told = report(fresh);
         last = now();
       }
     } catch (const std::exception& error) {
@@ -214,7 +216,11 @@ class Client {
   }
 
   /// One state of the controller, all of the same packet; returns its time.
-  double report() {
+  double report(bool fresh) {
+    // A refusal may be known before the state that explains it, which comes by a connection of its own.
+    int states = states_since_refusal_;
+    if (fresh && states >= 0 && states < kStatesThatExplain)
+      states_since_refusal_.compare_exchange_strong(states, states + 1);
     double time;
     std::vector<double> actual;
     double scaling;
@@ -238,10 +244,12 @@ class Client {
       report.emergency_stop = (safety & kEmergencyStop) != 0;
       report.program_running = running_;
       report.moving = moving && running_;
+      report.refused = states >= kStatesThatExplain;
     });
     return time;
   }
 
+  static constexpr int kNotRefused = -1, kStatesThatExplain = 3;
   static constexpr double kStopDeceleration = 10;            // [rad/s^2]
   static constexpr std::uint32_t kPlaying = 2;               // runtime_state
   static constexpr std::uint32_t kProtectiveStop = 1u << 2;  // safety_status_bits
@@ -255,7 +263,8 @@ class Client {
   std::unique_ptr<ur_rtde::RTDEControlInterface> control_;
   std::atomic<double> called_at_ = 0;
   std::atomic<bool> running_ = true;
-  bool servoing_ = false, refused_ = false;
+  std::atomic<int> states_since_refusal_ = kNotRefused;
+  bool servoing_ = false;
   double kicked_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "dashboard.hpp"
@@ -92,27 +93,34 @@ class Server {
   }
 
   void run(const std::stop_token& stop) {
-    double next = steady_now();
+    next_ = steady_now();
     while (!stop.stop_requested() && steady_now() < end_) {
-      wait_until(next);
+      wait_until(next_);
       const std::lock_guard lock(mutex_);
       for (const Door& door : doors_) greet(door);
       const bool stalled = steady_now() < stalled_until_;
       for (Connection& connection : connections_)
         if (connection.kind != Kind::kRtde || !stalled) serve(connection);
-      int due = 0;
-      for (; next <= steady_now() && due < kMostAtOnce; next += diabolo::kTick, ++due) {
-        controller_.frozen = steady_now() < frozen_until_;
-        if (steady_now() >= scaled_until_) controller_.scaling = 1;
-        controller_.tick();
-        ticks_.push_back(controller_.look(steady_now()));
+      while (tick_if_due()) {
       }
-      if (due == kMostAtOnce) next = steady_now();
-      if (due > 0 && !stalled && !silent_)
+      if (std::exchange(untold_, false) && !stalled && !silent_)
         for (Connection& connection : connections_)
           if (connection.session && connection.unsent.empty()) push(connection, connection.session->data());
       connections_.remove_if([](const Connection& connection) { return connection.closing; });
     }
+  }
+
+  /// The tick that is due, if one is. After a longer pause of the machine the controller goes on from now.
+  bool tick_if_due() {
+    const double now = steady_now();
+    if (next_ > now) return false;
+    next_ = std::max(next_ + diabolo::kTick, now - kLongestPause);
+    controller_.frozen = now < frozen_until_;
+    if (now >= scaled_until_) controller_.scaling = 1;
+    controller_.tick();
+    ticks_.push_back(controller_.look(now));
+    untold_ = true;
+    return true;
   }
 
   void wait_until(double next) {
@@ -194,6 +202,8 @@ class Server {
         controller_.command_written();
         if (controller_.inputs().get<std::int32_t>(controller_.command_register()) == kServoJ)
           arrivals_.push_back({steady_now(), controller_.servo_target()});
+        // After a pause of the machine each command has a tick of its own, as it would have had.
+        tick_if_due();
       }
     } catch (const WireError& error) {
       complaint_ = error.what();
@@ -203,7 +213,7 @@ class Server {
 
   std::string obey(std::string_view line);
 
-  static constexpr int kMostAtOnce = 50;  // ticks that are made up for after a pause of the machine
+  static constexpr double kLongestPause = 0.2;  // [s] of the machine, that is made up for
 
   mutable std::mutex mutex_;
   Controller controller_;
@@ -213,7 +223,9 @@ class Server {
   std::vector<Tick> ticks_;
   std::vector<Arrival> arrivals_;
   std::string complaint_;
+  double next_ = 0;  ///< when the next tick is due [s]
   double end_, stalled_until_ = 0, frozen_until_ = 0, scaled_until_ = 0;
+  bool untold_ = false;  ///< a state that clients have not been told
   bool refusing_ = false, silent_ = false;
   std::jthread thread_;
 };
