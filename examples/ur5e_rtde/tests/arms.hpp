@@ -68,6 +68,7 @@ struct Bench {
     server(side).reset();
     server(side) =
         std::make_unique<stand_in::Server>(loopback_address(side == Side::kLeft ? 0 : 1), joints, 120);
+    while (server(side)->ticks().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   void connect() {
