@@ -166,7 +166,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--stale", options.stale,
                  "Silence of a controller, or of this loop, that stops both arms [s]")
-      ->check(CLI::Range(0.004, 0.2))
+      ->check(CLI::Range(0.004, 1.0))
       ->capture_default_str();
   app.add_option("--watchdog", options.arm.watchdog,
                  "The controller stops its program after a silence of 1 / this [Hz]")

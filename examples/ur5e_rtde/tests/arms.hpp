@@ -35,18 +35,18 @@ inline TipMotion<double> circles(double seconds, double rate, double radius = 0.
   return TipMotion<double>(times, left, right, Interpolation::kSpline);
 }
 
-/// Patient, since the machine of a test is not the cell's: ticks may come late by a fifth of a second.
+/// Patient, since the machine of a test is not the cell's: ticks may come late by half a second.
 inline ur5e::CellOptions patient() {
   ur5e::CellOptions options;
   options.client = UR5E_CLIENT;
   options.left = loopback_address(0);
   options.right = loopback_address(1);
-  options.settings.slow_call = 0.2;
+  options.settings.slow_call = 0.5;
   options.settings.move_speed = 1;
   options.settings.move_acceleration = 4;
-  options.settings.watchdog = 2;
+  options.settings.watchdog = 1;
   options.guard.tracking = 1.0;  // so that a silence is told as one
-  options.control.stale_after = options.control.late_after = 0.2;
+  options.control.stale_after = options.control.late_after = 0.5;
   options.control.recover_after = 0.3;
   return options;
 }
@@ -68,6 +68,7 @@ struct Bench {
     server(side).reset();
     server(side) =
         std::make_unique<stand_in::Server>(loopback_address(side == Side::kLeft ? 0 : 1), joints, 120);
+    while (server(side)->ticks().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   void connect() {

@@ -40,7 +40,7 @@ void make_fault(Bench& bench, Side side, ControlFaultKind kind, const std::funct
   const double made_at = TickClock::now();
   make();
   const bool stopping = bench.cell.until(
-      ControlState::kStopping, 1, [&] { return bench.cell.control.state() == ControlState::kFaulted; });
+      ControlState::kStopping, 2, [&] { return bench.cell.control.state() == ControlState::kFaulted; });
   const double noticed = TickClock::now() - made_at;
   INFO(text_of(bench.cell.control.fault()) << ", expected " << text_of({kind, side}));
   REQUIRE((stopping || bench.cell.control.state() == ControlState::kFaulted));
@@ -59,7 +59,7 @@ void make_fault(Bench& bench, Side side, ControlFaultKind kind, const std::funct
               1e3 * noticed, 1e3 * (rest_at - made_at));
   if (told_at > made_at) std::printf(", told after %.1f ms", 1e3 * (told_at - made_at));
   std::printf("\n");
-  CHECK(rest_at - made_at < 1.0);
+  CHECK(rest_at - made_at < noticed + 1.0);
   CHECK(bench.server(other(side))->ticks().back().speed.norm() < 0.02);
   CHECK(bench.server(side)->ticks().back().speed.norm() < 0.02);
   // Latched: nothing is sent, and no command but recover() counts.
@@ -110,8 +110,8 @@ TEST_CASE("a fault of one arm stops both, with the reason, and stays") {
                             {ControlFaultKind::kEmergencyStop, Side::kRight, "estop on"},
                             {ControlFaultKind::kProgram, Side::kLeft, "stop"},
                             {ControlFaultKind::kProgram, Side::kRight, "pause"},
-                            {ControlFaultKind::kStale, Side::kLeft, "stall 1"},
-                            {ControlFaultKind::kStale, Side::kRight, "freeze 0.5"},
+                            {ControlFaultKind::kStale, Side::kLeft, "stall 2"},
+                            {ControlFaultKind::kStale, Side::kRight, "freeze 1.5"},
                             {ControlFaultKind::kLost, Side::kLeft, "drop"}}) {
     INFO(fault.order);
     Bench bench(plan());
@@ -122,7 +122,7 @@ TEST_CASE("a fault of one arm stops both, with the reason, and stays") {
 
 TEST_CASE("a client that is killed leaves its arm to the controller's watchdog") {
   ur5e::CellOptions options = patient();
-  options.settings.watchdog = 10;
+  options.settings.watchdog = 2;
   Bench bench(plan(), options);
   double killed_at = 0;
   make_fault(bench, Side::kRight, ControlFaultKind::kLost, [&] {
@@ -135,7 +135,7 @@ TEST_CASE("a client that is killed leaves its arm to the controller's watchdog")
     if (stopped_at == 0 && tick.time > killed_at && tick.runtime == stand_in::Controller::kStopped)
       stopped_at = tick.time;
   std::printf("killed client: the program stopped after %.1f ms\n", 1e3 * (stopped_at - killed_at));
-  CHECK(stopped_at - killed_at < 0.5);  // 0.1 s and a few ticks where the machine has time
+  CHECK(stopped_at - killed_at < 1.5);  // 0.5 s and a few ticks where the machine has time
   CHECK(bench.cell.control.recover(bench.cell.now).empty());
   CHECK(bench.cell.until(ControlState::kIdle, 12));
 }

@@ -78,8 +78,8 @@ struct Controllers {
     std::vector<std::string> all{"--left",    loopback_address(0),
                                  "--right",   loopback_address(1),
                                  "--yes",     "--stale",
-                                 "0.2",       "--watchdog",
-                                 "2",         "--log",
+                                 "0.5",       "--watchdog",
+                                 "1",         "--log",
                                  log.string()};
     all.insert(all.end(), more.begin(), more.end());
     return all;
