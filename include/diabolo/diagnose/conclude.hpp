@@ -15,6 +15,17 @@ namespace diabolo {
 /// What stands out by so many standard deviations is there, whatever it is.
 inline constexpr double kStrong = 10.0;
 
+/// No fault is claimed that lies farther off than any measurement: something else is at work. (To be asked
+/// once other explanations have been tried: a rate that is off by 4 % looks like a scale that is off by 8 %.)
+inline void withdraw_what_cannot_be(Diagnosis& d) {
+  for (Finding& f : d.findings) {
+    if (!f.claimed || f.possible) continue;
+    f.claimed = false;
+    f.reason = "farther off than any measurement: something else is at work";
+  }
+  std::ranges::stable_partition(d.findings, &Finding::claimed);
+}
+
 /// No claim stands whose model predicts worse than the base what it was not fitted to. Returns whether that
 /// was so.
 inline bool withdraw_what_does_not_help(Diagnosis& d) {

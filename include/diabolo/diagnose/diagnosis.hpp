@@ -218,6 +218,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
     result.model.parameters.gravity = physics.parameters.gravity;
   find(result, fit, evidence, bank, set);
+  withdraw_what_cannot_be(result);
   for (const Exchange& exchange : exchanged)
     for (Finding& f : result.findings)
       if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;

@@ -27,7 +27,8 @@ struct Finding {
   double size = 0.0;                                ///< see size_of()
   bool sure = false;                                ///< by its significance
   bool material = false;                            ///< by its size
-  bool claimed = false;                             ///< both, and part of the model
+  bool possible = true;                             ///< no farther off than a measurement may be
+  bool claimed = false;                             ///< sure and material, and part of the model
   double confidence = 0.0;
   long swapped = 0;  ///< frames, of body_swap
   std::vector<std::string> tied_with;
@@ -182,11 +183,10 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
         f.material = f.material || value - 2.0 * f.deviation[index_of(u)] > candidate.floor;
       }
     }
-    const bool possible = candidate.kind == CandidateKind::kPhysics || is_possible(candidate, own);
-    f.claimed = f.sure && f.material && possible && is_in(set, candidate);
+    f.possible = candidate.kind == CandidateKind::kPhysics || is_possible(candidate, own);
+    f.claimed = f.sure && f.material && is_in(set, candidate);
     f.reason = !f.sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"
                                                                      : "too small to be told from nothing")
-               : !possible   ? "farther off than any measurement: something else is at work"
                : !f.material ? "there, but too small to matter"
                              : "sure, and large enough to matter";
     if (f.claimed && candidate.kind == CandidateKind::kPhysics)
