@@ -23,7 +23,8 @@ inline void withdraw_what_cannot_be(Diagnosis& d) {
     f.claimed = false;
     f.reason = "farther off than any measurement: something else is at work";
   }
-  std::ranges::stable_partition(d.findings, &Finding::claimed);
+  // (The algorithm on ranges returns a subrange, which Clang 14 cannot read in libstdc++ 12.)
+  std::stable_partition(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.claimed; });
 }
 
 /// No claim stands whose model predicts worse than the base what it was not fitted to. Returns whether that
