@@ -59,11 +59,11 @@ TEST_CASE("Cancelling ends the work") {
 TEST_CASE("An exception of any thread, or of the watch, reaches the caller") {
   const std::thread::id here = std::this_thread::get_id();
   const auto fail_in = [&](int threads, bool caller) {
-    std::atomic<bool> helped{false};
+    std::atomic<bool> began{false}, helped{false};
     for_each_index(1000, threads, {}, [&](std::size_t) {
       const bool is_caller = std::this_thread::get_id() == here;
-      if (!is_caller) helped.store(true);
-      while (!helped.load()) std::this_thread::yield();
+      (is_caller ? began : helped).store(true);
+      while (!began.load() || !helped.load()) std::this_thread::yield();
       if (is_caller == caller) throw std::range_error("work");
     });
   };

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -88,16 +88,24 @@ def stamp(program: Path, seed: int, cases: int) -> dict[str, Any]:
 
 
 def make(
-    store: Store, program: Path, seed: int, cases: int, chain: bool, jobs: int, report: Report
+    store: Store,
+    program: Path,
+    seed: int,
+    cases: int,
+    chain: bool,
+    jobs: int,
+    report: Report,
+    but: Collection[str] = (),
 ) -> list[draw.Plan]:
-    """Makes all cases of a batch that are not there yet; returns what was planned."""
+    """Makes all cases of a batch, `but` some, that are not there yet; returns what was planned."""
     store.fit_for({**stamp(program, seed, cases), "chain": chain})
     planned = draw.plans(seed, cases, chain)
+    wanted = [plan for plan in planned if plan.name not in but]
     with ThreadPoolExecutor(jobs) as pool:
-        running = [pool.submit(store.make, program, plan) for plan in planned]
+        running = [pool.submit(store.make, program, plan) for plan in wanted]
         try:
             for done, future in enumerate(running):
-                report(f"making {planned[done].name}: {done} of {cases} done", done / cases)
+                report(f"making {wanted[done].name}: {done} of {len(wanted)} done", done / len(wanted))
                 future.result()
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -70,7 +70,7 @@ def _is_committed(path: Path) -> bool:
     return known.returncode == 0 and same.returncode == 0
 
 
-def run_batch(places: Places, name: str, tool: str, minutes: float) -> int:
+def run_batch(places: Places, name: str, tool: str, minutes: float, jobs: int) -> int:
     check_name(name)
     chosen = tool_named(tool)
     sealed = seal.read(places.published(name))
@@ -79,10 +79,11 @@ def run_batch(places: Places, name: str, tool: str, minutes: float) -> int:
     seal.check_tool(sealed["commit"])
     store = places.store(name)
     plant.check_program(places.program)
-    batch.make(store, places.program, sealed["seed"], sealed["cases"], True, 1, places.report)
-    seal.check_recordings(sealed, store)
-    cases = [entry["case"] for entry in sealed["sealed"]]
     results = answers_path(places, name, tool)
+    done = run.answers(results)
+    batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report, but=done)
+    seal.check_recordings(sealed, store, but=done)
+    cases = [entry["case"] for entry in sealed["sealed"]]
     left = run.resume(cases, results, lambda case: chosen(store.recording(case)), places.report, minutes)
     ending = f"{left} cases are left; run again" if left else f"all done; diabolo prove score {name}"
     print(f"{results}: {len(cases) - left} of {len(cases)} cases; {ending}")
@@ -120,7 +121,7 @@ def oracles(
     return {case: found for case, found in run.answers(path).items() if case in told}
 
 
-def score_batch(places: Places, name: str, tool: str, json_file: Path | None) -> int:
+def score_batch(places: Places, name: str, tool: str, jobs: int, json_file: Path | None) -> int:
     """Opens the keys; writes NAME.score.json, or NAME.TOOL.score.json."""
     check_name(name)
     tool_named(tool)
@@ -130,6 +131,8 @@ def score_batch(places: Places, name: str, tool: str, json_file: Path | None) ->
     missing = [entry["case"] for entry in sealed["sealed"] if entry["case"] not in found]
     if missing:
         raise ValueError(f"batch {name}: {len(missing)} cases have no answer; diabolo prove run {name} first")
+    plant.check_program(places.program)
+    batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report)
     keys = seal.open_keys(sealed, store)
     own = run.answers(answers_path(places, name, "diagnose"))
     best = oracles(places, at_work(keys), own, store, places.results(name, ".oracle.jsonl"))

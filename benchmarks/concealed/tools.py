@@ -13,7 +13,7 @@ import diabolo
 from diabolo import diagnose, load_recording
 
 from . import files, sindy
-from .names import PHYSICS
+from .names import MEASUREMENT, PHYSICS
 
 Tool = Callable[[Path], dict[str, Any]]
 
@@ -61,4 +61,14 @@ def no_faults(path: Path) -> dict[str, Any]:
     return _restricted(path, _known_physics(path), **options)
 
 
-TOOLS: dict[str, Tool] = {"diagnose": full, "no_faults": no_faults, "sindy": sindy.diagnose}
+def parameter_fit(path: Path) -> dict[str, Any]:
+    """What fitting the simulator's own numbers reaches: lengths, places and clocks, and no physics."""
+    return _restricted(path, MEASUREMENT)
+
+
+TOOLS: dict[str, Tool] = {
+    "diagnose": full,
+    "no_faults": no_faults,
+    "parameter_fit": parameter_fit,
+    "sindy": sindy.diagnose,
+}

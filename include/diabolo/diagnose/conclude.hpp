@@ -15,6 +15,11 @@ namespace diabolo {
 /// What stands out by so many standard deviations is there, whatever it is.
 inline constexpr double kStrong = 10.0;
 
+inline void claims_first(Diagnosis& d) {
+  // (The algorithm on ranges returns a subrange, which Clang 14 cannot read in libstdc++ 12.)
+  std::stable_partition(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.claimed; });
+}
+
 /// No fault is claimed that lies farther off than any measurement: something else is at work. (To be asked
 /// once other explanations have been tried: a rate that is off by 4 % looks like a scale that is off by 8 %.)
 inline void withdraw_what_cannot_be(Diagnosis& d) {
@@ -23,8 +28,7 @@ inline void withdraw_what_cannot_be(Diagnosis& d) {
     f.claimed = false;
     f.reason = "farther off than any measurement: something else is at work";
   }
-  // (The algorithm on ranges returns a subrange, which Clang 14 cannot read in libstdc++ 12.)
-  std::stable_partition(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.claimed; });
+  claims_first(d);
 }
 
 /// No claim stands whose model predicts worse than the base what it was not fitted to. Returns whether that
@@ -43,6 +47,22 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
     f.reason = "does not help on data that were left out";
   }
   return true;
+}
+
+/// No fault is claimed whose correction does not predict better what was left out, where that can be said: a
+/// place that explains what nobody knows fits, and helps nothing. (A lag is not asked: corrected() undoes it as
+/// a delay.)
+inline void withdraw_faults_that_do_not_help(Diagnosis& d) {
+  for (Finding& f : d.findings) {
+    if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement || first_of(*f.candidate) == Unknown::kLag)
+      continue;
+    const auto said = [](const std::optional<Interval>& interval) { return interval.has_value(); };
+    const auto helps = [](const std::optional<Interval>& interval) { return interval && interval->low > 0.0; };
+    if (std::ranges::none_of(f.worsening_ci95, said) || std::ranges::any_of(f.worsening_ci95, helps)) continue;
+    f.claimed = false;
+    f.reason = "does not help on data that were left out";
+  }
+  claims_first(d);
 }
 
 /// The first of what a finding is tied with, in plain words.

@@ -59,6 +59,7 @@ def add_parser(commands: Any) -> None:
             _add_cases(action, suppress=True)
         if name in ("run", "score"):
             _add_tool(action, suppress=True)
+            _add_jobs(action, suppress=True)
         if name == "run":
             action.add_argument(
                 "--minutes",
@@ -100,6 +101,10 @@ def _add_cases(parser: argparse.ArgumentParser, suppress: bool) -> None:
         default=_default(None, suppress),
         help=f"default: {QUICK_CASES} for quick, {SEALED_CASES} for seal",
     )
+    _add_jobs(parser, suppress)
+
+
+def _add_jobs(parser: argparse.ArgumentParser, suppress: bool) -> None:
     parser.add_argument(
         "--jobs", metavar="N", type=int, default=_default(1, suppress), help="plants at once; default: 1"
     )
@@ -110,7 +115,7 @@ def _add_tool(parser: argparse.ArgumentParser, suppress: bool) -> None:
         "--tool",
         metavar="TOOL",
         default=_default("diagnose", suppress),
-        help="diagnose (default), or a baseline: no_faults, sindy",
+        help="diagnose (default), or a baseline: no_faults, parameter_fit, sindy",
     )
 
 
@@ -174,9 +179,9 @@ def _act(commands: Any, places: Any, arguments: argparse.Namespace, cases: int, 
     elif what == "seal":
         status = commands.seal_batch(places, arguments.name, cases, arguments.jobs)
     elif what == "run":
-        status = commands.run_batch(places, arguments.name, arguments.tool, minutes)
+        status = commands.run_batch(places, arguments.name, arguments.tool, minutes, arguments.jobs)
     elif what == "score":
-        status = commands.score_batch(places, arguments.name, arguments.tool, json_file)
+        status = commands.score_batch(places, arguments.name, arguments.tool, arguments.jobs, json_file)
     else:
         files.check_outputs([arguments.out], [])
         status = commands.write_page(places, arguments.name, Path(arguments.out))
