@@ -164,7 +164,9 @@ stress: # Long random runs: with assertions, but optimised in full.
 # With MuJoCo where `make mujoco` has installed it, with instruction counts where valgrind is found.
 run_benchmarks = $(VENV)/bin/python benchmarks/run_all.py $(BUILD)/bench/benchmarks
 
-bench: build-benchmarks $(VENV)/.created ## Run every benchmark and write docs/benchmarks.md
+bench: build-benchmarks $(VENV)/.package ## Run every benchmark and write docs/benchmarks.md
+	@$(packages) mujoco
+	@$(install_package) '.[mujoco,plot,test]'
 	@$(run_benchmarks) docs/benchmarks.md --json $(BUILD)/bench/benchmarks.json
 
 check-benchmarks: build-benchmarks $(VENV)/.created # Every benchmark runs; its figures are not looked at.

@@ -126,6 +126,7 @@ void scatter_state(const State<Pack>& state, const LaneBlock& block) {
       to.position[k] = state.position[k][lane];
       to.velocity[k] = state.velocity[k][lane];
       to.string_acceleration[k] = state.string_acceleration[k][lane];
+      to.axis[k] = state.axis[k][lane];
     }
     to.spin = state.spin[lane];
     to.string_state = static_cast<StringState>(static_cast<int>(state.string_state.code[lane]));

@@ -52,8 +52,8 @@ struct State {
   Scalar spin{0};
   Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
   StringStateOf<Scalar> string_state{StringState::kLoose};
-  /// Direction of the axle, forward: a unit vector, world frame. Steps leave it as it is (the axle's tilt is
-  /// not predicted); only effects look at it. The angular velocity is -spin * axis.
+  /// Direction of the axle, forward: a unit vector, world frame. Only effects look at it, and only
+  /// GyroscopicTilt turns it. The angular velocity is -spin * axis.
   Vector3<Scalar> axis = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));
   /// Mean acceleration of the diabolo by the string over the last step [m/s^2]; times its mass, the string's
   /// force on it. Part of the state: the next step begins its iteration with it, which changes the result by

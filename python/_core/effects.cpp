@@ -56,6 +56,10 @@ const char* doc_of(const GravityTilt<double>&) {
   return R"(Gravity along (x, y, -sqrt(1 - x^2 - y^2)) instead of -z: a frame that is not level.)";
 }
 
+const char* doc_of(const GyroscopicTilt<double>&) {
+  return R"(Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I.)";
+}
+
 const char* doc_of(const FiniteAxle<double>&) {
   return R"(An axle that is not thin: string lies around it, and the strands leave it along its tangents.)";
 }

@@ -71,7 +71,7 @@ void bind_state(py::module_& module) {
 `position` [m] and `velocity` [m/s] have the shape (3,), world frame: x forward (away from the player), y left,
 z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
 string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
-is the axle's direction, which no step changes and only MagnusLift looks at.)")
+is the axle's direction, which only GyroscopicTilt turns.)")
       .def(py::init(&make), "position"_a, "velocity"_a = py::make_tuple(0.0, 0.0, 0.0), "spin"_a = 0.0,
            "string_state"_a = "loose", "axis"_a = py::make_tuple(1.0, 0.0, 0.0))
       .def_property(

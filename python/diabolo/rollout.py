@@ -66,7 +66,7 @@ def rollout(
     steps: how many; by default as many as the (shortest) tip motion lasts.
     begin: time of the initial state within the tip motions [s]; by default where the first one begins.
     string_state: of the initial state; one for all or an array of the shape (N,).
-    axis: the axle's direction, of which only MagnusLift takes notice, shape (3,) or (N, 3).
+    axis: the axle's direction, which matters to MagnusLift and GyroscopicTilt, shape (3,) or (N, 3).
     record_every: a frame after each so many steps; `steps` must be a multiple of it.
     threads: 0 takes all cores. The result does not depend on it.
 

@@ -42,6 +42,7 @@ inline const std::vector<Candidate>& candidates() {
       {"air_drag_quadratic", "the drag of the air", kPhysics, {kQuadraticDrag}, 0.0, true},
       {"wind", "wind", kPhysics, {kWindX, kWindY}, 0.0, false},
       {"magnus_lift", "the lift of the spinning diabolo (Magnus)", kPhysics, {kLift}, 0.0, false},
+      {"gyroscopic_tilt", "the tilt of the axle by the string", kPhysics, {kGyroscopicGain}, 0.0, true},
       {"string_mass", "the weight of the loose string", kPhysics, {kStringMass}, 0.0, true},
       {"spin_drag", "the air that slows the spin", kPhysics, {kSpinAir}, 0.0, true},
       {"axle_drag", "a bearing that slows the spin", kPhysics, {kSpinAxle}, 0.0, true},
@@ -118,6 +119,7 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
   const bool asks_gravity = !earth && wanted(candidate_of("gravity_magnitude"));
   for (const Candidate& candidate : candidates()) {
     if (candidate.unknowns.empty() || !alternative_to(candidate.name).empty() || !wanted(candidate)) continue;
+    if (first_of(candidate) == Unknown::kGyroscopicGain) continue;  // see find_axle_motion()
     if (candidate.name == "spin_coupling" && base.spin_coupling > 0.0) continue;
     if (candidate.name == "gravity_magnitude" && earth) continue;
     if (candidate.name == "length_scale" && asks_gravity) continue;

@@ -73,6 +73,24 @@ inline std::string tied_plainly(const Finding& finding) {
   return "another effect";
 }
 
+/// Claims that the string is wrapped around the axle: at work wherever friction is.
+inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
+  const auto friction = std::ranges::find_if(
+      d.findings, [](const Finding& f) { return f.candidate->name == "string_friction"; });
+  if (friction == d.findings.end()) return;
+  Finding f = *friction;
+  f.candidate = &candidate_of("string_wrap");
+  f.estimate = fit.at;
+  f.deviation.setZero();
+  f.z = z;
+  f.p_value = family_wise(z);
+  f.claimed = f.material = true;
+  f.confidence = friction->confidence;
+  f.tied_with.clear();
+  f.reason = "the string is as much shorter, and rubs as much more, as its turns around the axle make it";
+  d.findings.insert(d.findings.begin(), f);
+}
+
 /// Headline and sentence.
 inline void conclude(Diagnosis& d) {
   std::vector<const Finding*> physics, faults;

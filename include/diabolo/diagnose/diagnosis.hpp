@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/alternatives.hpp"
+#include "diabolo/diagnose/axle_motion.hpp"
 #include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
@@ -132,24 +133,6 @@ void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int t
   fit = std::move(left_over(forwards) <= left_over(backwards) ? forwards : backwards);
 }
 
-/// Claims that the string is wrapped around the axle: at work wherever friction is.
-inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
-  const auto friction = std::ranges::find_if(
-      d.findings, [](const Finding& f) { return f.candidate->name == "string_friction"; });
-  if (friction == d.findings.end()) return;
-  Finding f = *friction;
-  f.candidate = &candidate_of("string_wrap");
-  f.estimate = fit.at;
-  f.deviation.setZero();
-  f.z = z;
-  f.p_value = family_wise(z);
-  f.claimed = f.material = true;
-  f.confidence = friction->confidence;
-  f.tied_with.clear();
-  f.reason = "the string is as much shorter, and rubs as much more, as its turns around the axle make it";
-  d.findings.insert(d.findings.begin(), f);
-}
-
 /// With every body under its name, unless friction would have to give energy: then `backwards`.
 template <class D>
 Diagnosis diagnose_named(const std::vector<Recording>& recordings, const DiagnosisOptions& options,
@@ -218,6 +201,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
     result.model.parameters.gravity = physics.parameters.gravity;
   find(result, fit, evidence, bank, set);
+  if (options.bank.empty() || std::ranges::count(options.bank, "gyroscopic_tilt") > 0)
+    result.findings.push_back(find_axle_motion(fit, result.model));
   withdraw_what_cannot_be(result);
   for (const Exchange& exchange : exchanged)
     for (Finding& f : result.findings)

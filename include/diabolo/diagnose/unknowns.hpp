@@ -46,6 +46,7 @@ enum class Unknown : int {
   kStringMass,  ///< per length [kg/m]
   kSpinAir,     ///< [1/rad]
   kSpinAxle,    ///< [rad/s^2]
+  kGyroscopicGain,  ///< of the axle's turning [1/m]; seen in the axle alone, and never free
   kLag,         ///< time constant of what Delay says [s]; never free with kClock
   // Latent accelerations: what is left, wherever it comes from [m/s^2], [rad/s^2].
   kStringTangent,
@@ -117,6 +118,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"string_mass", "kg/m", 1e-3, 3e-3, 0.0, 0.1},
     {"spin_air", "1/rad", 1e-3, 5e-3, 0.0, 0.02},
     {"spin_axle", "rad/s^2", 1.0, 20.0, 0.0, 60.0},
+    {"gyroscopic_gain", "1/m", 1.0, 0.0, 0.0, 100.0},
     {"lag", "s", 0.01, 0.0, 0.0, 0.1},
     {"string_tangent", "m/s^2", 0.1, 0.0, -10.0, 10.0},
     {"string_binormal", "m/s^2", 0.1, 0.0, -10.0, 10.0},

@@ -4,6 +4,7 @@
 #include "diabolo/effects/air.hpp"
 #include "diabolo/effects/finite_axle.hpp"
 #include "diabolo/effects/gravity_tilt.hpp"
+#include "diabolo/effects/gyroscopic_tilt.hpp"
 #include "diabolo/effects/landing_restitution.hpp"
 #include "diabolo/effects/magnus_lift.hpp"
 #include "diabolo/effects/spin_loss.hpp"
@@ -18,12 +19,13 @@ namespace diabolo {
 /// Every effect of the library.
 template <class Scalar>
 using AllEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt,
-                             FiniteAxle, StickFlex, StringMass, LandingRestitution>;
+                             FiniteAxle, StickFlex, StringMass, LandingRestitution, GyroscopicTilt>;
 
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
 using FullPredictor = Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                                GravityTilt, FiniteAxle, StickFlex, StringMass, LandingRestitution>;
+                                GravityTilt, FiniteAxle, StickFlex, StringMass, LandingRestitution,
+                                GyroscopicTilt>;
 
 }  // namespace diabolo

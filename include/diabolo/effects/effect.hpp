@@ -78,6 +78,12 @@ struct NeutralEffect {
                           const Scalar& /*dt*/, const Parameters<Scalar>&) const {
     return {};
   }
+  /// Rate of change of the axle's direction, square to it, by the string in a step [1/s]; `tips` are those of
+  /// its end.
+  Vector3<Scalar> axis_rate(const State<Scalar>&, const Tips<Scalar>& /*tips*/,
+                            const StringStepResult<Scalar>&, const Parameters<Scalar>&) const {
+    return Vector3<Scalar>::Constant(Scalar(0));
+  }
   /// Rate of change of the given spin [rad/s] beside the string's, its mean over a step [rad/s^2]. The spin
   /// is what string and other effects have made of the state's.
   Scalar spin_acceleration(const Scalar& /*spin*/, const State<Scalar>&, const Scalar& /*dt*/,
@@ -96,6 +102,9 @@ struct EffectSet {
 
   static constexpr bool kTouches =
       (!std::is_same_v<decltype(&Effects<Scalar>::contact), decltype(&Neutral::contact)> || ...);
+
+  static constexpr bool kTurnsAxle =
+      (!std::is_same_v<decltype(&Effects<Scalar>::axis_rate), decltype(&Neutral::axis_rate)> || ...);
 
   std::tuple<Effects<Scalar>...> members;
 
@@ -172,6 +181,17 @@ struct EffectSet {
         const Contact<Scalar> own = effect.contact(state, given, result, dt, parameters);
         velocity = velocity + own.impulse;
         spin += own.spin;
+      }
+    });
+  }
+  /// Turns the axle.
+  void turn_axis(Vector3<Scalar>& axis, const State<Scalar>& state, const Tips<Scalar>& given,
+                 const StringStepResult<Scalar>& result, const Scalar& dt,
+                 const Parameters<Scalar>& parameters) const {
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (!std::is_same_v<decltype(&Effect::axis_rate), decltype(&Neutral::axis_rate)>) {
+        const Vector3<Scalar> turned = axis + effect.axis_rate(state, given, result, parameters) * dt;
+        axis = turned * Scalar(norm(axis) / norm(turned));
       }
     });
   }

@@ -60,6 +60,8 @@ inline const char* direction_of(const Candidate& candidate) {
     case Unknown::kFriction:
     case Unknown::kWraps:
       return "string_tangent";
+    case Unknown::kGyroscopicGain:
+      return "axle";
     case Unknown::kLinearDrag:
     case Unknown::kQuadraticDrag:
       return "against_v";

@@ -86,6 +86,8 @@ inline Json parameters_of(const Finding& f, double given_length, double given_gr
       return Json::array(
           {with_deviation("factor", factor, deviation(kGravity) / (2.0 * factor * given_gravity), "1")});
     }
+    case kGyroscopicGain:
+      return Json::array({plain("gain", kGyroscopicGain, "1/m")});
     case kLift:
       return Json::array({plain("coefficient", kLift, "1/rad")});
     case kStringMass:

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "diabolo/diagnose/corrected.hpp"
+#include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/fit.hpp"
+
+namespace diabolo {
+
+/// Of one window, the sums for the gain that turns its axle: recorded against predicted for a gain of one,
+/// each less its mean, since the start of the axle is not known either.
+struct AxleWindow {
+  double product = 0.0, square = 0.0;
+};
+
+/// Predicts a window's axle and compares it with the recorded one.
+inline AxleWindow axle_window(const Stage& stage, const TipMotion<double>& motion, const FitWindow& window,
+                              const FullPredictor<double>& predictor, double scale) {
+  State<double> state = window.start;
+  state.position /= scale;
+  state.velocity /= scale;
+  state.axis = stage.axis.col(window.first);
+  const Vector3<double> begin = state.axis;
+  Eigen::Matrix3Xd predicted(3, window.last - window.first + 1), seen = predicted;
+  Eigen::Index rows = 0;
+  std::size_t hint = 0;
+  Tips<double> now = motion.at(stage.times[window.first], hint);
+  for (Eigen::Index row = window.first; row <= window.last; ++row) {
+    if (stage.recording.diabolo_orientation.valid[row]) {
+      predicted.col(rows) = state.axis - begin;
+      seen.col(rows++) = stage.axis.col(row);
+    }
+    if (row == window.last) break;
+    const double dt = (stage.times[row + 1] - stage.times[row]) / stage.substeps;
+    for (int s = 1; s <= stage.substeps; ++s) {
+      const Tips<double> next = motion.at(stage.times[row] + s * dt, hint);
+      predictor.step(state, now, next, dt);
+      now = next;
+    }
+  }
+  if (rows < 2 || !predicted.allFinite()) return {};
+  const Eigen::Matrix3Xd a = predicted.leftCols(rows).colwise() - predicted.leftCols(rows).rowwise().mean(),
+                         b = seen.leftCols(rows).colwise() - seen.leftCols(rows).rowwise().mean();
+  return {a.cwiseProduct(b).sum(), a.squaredNorm()};
+}
+
+/// What the recorded direction of the axle, which no other candidate moves, says of GyroscopicTilt. It moves
+/// the diabolo by far less than any floor, so that it is seen and never claimed.
+inline Finding find_axle_motion(const Fit& fit, const Model& found) {
+  std::vector<AxleWindow> windows;
+  double product = 0.0, square = 0.0;
+  const double scale = 1.0 + fit.at[index_of(Unknown::kLengthScale)];
+  Model turning = found;
+  turning.effects.get<GyroscopicTilt>().gain = 1.0;
+  for (const Stage& stage : fit.stages) {
+    if (!stage.has_orientation || !stage.has_spin) continue;
+    const Recording recording = corrected(stage.recording, fit.at);
+    const FullPredictor<double> predictor(parameters_for(turning, recording), turning.effects);
+    const auto motion = RecordedTips(recording, Interpolation::kSpline).motion(0, recording.size() - 1);
+    for (const FitWindow& window : stage.windows) {
+      windows.push_back(axle_window(stage, *motion, window, predictor, scale));
+      product += windows.back().product;
+      square += windows.back().square;
+    }
+  }
+  Finding f;
+  f.candidate = &candidate_of("gyroscopic_tilt");
+  const double gain = square > 0.0 ? product / square : 0.0;
+  double spread = 0.0;  // by the jackknife over windows
+  for (const AxleWindow& w : windows)
+    if (square - w.square > 0.0) spread += std::pow((product - w.product) / (square - w.square) - gain, 2);
+  const int u = index_of(Unknown::kGyroscopicGain);
+  f.estimate[u] = gain;
+  f.deviation[u] = std::sqrt(spread);
+  f.z = spread > 0.0 ? gain / f.deviation[u] : 0.0;
+  f.p_value = family_wise(f.z);
+  f.sure = speaks_for(*f.candidate, f.z);
+  f.reason = f.sure ? "there, but too small to matter" : "too small to be told from nothing";
+  return f;
+}
+
+}  // namespace diabolo
