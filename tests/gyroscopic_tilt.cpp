@@ -17,9 +17,7 @@ Full tilting(double gain) {
 }
 
 /// Sticks at rest, the left tip forward by `left` and the right one by `right` [m].
-Tips<double> held(double left, double right) {
-  return {{left, kApart, 1.2}, {right, -kApart, 1.2}};
-}
+Tips<double> held(double left, double right) { return {{left, kApart, 1.2}, {right, -kApart, 1.2}}; }
 
 State<double> hanging(const Tips<double>& tips, double spin) {
   State<double> state;
@@ -29,8 +27,8 @@ State<double> hanging(const Tips<double>& tips, double spin) {
   return state;
 }
 
-/// The axle of a rigid body under the pull of two strands along the tangents of its axle, by Euler's equations
-/// with the whole angular momentum: nothing is taken to be slow.
+/// The axle of a rigid body under the pull of two strands along the tangents of its axle, by Euler's
+/// equations with the whole angular momentum: nothing is taken to be slow.
 Vector rigid_axle(const Tips<double>& tips, double spin, double duration) {
   const double radius = 0.0065, mass = 0.29, inertia = mass * radius / kGain, ratio = 1.2;
   const Vector centre = lowest_point(tips.left, tips.right, 1.45), left = (tips.left - centre).normalized(),

@@ -85,7 +85,9 @@ def draw(plan: Plan, attempt: int = 0) -> Drawn:
     structure = plan.structure if chain else "springs"
     wrapped = content.departure.get("string", {}).get("wraps", 0) > 0  # a throw would unwind it
     scenario = base.body_and_camera(plan.generator(1), structure)
-    scenario = sizes.merged(scenario, base.play(plan.generator(2, attempt), content.motion, attempt < CALM and not wrapped))
+    scenario = sizes.merged(
+        scenario, base.play(plan.generator(2, attempt), content.motion, attempt < CALM and not wrapped)
+    )
     scenario = sizes.merged(scenario, content.departure)
     for step in content.steps:
         if step["step"] == "frame_rate":  # filmed at another rate than the file will say

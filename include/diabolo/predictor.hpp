@@ -145,8 +145,7 @@ class Predictor {
     Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
     Vector3<Scalar> velocity = result.velocity;
     effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
-    if constexpr (Set::kTurnsAxle)
-      effects_.turn_axis(state.axis, state, step.end, result, dt, parameters_);
+    if constexpr (Set::kTurnsAxle) effects_.turn_axis(state.axis, state, step.end, result, dt, parameters_);
     velocity = step.plane(velocity);
     Vector3<Scalar> position = result.position;
     // The change of velocity happens over the step: the mean of what it was before and after counts.

@@ -106,9 +106,8 @@ std::array<Scalar, kOutputs> run(const Play& play, const std::array<Scalar, kFie
   state.string_state = play.string_state;
   for (int i = 0; i < 400; ++i)
     predictor.step(state, tips_at(i * 1e-3), tips_at((i + 1) * 1e-3), Scalar(1e-3));
-  return {state.position[0], state.position[1], state.position[2], state.velocity[0],
-          state.velocity[1], state.velocity[2], state.axis[0],     state.axis[1],     state.axis[2],
-          state.spin};
+  return {state.position[0], state.position[1], state.position[2], state.velocity[0], state.velocity[1],
+          state.velocity[2], state.axis[0],     state.axis[1],     state.axis[2],     state.spin};
 }
 
 Outputs values(const Play& play, const std::array<double, kFields>& x) {

@@ -50,15 +50,19 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
 }
 
 /// No fault is claimed whose correction does not predict better what was left out, where that can be said: a
-/// place that explains what nobody knows fits, and helps nothing. (A lag is not asked: corrected() undoes it as
-/// a delay.)
+/// place that explains what nobody knows fits, and helps nothing. (A lag is not asked: corrected() undoes it
+/// as a delay.)
 inline void withdraw_faults_that_do_not_help(Diagnosis& d) {
   for (Finding& f : d.findings) {
-    if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement || first_of(*f.candidate) == Unknown::kLag)
+    if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement ||
+        first_of(*f.candidate) == Unknown::kLag)
       continue;
     const auto said = [](const std::optional<Interval>& interval) { return interval.has_value(); };
-    const auto helps = [](const std::optional<Interval>& interval) { return interval && interval->low > 0.0; };
-    if (std::ranges::none_of(f.worsening_ci95, said) || std::ranges::any_of(f.worsening_ci95, helps)) continue;
+    const auto helps = [](const std::optional<Interval>& interval) {
+      return interval && interval->low > 0.0;
+    };
+    if (std::ranges::none_of(f.worsening_ci95, said) || std::ranges::any_of(f.worsening_ci95, helps))
+      continue;
     f.claimed = false;
     f.reason = "does not help on data that were left out";
   }

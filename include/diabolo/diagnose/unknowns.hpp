@@ -42,12 +42,12 @@ enum class Unknown : int {
   kQuadraticDrag,    ///< [1/m]
   kWindX,            ///< [m/s]; counts where there is drag
   kWindY,
-  kLift,        ///< Magnus [1/rad]
-  kStringMass,  ///< per length [kg/m]
-  kSpinAir,     ///< [1/rad]
-  kSpinAxle,    ///< [rad/s^2]
+  kLift,            ///< Magnus [1/rad]
+  kStringMass,      ///< per length [kg/m]
+  kSpinAir,         ///< [1/rad]
+  kSpinAxle,        ///< [rad/s^2]
   kGyroscopicGain,  ///< of the axle's turning [1/m]; seen in the axle alone, and never free
-  kLag,         ///< time constant of what Delay says [s]; never free with kClock
+  kLag,             ///< time constant of what Delay says [s]; never free with kClock
   // Latent accelerations: what is left, wherever it comes from [m/s^2], [rad/s^2].
   kStringTangent,
   kStringBinormal,

@@ -24,8 +24,8 @@ using AllEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, Magn
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
-using FullPredictor = Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
-                                GravityTilt, FiniteAxle, StickFlex, StringMass, LandingRestitution,
-                                GyroscopicTilt>;
+using FullPredictor =
+    Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
+              StickFlex, StringMass, LandingRestitution, GyroscopicTilt>;
 
 }  // namespace diabolo

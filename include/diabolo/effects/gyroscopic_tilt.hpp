@@ -16,8 +16,8 @@ namespace diabolo {
 /// in play.
 ///
 /// With both strands under their mean tension, for tips that are nearly square to the axle, and for a spin
-/// that is fast: the nutation is left out, and below kSlowSpin the law fades. Moves nothing by itself; lift and
-/// whoever looks at the axle see it.
+/// that is fast: the nutation is left out, and below kSlowSpin the law fades. Moves nothing by itself; lift
+/// and whoever looks at the axle see it.
 template <class Scalar>
 struct GyroscopicTilt : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "gyroscopic_tilt";
