@@ -106,6 +106,35 @@ TEST_CASE("the axle of a fast diabolo turns as a rigid body's does") {
     }
 }
 
+TEST_CASE("strands that friction parts turn the axle each by its own tension") {
+  const Tips<double> tips = held(0.08, 0.05);
+  const double spin = 200.0, coefficient = 0.25;
+  State<double> state = hanging(held(0.0, 0.0), spin);
+  Full::Set set;
+  set.get<GyroscopicTilt>().gain = kGain;
+  set.get<StringFriction>().coefficient = coefficient;
+  const Full model(Numbers(), set);
+  model.step(state, tips, tips, 1e-5);
+  // By the capstan law and cross products: the axle slips fast towards the right tip under the string, which
+  // drags it to the left.
+  const Vector left = (tips.left - state.position).normalized(),
+               right = (tips.right - state.position).normalized(), axle = Vector::UnitX();
+  const double contact = std::acos(-left.dot(right)), ratio = std::exp(-coefficient * contact);
+  const double mean = state.string_acceleration.norm() / (left + right).norm(),
+               on_left = 2.0 * mean / (1.0 + ratio), on_right = ratio * on_left;
+  const auto torque = [&](const Vector& strand, const Vector& side, double pull) -> Vector {
+    Vector normal = axle.cross(strand).normalized();
+    if (normal.dot(side) < 0.0) normal = -normal;
+    return normal.cross(pull * strand);
+  };
+  Vector total = torque(left, Vector::UnitY(), on_left) + torque(right, -Vector::UnitY(), on_right);
+  total -= axle * axle.dot(total);
+  const Vector expected = -kGain / spin * total, rate = (state.axis - axle) / 1e-5;
+  CHECK((rate - expected).norm() < 0.01 * expected.norm());
+  const Vector equal = torque(left, Vector::UnitY(), mean) + torque(right, -Vector::UnitY(), mean);
+  CHECK((total - (equal - axle * axle.dot(equal))).norm() > 0.2 * total.norm());
+}
+
 TEST_CASE("the slower the spin the faster the tilt, until the law fades") {
   const Tips<double> tips = held(0.04, -0.04);
   const double slow = axle_after(tips, 60.0, 0.2).z(), fast = axle_after(tips, 240.0, 0.2).z();

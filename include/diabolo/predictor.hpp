@@ -144,8 +144,9 @@ class Predictor {
         spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(parameters_, dt), parameters_);
     Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
     Vector3<Scalar> velocity = result.velocity;
-    effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
-    if constexpr (Set::kTurnsAxle) effects_.turn_axis(state.axis, state, step.end, result, dt, parameters_);
+    const Scalar pull_difference = effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
+    if constexpr (Set::kTurnsAxle)
+      effects_.turn_axis(state.axis, state, step.end, result, pull_difference, dt);
     velocity = step.plane(velocity);
     Vector3<Scalar> position = result.position;
     // The change of velocity happens over the step: the mean of what it was before and after counts.
@@ -187,8 +188,8 @@ class Predictor {
     state.spin = select(was_on_string && passes, driven, state.spin);
     state.spin = effects_.after_torques(state.spin, state, dt, parameters_);
     Vector3<Scalar> rubbed = result.velocity;
-    effects_.touch(rubbed, state.spin, state, end, result, dt, parameters_);
-    if constexpr (Set::kTurnsAxle) effects_.turn_axis(state.axis, state, end, result, dt, parameters_);
+    const Scalar pull_difference = effects_.touch(rubbed, state.spin, state, end, result, dt, parameters_);
+    if constexpr (Set::kTurnsAxle) effects_.turn_axis(state.axis, state, end, result, pull_difference, dt);
     state.velocity = plane_(rubbed);
     state.position = result.position;
     state.string_acceleration = result.string_acceleration;

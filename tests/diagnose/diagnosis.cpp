@@ -2,6 +2,7 @@
 #include "diabolo/diagnose/diagnosis.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr double kRate = 120.0, kNoise = 4e-4;
+constexpr double kRate = 120.0, kNoise = 4e-4, kAttitudeNoise = 2e-3;
 
 /// A player who swings, beats and moves fore and aft, one after the other, each for a while.
 Tips<double> hands(double t) {
@@ -57,6 +58,9 @@ Recording played(const AllEffects<double>& effects, double seconds, std::uint64_
     tips.right_velocity = (hands(t + h).right - hands(t - h).right) / (2.0 * h);
     return tips;
   };
+  std::mt19937_64 attitude(seed + 1000);
+  std::normal_distribution<double> normal;
+  const auto seen_axle = [&] { return Vector(normal(attitude), normal(attitude), normal(attitude)); };
   double turned = 0.0;
   for (Eigen::Index i = 0; i < rows; ++i) {
     r.frame.push_back(i);
@@ -69,8 +73,10 @@ Recording played(const AllEffects<double>& effects, double seconds, std::uint64_
     r.left.position.col(i) = seen(tips.left);
     r.right.position.col(i) = seen(tips.right);
     r.diabolo.position.col(i) = seen(state.position);
-    r.diabolo_orientation.quaternion.col(i) =
-        Eigen::Quaterniond(Eigen::AngleAxisd(-turned, Vector::UnitX())).coeffs();
+    const Vector axle = (state.axis + kAttitudeNoise * seen_axle()).normalized();
+    r.diabolo_orientation.quaternion.col(i) = (Eigen::Quaterniond::FromTwoVectors(Vector::UnitX(), axle) *
+                                               Eigen::AngleAxisd(-turned, Vector::UnitX()))
+                                                  .coeffs();
     for (int s = 0; s < kSteps; ++s) {
       const double t = r.time[i] + s * dt;
       turned += state.spin * dt;
@@ -129,6 +135,23 @@ TEST_CASE("a tilted frame is a fault of the measurement, not physics") {
   for (const Unknown u : {Unknown::kTiltX, Unknown::kTiltY}) {
     const double truth = u == Unknown::kTiltX ? 0.02 : -0.015;
     CHECK(std::abs(tilt->estimate[index_of(u)] - truth) < 4.0 * tilt->deviation[index_of(u)]);
+  }
+}
+
+TEST_CASE("the turning of the axle is measured, and too small to claim") {
+  for (const double gain : {0.0, 3.8}) {
+    AllEffects<double> effects;
+    effects.get<StringFriction>().coefficient = 0.2;
+    effects.get<GyroscopicTilt>().gain = gain;
+    const Diagnosis d = diagnose({played(effects, 14.0, 4)});
+    const auto f = std::ranges::find_if(
+        d.findings, [](const Finding& one) { return one.candidate->name == "gyroscopic_tilt"; });
+    REQUIRE(f != d.findings.end());
+    const int u = index_of(Unknown::kGyroscopicGain);
+    CAPTURE(gain, f->estimate[u], f->deviation[u]);
+    CHECK(std::abs(f->estimate[u] - gain) < 4.0 * f->deviation[u]);
+    CHECK(f->sure == (gain > 0.0));
+    CHECK_FALSE(f->claimed);
   }
 }
 

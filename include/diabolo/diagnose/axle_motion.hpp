@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/corrected.hpp"
@@ -57,13 +58,16 @@ inline Finding find_axle_motion(const Fit& fit, const Model& found) {
   const double scale = 1.0 + fit.at[index_of(Unknown::kLengthScale)];
   Model turning = found;
   turning.effects.get<GyroscopicTilt>().gain = 1.0;
+  std::size_t first = 0;  // of the stage's windows among all
   for (const Stage& stage : fit.stages) {
+    const std::size_t begin = std::exchange(first, first + stage.windows.size());
     if (!stage.has_orientation || !stage.has_spin) continue;
     const Recording recording = corrected(stage.recording, fit.at);
     const FullPredictor<double> predictor(parameters_for(turning, recording), turning.effects);
     const auto motion = RecordedTips(recording, Interpolation::kSpline).motion(0, recording.size() - 1);
-    for (const FitWindow& window : stage.windows) {
-      windows.push_back(axle_window(stage, *motion, window, predictor, scale));
+    for (std::size_t w = 0; w < stage.windows.size(); ++w) {
+      if (fit.scores[begin + w].weight < 1.0) continue;  // its motion is not explained
+      windows.push_back(axle_window(stage, *motion, stage.windows[w], predictor, scale));
       product += windows.back().product;
       square += windows.back().square;
     }

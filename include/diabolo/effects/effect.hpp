@@ -45,6 +45,7 @@ template <class Scalar>
 struct Contact {
   Vector3<Scalar> impulse = Vector3<Scalar>::Constant(Scalar(0));  ///< change of velocity [m/s]
   Scalar spin{0};                                                  ///< change of spin [rad/s]
+  Scalar pull_difference{0};  ///< right strand's tension less the left one's, over mass [m/s^2]
 };
 
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
@@ -79,9 +80,9 @@ struct NeutralEffect {
     return {};
   }
   /// Rate of change of the axle's direction, square to it, by the string in a step [1/s]; `tips` are those of
-  /// its end.
+  /// its end, `pull_difference` is that of all contacts.
   Vector3<Scalar> axis_rate(const State<Scalar>&, const Tips<Scalar>& /*tips*/,
-                            const StringStepResult<Scalar>&, const Parameters<Scalar>&) const {
+                            const StringStepResult<Scalar>&, const Scalar& /*pull_difference*/) const {
     return Vector3<Scalar>::Constant(Scalar(0));
   }
   /// Rate of change of the given spin [rad/s] beside the string's, its mean over a step [rad/s^2]. The spin
@@ -172,25 +173,29 @@ struct EffectSet {
     each([&](const auto& effect) { string.add(effect.spring_at(state, tips), parameters.mass); });
     return string;
   }
-  /// Adds all contact impulses to velocity and spin.
-  void touch(Vector3<Scalar>& velocity, Scalar& spin, const State<Scalar>& state, const Tips<Scalar>& given,
-             const StringStepResult<Scalar>& result, const Scalar& dt,
-             const Parameters<Scalar>& parameters) const {
+  /// Adds all contact impulses to velocity and spin; returns the difference of the tensions over mass
+  /// [m/s^2].
+  Scalar touch(Vector3<Scalar>& velocity, Scalar& spin, const State<Scalar>& state, const Tips<Scalar>& given,
+               const StringStepResult<Scalar>& result, const Scalar& dt,
+               const Parameters<Scalar>& parameters) const {
+    Scalar pull_difference{0};
     each([&]<class Effect>(const Effect& effect) {
       if constexpr (!std::is_same_v<decltype(&Effect::contact), decltype(&Neutral::contact)>) {
         const Contact<Scalar> own = effect.contact(state, given, result, dt, parameters);
         velocity = velocity + own.impulse;
         spin += own.spin;
+        pull_difference += own.pull_difference;
       }
     });
+    return pull_difference;
   }
   /// Turns the axle.
   void turn_axis(Vector3<Scalar>& axis, const State<Scalar>& state, const Tips<Scalar>& given,
-                 const StringStepResult<Scalar>& result, const Scalar& dt,
-                 const Parameters<Scalar>& parameters) const {
+                 const StringStepResult<Scalar>& result, const Scalar& pull_difference,
+                 const Scalar& dt) const {
     each([&]<class Effect>(const Effect& effect) {
       if constexpr (!std::is_same_v<decltype(&Effect::axis_rate), decltype(&Neutral::axis_rate)>) {
-        const Vector3<Scalar> turned = axis + effect.axis_rate(state, given, result, parameters) * dt;
+        const Vector3<Scalar> turned = axis + effect.axis_rate(state, given, result, pull_difference) * dt;
         axis = turned * Scalar(norm(axis) / norm(turned));
       }
     });

@@ -15,9 +15,8 @@ namespace diabolo {
 /// axle, both forward yaw it. gain = m r / I, 2.7 to 4 1/m for the paper's diabolos; some degrees a second
 /// in play.
 ///
-/// With both strands under their mean tension, for tips that are nearly square to the axle, and for a spin
-/// that is fast: the nutation is left out, and below kSlowSpin the law fades. Moves nothing by itself; lift
-/// and whoever looks at the axle see it.
+/// For tips that are nearly square to the axle and for a spin that is fast: the nutation is left out, and
+/// below kSlowSpin the law fades. Moves nothing by itself; lift and whoever looks at the axle see it.
 template <class Scalar>
 struct GyroscopicTilt : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "gyroscopic_tilt";
@@ -27,18 +26,20 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
   bool neutral() const { return is_constant_zero(gain); }
 
   Vector3<Scalar> axis_rate(const State<Scalar>& state, const Tips<Scalar>& tips,
-                            const StringStepResult<Scalar>& result, const Parameters<Scalar>&) const {
+                            const StringStepResult<Scalar>& result, const Scalar& pull_difference) const {
     const StringPath<Scalar> path(result.position, tips);
     const Vector3<Scalar> left = path.from_left * Scalar(Scalar(-1) / path.left_length),
                           right = path.from_right * Scalar(Scalar(-1) / path.right_length);
     const Vector3<Scalar> both = left + right;
-    // Tension over mass, with the sign of the side that the left strand leaves the axle at.
+    // Mean tension over mass.
     const Scalar pull = select(
         result.taut, Scalar(norm(result.string_acceleration) / maximum(norm(both), Scalar(0.02))), Scalar(0));
+    const Vector3<Scalar> torque = lever(state.axis, right) * Scalar(pull + Scalar(0.5) * pull_difference) -
+                                   lever(state.axis, left) * Scalar(pull - Scalar(0.5) * pull_difference);
+    // The left strand leaves the axle on the side of the left tip.
     const Scalar side = dot<Scalar>(cross<Scalar>(state.axis, both), tips.left - tips.right);
-    const Scalar torque = select(side > Scalar(0), pull, Scalar(-pull));
     const Scalar slow = state.spin / (state.spin * state.spin + Scalar(kSlowSpin * kSlowSpin));
-    return (lever(state.axis, right) - lever(state.axis, left)) * Scalar(gain * torque * slow);
+    return torque * select(side > Scalar(0), Scalar(gain * slow), Scalar(-gain * slow));
   }
 
   /// Calls `visit(info, field)` for every field.

@@ -63,7 +63,7 @@ struct StringFriction : NeutralEffect<Scalar> {
     // Along the taut string at the end of the step: what points off it would come back as tension.
     const Vector3<Scalar> normal = StringPath<Scalar>(result.position, tips).gradient();
     const Scalar off = dot(normal, tangent) / maximum(squared_norm(normal), Scalar(4e-4));
-    return {(tangent - normal * off) * impulse, spin_gain * difference};
+    return {(tangent - normal * off) * impulse, spin_gain * difference, difference / dt};
   }
 
   /// Calls `visit(info, field)` for every field.
