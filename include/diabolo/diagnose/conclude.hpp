@@ -49,14 +49,12 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
   return true;
 }
 
-/// No fault is claimed whose correction does not predict better what was left out, where that can be said: a
-/// place that explains what nobody knows fits, and helps nothing. (A lag is not asked: corrected() undoes it
-/// as a delay.)
-inline void withdraw_faults_that_do_not_help(Diagnosis& d) {
+/// No tips are claimed to be elsewhere unless that predicts better what was left out, where it can be said:
+/// six numbers explain much that nobody knows. (Of other faults this is not asked: what one of them does,
+/// tips elsewhere could do as well.)
+inline void withdraw_tips_that_do_not_help(Diagnosis& d) {
   for (Finding& f : d.findings) {
-    if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement ||
-        first_of(*f.candidate) == Unknown::kLag)
-      continue;
+    if (!f.claimed || first_of(*f.candidate) != Unknown::kLeftX) continue;
     const auto said = [](const std::optional<Interval>& interval) { return interval.has_value(); };
     const auto helps = [](const std::optional<Interval>& interval) {
       return interval && interval->low > 0.0;

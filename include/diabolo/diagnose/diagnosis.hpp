@@ -218,7 +218,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   for (std::size_t i = 0; i < without.size(); ++i)  // claims come first
     result.findings[i].worsening_ci95 = result.heldout.worsening_ci95[i];
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
-  withdraw_faults_that_do_not_help(result);
+  withdraw_tips_that_do_not_help(result);
   if (withdraw_what_does_not_help(result)) result.model = options.base;
   if (numerical)
     result.numerical =

@@ -44,6 +44,11 @@ inline Json parameters_of(const Finding& f, double given_length, double given_gr
   const auto plain = [&](const char* name, Unknown u, const char* unit, double offset = 0.0) {
     return with_deviation(name, offset + value(u), deviation(u), unit);
   };
+  // What the data put below zero is none, as in the model.
+  const auto damping = [&](Unknown u) {
+    const auto at = [&](double deviations) { return std::max(0.0, value(u) + deviations * deviation(u)); };
+    return parameter("damping", at(0.0), "N s/m", at(-kNormal95), at(kNormal95));
+  };
   using enum Unknown;
   if (f.swapped > 0) {
     const double frames = static_cast<double>(f.swapped);
@@ -55,14 +60,14 @@ inline Json parameters_of(const Finding& f, double given_length, double given_gr
       const auto stiffness = [](double compliance) { return 1.0 / std::max(compliance, 1e-6); };
       return Json::array(
           {parameter("stiffness", stiffness(c), "N/m", stiffness(c + spread), stiffness(c - spread)),
-           plain("damping", kDamping, "N s/m")});
+           damping(kDamping)});
     }
     case kStickCompliance: {
       const double c = value(kStickCompliance), spread = kNormal95 * deviation(kStickCompliance);
       const auto stiffness = [](double compliance) { return 1.0 / std::max(compliance, 1e-6); };
       return Json::array(
           {parameter("stiffness", stiffness(c), "N/m", stiffness(c + spread), stiffness(c - spread)),
-           plain("damping", kStickDamping, "N s/m")});
+           damping(kStickDamping)});
     }
     case kFriction:
       return Json::array({plain("coefficient", kFriction, "1")});
