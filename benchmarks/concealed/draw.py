@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +16,8 @@ SPRINGS_ALONE = {
     "string": ("wraps", "stiffening_stretch", "friction_rise", "stribeck_speed"),
     "diabolo": ("bearing_torque", "flank_friction", "flank_radius"),
 }
-CALM = 12  # the attempt from which nothing is thrown any more
+LEAST_SPIN = 40.0  # at the end [rad/s]
+CALM, CALMEST = 12, 18  # the attempts from which nothing is thrown any more, and all is slow
 KEY_SCHEMA = "diabolo.concealed_key/1"
 
 
@@ -85,10 +87,14 @@ def draw(plan: Plan, attempt: int = 0) -> Drawn:
     structure = plan.structure if chain else "springs"
     wrapped = content.departure.get("string", {}).get("wraps", 0) > 0  # a throw would unwind it
     scenario = base.body_and_camera(plan.generator(1), structure)
-    scenario = sizes.merged(
-        scenario, base.play(plan.generator(2, attempt), content.motion, attempt < CALM and not wrapped)
-    )
+    kind = content.motion if attempt < CALMEST else "slow"
+    play = base.play(plan.generator(2, attempt), kind, attempt < CALM and not wrapped)
+    scenario = sizes.merged(scenario, play)
     scenario = sizes.merged(scenario, content.departure)
+    # A diabolo that stands still falls off: the spin outlasts what the axle takes of it.
+    spin = scenario["start"]["spin"]
+    taken = scenario["diabolo"].get("axle_drag", 0.0) * scenario["duration"]
+    scenario["start"]["spin"] = math.copysign(max(abs(spin), taken + LEAST_SPIN), spin)
     for step in content.steps:
         if step["step"] == "frame_rate":  # filmed at another rate than the file will say
             scenario["camera"]["rate"] /= step["factor"]

@@ -93,7 +93,7 @@ _PHYSICS: dict[str, Callable[[np.random.Generator], Departure]] = {
     "wind": _wind,
     "magnus_lift": lambda g: {"air": {"magnus": either_sign(g, 0.75) * log_uniform(g, 2e-4, 6e-3)}},
     "spin_drag": lambda g: {"air": {"windage": log_uniform(g, 1e-8, 2.5e-6)}},
-    "axle_drag": lambda g: {"diabolo": {"axle_drag": log_uniform(g, 0.2, 16.0)}},
+    "axle_drag": lambda g: {"diabolo": {"axle_drag": log_uniform(g, 0.2, 8.0)}},
 }
 
 

@@ -13,6 +13,7 @@
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/open_law.hpp"
 #include "diabolo/diagnose/select.hpp"
 
 namespace diabolo {
@@ -42,6 +43,7 @@ struct Finding {
 struct Leftover {
   Unknown unknown;
   double value, deviation, z, size;
+  PowerLaw law;  ///< how it grows
 };
 
 /// What was seen in a window before anything was added, and what is left.
@@ -208,7 +210,8 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     const double z = own.estimate[u] / deviation, size = size_of(latent, own.estimate, fit.systems);
     const bool of_spin = k >= 5;
     if (std::abs(z) > 5.0 && !of_spin && size > 2.0 * kSmallestReach)
-      result.leftovers.push_back({static_cast<Unknown>(u), own.estimate[u], deviation, z, size});
+      result.leftovers.push_back({static_cast<Unknown>(u), own.estimate[u], deviation, z, size,
+                                  open_law(fit, static_cast<Unknown>(u))});
   }
   std::ranges::stable_sort(result.findings, [](const Finding& a, const Finding& b) {
     if (a.claimed != b.claimed) return a.claimed;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -141,6 +143,33 @@ inline Json ladder_of(const Finding& f) {
           {"reason", f.reason}};
 }
 
+inline Json unnamed_of(const Leftover& l) {
+  const PowerLaw& law = l.law;
+  const std::string name(info_of(l.unknown).name), unit(info_of(l.unknown).unit), scalar(law.scalar);
+  const auto rounded = [](double value) {
+    std::ostringstream text;
+    text << std::setprecision(2) << value;
+    return text.str();
+  };
+  const std::string text =
+      law.curve.empty() ? "a constant acceleration along " + name
+                        : rounded(law.value) + " " + unit + " along " + name + " at " + rounded(law.at) +
+                              " " + std::string(law.unit) + " of " + scalar + ", growing as " + scalar +
+                              "^(" + rounded(law.exponent) + " ± " + rounded(law.deviation) + ")";
+  return {{"where", {{"direction", name}}},
+          {"law", text},
+          {"value", l.value},
+          {"deviation", l.deviation},
+          {"unit", unit},
+          {"z", l.z},
+          {"size_m", l.size},
+          {"scalar", scalar},
+          {"exponent", law.exponent},
+          {"exponent_deviation", law.deviation},
+          {"curve", law.curve},
+          {"explained", law.explained}};
+}
+
 inline Json heldout_of(const HeldOut& h) {
   Json base = Json::array(), augmented = base, start = base;
   for (std::size_t i = 0; i < h.base_error.size(); ++i) {
@@ -199,14 +228,7 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
     nuisances.push_back(
         detail::with_deviation(std::string(info.name), d.at[u], d.deviation[u], std::string(info.unit)));
   }
-  for (const Leftover& l : d.leftovers)
-    unnamed.push_back({{"where", {{"direction", info_of(l.unknown).name}}},
-                       {"law", "a constant acceleration"},
-                       {"value", l.value},
-                       {"deviation", l.deviation},
-                       {"unit", info_of(l.unknown).unit},
-                       {"z", l.z},
-                       {"size_m", l.size}});
+  for (const Leftover& l : d.leftovers) unnamed.push_back(detail::unnamed_of(l));
   for (int k = 0; k < kLatents; ++k) {
     const UnknownInfo& info = info_of(static_cast<Unknown>(kLatentFirst + k));
     const bool on_string = k < 2 || k == 5;

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/fit.hpp"
+#include "diabolo/recording/bootstrap.hpp"
+
+namespace diabolo {
+
+/// How a force without a name grows: value at `at`, times (x / at)^exponent, x a scalar of the motion.
+struct PowerLaw {
+  std::string_view scalar, unit;           ///< x and its unit
+  double exponent = 0.0, deviation = 0.0;  ///< and its standard deviation
+  double at = 0.0, value = 0.0;            ///< a usual x, and the force there, in the unit of its unknown
+  double explained = 0.0;                  ///< share of what the windows say beyond nothing
+  std::vector<std::pair<double, double>> curve;  ///< x, and the mean of what the windows around it say
+};
+
+/// What one window says of an unknown at a fit, all others held.
+struct WindowSays {
+  double x, value, precision;
+};
+
+namespace detail {
+
+/// Mean speed of the recorded diabolo in a window [m/s].
+inline double mean_speed(const Stage& stage, const FitWindow& window) {
+  const Track& track = stage.recording.diabolo;
+  double length = 0.0, seconds = 0.0;
+  for (Eigen::Index i = window.first; i < window.last; ++i) {
+    if (!track.valid[i] || !track.valid[i + 1]) continue;
+    length += (track.position.col(i + 1) - track.position.col(i)).norm();
+    seconds += stage.times[i + 1] - stage.times[i];
+  }
+  return seconds > 0.0 ? length / seconds : 0.0;
+}
+
+template <class Scalar>
+std::vector<WindowSays> windows_say(const Fit& fit, Unknown unknown, Scalar&& scalar) {
+  const int u = index_of(unknown);
+  std::vector<WindowSays> result;
+  std::size_t i = 0;
+  for (const Stage& stage : fit.stages)
+    for (const FitWindow& window : stage.windows) {
+      const WindowScore& score = fit.scores[i++];
+      const double precision = score.weight * score.information(u, u), x = scalar(stage, window);
+      if (precision > 1e-6 && x > 1e-3)
+        result.push_back({x, score.score[u] / score.information(u, u) * info_of(unknown).scale, precision});
+    }
+  std::ranges::sort(result, {}, &WindowSays::x);
+  return result;
+}
+
+}  // namespace detail
+
+/// The power of x that explains best what windows, in the order of x, say: least squares for each exponent on
+/// a grid; its deviation is where the sum of squares has grown by one window's worth. Fewer than eight
+/// windows have no law.
+inline PowerLaw power_law(const std::vector<WindowSays>& windows, std::string_view scalar,
+                          std::string_view unit) {
+  constexpr std::size_t kFewest = 8, kPoints = 6;
+  constexpr double kLeast = -2.0, kMost = 4.0, kStep = 0.05;
+  PowerLaw law;
+  law.scalar = scalar;
+  law.unit = unit;
+  if (windows.size() < kFewest) return law;
+  law.at = windows[windows.size() / 2].x;
+  double nothing = 0.0;
+  for (const WindowSays& w : windows) nothing += w.precision * w.value * w.value;
+  const auto fitted = [&](double exponent) {  // the rest, and the value at law.at
+    double cross = 0.0, square = 0.0;
+    for (const WindowSays& w : windows) {
+      const double power = std::pow(w.x / law.at, exponent);
+      cross += w.precision * power * w.value;
+      square += w.precision * power * power;
+    }
+    return std::pair(nothing - cross * cross / square, cross / square);
+  };
+  double least = fitted(0.0).first;
+  for (double p = kLeast; p <= kMost; p += kStep)
+    if (const double rest = fitted(p).first; rest < least) least = rest, law.exponent = p;
+  law.value = fitted(law.exponent).second;
+  law.explained = nothing > 0.0 ? 1.0 - least / nothing : 0.0;
+  const double one = least / static_cast<double>(windows.size() - 2);
+  const auto reach = [&](double step) {
+    double p = law.exponent, before = least, now = least;
+    while (now < least + one && std::abs(p - law.exponent) < kMost) {
+      before = now;
+      now = fitted(p += step).first;
+    }
+    return std::abs(p - step * (now - least - one) / std::max(now - before, 1e-300) - law.exponent);
+  };
+  law.deviation = 0.5 * (reach(kStep) + reach(-kStep));
+  for (std::size_t k = 0; k < kPoints; ++k) {
+    double x = 0.0, sum = 0.0, precision = 0.0;
+    const std::size_t first = windows.size() * k / kPoints, last = windows.size() * (k + 1) / kPoints;
+    for (std::size_t i = first; i < last; ++i) {
+      x += windows[i].x / static_cast<double>(last - first);
+      sum += windows[i].precision * windows[i].value;
+      precision += windows[i].precision;
+    }
+    law.curve.emplace_back(x, sum / precision);
+  }
+  return law;
+}
+
+/// How the force behind a latent acceleration grows: with the speed or with the spin, whichever explains
+/// more.
+inline PowerLaw open_law(const Fit& fit, Unknown unknown) {
+  const auto of_spin = [](const Stage&, const FitWindow& window) { return std::abs(window.start.spin); };
+  PowerLaw speed = power_law(detail::windows_say(fit, unknown, detail::mean_speed), "speed", "m/s"),
+           spin = power_law(detail::windows_say(fit, unknown, of_spin), "spin", "rad/s");
+  return spin.explained > speed.explained ? spin : speed;
+}
+
+}  // namespace diabolo
