@@ -16,8 +16,9 @@ SPRINGS_ALONE = {
     "string": ("wraps", "stiffening_stretch", "friction_rise", "stribeck_speed"),
     "diabolo": ("bearing_torque", "flank_friction", "flank_radius"),
 }
-LEAST_SPIN = 40.0  # at the end [rad/s]
-CALM, CALMEST = 12, 18  # the attempts from which nothing is thrown any more, and all is slow
+LEAST_SPIN, MOST_SPIN = 40.0, 300.0  # at the end and at the start [rad/s]
+TRIES = 8  # of a content before another is drawn
+CALM, CALMEST = 4, 6  # of them those from which nothing is thrown any more, and all is slow
 KEY_SCHEMA = "diabolo.concealed_key/1"
 
 
@@ -78,23 +79,34 @@ def plans(seed: int, cases: int, with_chain: bool = True) -> list[Plan]:
     ]
 
 
+def _spin_taken(scenario: dict[str, Any]) -> float:
+    """What drag and a wrapped string take of the spin [rad/s^2]: a diabolo that stands still falls off."""
+    body, string = scenario["diabolo"], scenario["string"]
+    taken = float(body.get("axle_drag", 0.0))
+    if wraps := string.get("wraps", 0):
+        gain = body["mass"] * body["axle_radius"] / body["axial_inertia"]
+        angle = 2.6 + 2.0 * math.pi * wraps
+        taken += 9.81 * gain * math.tanh(0.5 * string["friction"] * angle)
+    return taken
+
+
 def draw(plan: Plan, attempt: int = 0) -> Drawn:
-    """A case. Another attempt has another motion, since a diabolo may be missed, and all else the same."""
-    content = arms.content_of(plan.arm, plan.generator(0))
+    """A case. Another attempt has another motion, since a diabolo may be missed, and all else the same; what
+    no motion keeps in play is drawn again.
+    """
+    content = arms.content_of(plan.arm, plan.generator(0, attempt // TRIES))
     chain = not any(
         field in content.departure.get(part, {}) for part, fields in SPRINGS_ALONE.items() for field in fields
     )
     structure = plan.structure if chain else "springs"
     wrapped = content.departure.get("string", {}).get("wraps", 0) > 0  # a throw would unwind it
     scenario = base.body_and_camera(plan.generator(1), structure)
-    kind = content.motion if attempt < CALMEST else "slow"
-    play = base.play(plan.generator(2, attempt), kind, attempt < CALM and not wrapped)
+    kind = content.motion if attempt % TRIES < CALMEST else "slow"
+    play = base.play(plan.generator(2, attempt), kind, attempt % TRIES < CALM and not wrapped)
     scenario = sizes.merged(scenario, play)
     scenario = sizes.merged(scenario, content.departure)
-    # A diabolo that stands still falls off: the spin outlasts what the axle takes of it.
-    spin = scenario["start"]["spin"]
-    taken = scenario["diabolo"].get("axle_drag", 0.0) * scenario["duration"]
-    scenario["start"]["spin"] = math.copysign(max(abs(spin), taken + LEAST_SPIN), spin)
+    spin, least = scenario["start"]["spin"], LEAST_SPIN + _spin_taken(scenario) * scenario["duration"]
+    scenario["start"]["spin"] = math.copysign(min(max(abs(spin), least), MOST_SPIN), spin)
     for step in content.steps:
         if step["step"] == "frame_rate":  # filmed at another rate than the file will say
             scenario["camera"]["rate"] /= step["factor"]

@@ -12,7 +12,7 @@ from typing import Any
 
 from . import camera_steps, draw
 
-ATTEMPTS = 25
+ATTEMPTS = 5 * draw.TRIES
 SHORTEST_SHARE = 0.95  # of the length that was drawn
 LONGEST_RUN = 120.0  # of the plant's program [s]
 

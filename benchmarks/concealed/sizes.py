@@ -72,7 +72,7 @@ def _wind(generator: np.random.Generator) -> Departure:
 
 def _wrap(generator: np.random.Generator) -> Departure:
     """Without friction a wrap is only a shorter string."""
-    return {"string": {"wraps": 1, "friction": log_uniform(generator, 0.03, 0.12)}}
+    return {"string": {"wraps": 1, "friction": log_uniform(generator, 0.03, 0.06)}}
 
 
 def _mass(generator: np.random.Generator) -> Departure:

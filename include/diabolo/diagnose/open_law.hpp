@@ -83,8 +83,9 @@ inline PowerLaw power_law(const std::vector<WindowSays>& windows, std::string_vi
     return std::pair(nothing - cross * cross / square, cross / square);
   };
   double least = fitted(0.0).first;
-  for (double p = kLeast; p <= kMost; p += kStep)
-    if (const double rest = fitted(p).first; rest < least) least = rest, law.exponent = p;
+  for (int k = 0; k * kStep <= kMost - kLeast; ++k)
+    if (const double rest = fitted(kLeast + k * kStep).first; rest < least)
+      least = rest, law.exponent = kLeast + k * kStep;
   law.value = fitted(law.exponent).second;
   law.explained = nothing > 0.0 ? 1.0 - least / nothing : 0.0;
   const double one = least / static_cast<double>(windows.size() - 2);
