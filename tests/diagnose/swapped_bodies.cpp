@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "diabolo/recording/check.hpp"
 
 using namespace diabolo;
 
@@ -74,6 +75,21 @@ TEST_CASE("bodies that were recorded under each other's names for a while get th
   REQUIRE(swaps.rows.size() == 2);
   CHECK(swaps.rows[0] == std::pair<Eigen::Index, Eigen::Index>(200, 260));
   CHECK(swaps.rows[1] == std::pair<Eigen::Index, Eigen::Index>(700, 1000));
+}
+
+TEST_CASE("what is given back keeps its dropouts") {
+  Recording r = played();
+  for (const Eigen::Index row : {230, 231}) {  // of the stick under the diabolo's name
+    r.left_orientation.valid[row] = r.left.valid[row] = false;
+    r.left_orientation.quaternion.col(row).setConstant(kNaN);
+    r.left.position.col(row).setConstant(kNaN);
+  }
+  exchange(r.left, r.diabolo, r.left_orientation, r.diabolo_orientation, 200, 260);
+  CHECK(unswap(r).count == 61);
+  for (Eigen::Index i = 0; i < r.size(); ++i) r.frame.push_back(i);
+  CHECK_NOTHROW(check_recording(r));
+  CHECK_FALSE(r.left_orientation.valid[230]);
+  CHECK(r.diabolo_orientation.valid[230]);
 }
 
 TEST_CASE("a jump of one body alone is no exchange") {

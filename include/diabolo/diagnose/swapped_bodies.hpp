@@ -107,7 +107,10 @@ inline Swaps unswap(Recording& r) {
                        &turned = *detail::orientations_of(source)[place];
       if (turn.empty()) continue;
       turn.valid[i] = !turned.empty() && turned.valid[i];
-      if (turn.valid[i]) turn.quaternion.col(i) = turned.quaternion.col(i);
+      if (turn.valid[i])
+        turn.quaternion.col(i) = turned.quaternion.col(i);
+      else
+        turn.quaternion.col(i).setConstant(kNaN);
     }
   }
   return swaps;
