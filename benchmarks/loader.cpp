@@ -6,11 +6,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string>
 
 #include "diabolo/recording/calibration.hpp"
 #include "diabolo/recording/motive.hpp"
 #include "diabolo/recording/tidy.hpp"
+#include "support/job.hpp"
 
 namespace {
 
@@ -61,36 +63,30 @@ std::string motive_text() {
   return header(frames) + rows;
 }
 
-void set_speed(benchmark::State& state, const std::string& text) {
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) *
-                          static_cast<std::int64_t>(text.size()));
-}
-
-void read_motive_20_MB(benchmark::State& state) {
-  const std::string text = motive_text();
-  for (auto _ : state) benchmark::DoNotOptimize(diabolo::read_motive(text, "synthetic.csv"));
-  set_speed(state, text);
-}
-BENCHMARK(read_motive_20_MB)->Unit(benchmark::kMillisecond);
-
-void read_motive_20_MB_and_apply_calibration(benchmark::State& state) {
-  const std::string text = motive_text();
-  const diabolo::Calibration calibration = diabolo::published_calibration();
-  for (auto _ : state)
-    benchmark::DoNotOptimize(diabolo::apply(calibration, diabolo::read_motive(text, "synthetic.csv")));
-  set_speed(state, text);
-}
-BENCHMARK(read_motive_20_MB_and_apply_calibration)->Unit(benchmark::kMillisecond);
-
-void read_tidy_of_the_same_recording(benchmark::State& state) {
-  const diabolo::Recording recording =
-      diabolo::apply(diabolo::published_calibration(), diabolo::read_motive(motive_text(), "synthetic.csv"));
-  const std::string text = diabolo::write_tidy(recording);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(diabolo::read_tidy(
-        text, "synthetic.csv", {recording.properties, recording.string_length, recording.rate}));
-  set_speed(state, text);
-}
-BENCHMARK(read_tidy_of_the_same_recording)->Unit(benchmark::kMillisecond);
-
 }  // namespace
+
+int main(int argc, char** argv) {
+  using namespace diabolo;
+  const auto job = [](const std::string& name, auto make) {
+    return NamedJob{name, [make] { return std::make_unique<Calls>(1.0, make()); }};
+  };
+  const auto read = [](const std::string& text) { return read_motive(text, "synthetic.csv"); };
+  return run_jobs(
+      {job("read_motive_20_MB",
+           [=] { return [=, text = motive_text()] { benchmark::DoNotOptimize(read(text)); }; }),
+       job("read_motive_20_MB_and_apply_calibration",
+           [=] {
+             return [=, text = motive_text()] {
+               benchmark::DoNotOptimize(apply(published_calibration(), read(text)));
+             };
+           }),
+       job("read_tidy_of_the_same_recording",
+           [=] {
+             const Recording recording = apply(published_calibration(), read(motive_text()));
+             const TidyMetadata known{recording.properties, recording.string_length, recording.rate};
+             return [text = write_tidy(recording), known] {
+               benchmark::DoNotOptimize(read_tidy(text, "synthetic.csv", known));
+             };
+           })},
+      argc, argv);
+}

@@ -115,18 +115,32 @@ def linear(results: dict[str, Any]) -> tuple[str, float]:
 def robot_table(results: dict[str, Any]) -> str:
     if "robot" not in results:
         return "Not measured here: Orocos KDL was not found."
-    unit = statistics.median(results["robot"]["kdl_forward"]["cpu"])
+    unit = statistics.median(per_step(results["robot"]["kdl_forward"]))
     rows = [
         [
             name.replace("_", " "),
-            f"{statistics.median(entry['cpu']):,.0f}",
-            f"{max(entry['cpu']):,.0f}",
-            f"{statistics.median(entry['cpu']) / unit:,.2f}",
+            f"{statistics.median(per_step(entry)):,.0f}",
+            f"{max(per_step(entry)):,.0f}",
+            f"{statistics.median(per_step(entry)) / unit:,.2f}",
+            count(results.get("robot_counts", {}), name, entry["steps"]),
             f"{entry['p99_us']:.1f}" if "p99_us" in entry else "",
         ]
-        for name, entry in results["robot"].items()
+        for name, entry in sorted(results["robot"].items())
     ]
-    return table(["", "median [ns]", "worst [ns]", "over KDL's forward", "p99 of single calls [us]"], rows)
+    columns = ["", "median [ns]", "worst [ns]", "over KDL's forward", "instructions"]
+    return table([*columns, "p99 of single calls [us]"], rows)
+
+
+def loader_table(results: dict[str, Any]) -> str:
+    rows = [
+        [
+            name.replace("_", " "),
+            *(f"{1e-6 * f(entry['cpu']):.0f}" for f in (statistics.median, max)),
+            count(results.get("loader_counts", {}), name, 1e6),
+        ]
+        for name, entry in sorted(results["loader"].items())
+    ]
+    return table(["", "median [ms]", "worst [ms]", "million instructions"], rows)
 
 
 def mujoco_ratio(results: dict[str, Any]) -> float | None:
@@ -204,10 +218,6 @@ def targets(results: dict[str, Any]) -> str:
 def page(results: dict[str, Any]) -> str:
     machine, load = results["machine"], results["load"]
     spreads = [spread(e["cpu"]) for part in ("step", "batch", "loader") for e in results[part].values()]
-    loader = [
-        [name.replace("_", " "), *(f"{1e-6 * f(entry['cpu']):.0f}" for f in (statistics.median, max))]
-        for name, entry in sorted(results["loader"].items())
-    ]
     noise = (
         f"worst of {results['repetitions']} repetitions over their median: "
         f"{100 * statistics.median(spreads):.0f} % for half of the figures, "
@@ -264,7 +274,8 @@ The beat by `rollout()`, which evaluates the spline at every step:
 ## A batch
 
 `rollout_batch` of 256 beats of 1000 steps, `consistent()` in double, with every kernel that this processor
-runs: `{PROGRAMS}/bench_batch`. Valgrind knows no AVX-512, so that nothing is counted there.
+runs: `{PROGRAMS}/bench_batch`. Valgrind knows no AVX-512, so that nothing is counted there; nor is it of two
+threads, which share the same work.
 
 {batch_table(results)}
 
@@ -279,7 +290,7 @@ In the batch all rollouts begin alike here, so that the work of a step does not 
 
 A Motive export of 20 MB with 44 columns: `{PROGRAMS}/bench_loader`.
 
-{table(["", "median [ms]", "worst [ms]"], loader)}
+{loader_table(results)}
 
 ## Robot
 

@@ -9,14 +9,19 @@
 #include <cstdint>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
+#include <map>
+#include <memory>
 #include <random>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <diabolo/robot/build_seed_grid.hpp>
 #include <diabolo/robot/inverse_near.hpp>
 #include <diabolo/robot/stick_map.hpp>
 
-#include "support/heap.hpp"
+#include "support/job.hpp"
 
 namespace diabolo {
 namespace {
@@ -32,13 +37,17 @@ std::vector<Joints<double>> drawn() {
   return all;
 }
 
-/// Runs `work(i)` over the drawn inputs; counts what it allocates.
-template <class Work>
-void measure(benchmark::State& state, const Work& work) {
-  const long before = allocations();
-  std::size_t i = 0;
-  for (auto _ : state) work(i++ % 1024);
-  state.counters["allocations"] = static_cast<double>(allocations() - before);
+constexpr double kDrawn = 1024;
+
+/// `work(input)` for each of the drawn inputs.
+template <class Input, class Work>
+std::unique_ptr<Job> each(std::vector<Input> inputs, Work work, std::map<std::string, double> figures = {}) {
+  return std::make_unique<Calls>(
+      kDrawn,
+      [inputs = std::move(inputs), work = std::move(work)]() mutable {
+        for (const Input& input : inputs) work(input);
+      },
+      std::move(figures));
 }
 
 KDL::Chain kdl_arm() {
@@ -60,115 +69,115 @@ std::vector<KDL::JntArray> kdl_joints() {
   return all;
 }
 
-void kdl_forward(benchmark::State& state) {
-  const KDL::Chain chain = kdl_arm();
-  const std::vector<KDL::JntArray> joints = kdl_joints();
-  KDL::ChainFkSolverPos_recursive solver(chain);
-  KDL::Frame flange;
-  measure(state, [&](std::size_t i) {
-    solver.JntToCart(joints[i], flange);
+std::unique_ptr<Job> kdl_forward() {
+  const auto chain = std::make_shared<const KDL::Chain>(kdl_arm());  // solvers hold a reference
+  const auto solver = std::make_shared<KDL::ChainFkSolverPos_recursive>(*chain);
+  return each(kdl_joints(), [chain, solver](const KDL::JntArray& q) {
+    KDL::Frame flange;
+    solver->JntToCart(q, flange);
     benchmark::DoNotOptimize(flange);
   });
 }
-BENCHMARK(kdl_forward);
 
-void forward(benchmark::State& state) {
-  const Chain<double> chain = ur5e_nominal<double>();
-  const std::vector<Joints<double>> joints = drawn();
-  measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(chain.forward(joints[i])); });
+std::unique_ptr<Job> forward() {
+  return each(drawn(), [chain = ur5e_nominal<double>()](const Joints<double>& q) {
+    benchmark::DoNotOptimize(chain.forward(q));
+  });
 }
-BENCHMARK(forward);
 
-void kdl_jacobian(benchmark::State& state) {
-  const KDL::Chain chain = kdl_arm();
-  const std::vector<KDL::JntArray> joints = kdl_joints();
-  KDL::ChainJntToJacSolver solver(chain);
-  KDL::Jacobian jacobian(6);
-  measure(state, [&](std::size_t i) {
-    solver.JntToJac(joints[i], jacobian);
+std::unique_ptr<Job> kdl_jacobian() {
+  const auto chain = std::make_shared<const KDL::Chain>(kdl_arm());
+  const auto solver = std::make_shared<KDL::ChainJntToJacSolver>(*chain);
+  return each(kdl_joints(), [chain, solver, jacobian = KDL::Jacobian(6)](const KDL::JntArray& q) mutable {
+    solver->JntToJac(q, jacobian);
     benchmark::DoNotOptimize(jacobian.data.data());
   });
 }
-BENCHMARK(kdl_jacobian);
 
-void jacobian(benchmark::State& state) {
-  const Chain<double> chain = ur5e_nominal<double>();
-  const std::vector<Joints<double>> joints = drawn();
-  measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(chain.jacobian(joints[i], kTip)); });
+std::unique_ptr<Job> jacobian() {
+  return each(drawn(), [chain = ur5e_nominal<double>()](const Joints<double>& q) {
+    benchmark::DoNotOptimize(chain.jacobian(q, kTip));
+  });
 }
-BENCHMARK(jacobian);
 
-void inverse_all_8(benchmark::State& state) {
+std::unique_ptr<Job> inverse_all_8() {
   const Chain<double> chain = ur5e_nominal<double>();
   std::vector<Pose<double>> flanges;
   for (const Joints<double>& q : drawn()) flanges.push_back(chain.forward(q));
-  measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(inverse(flanges[i])); });
+  return each(flanges, [](const Pose<double>& flange) { benchmark::DoNotOptimize(inverse(flange)); });
 }
-BENCHMARK(inverse_all_8);
 
-void inverse_of_a_calibrated_arm(benchmark::State& state) {
+/// An arm that is off by 1 mm and 1 mrad in every link.
+Chain<double> calibrated_chain() {
   Ur5eCalibration calibration = nominal_calibration();
   for (LinkCalibration& link : calibration) {
     link.y += 1e-3;
     link.roll += 1e-3;
   }
-  const Chain<double> chain = ur5e_from_calibration<double>(calibration);
-  const std::vector<Joints<double>> joints = drawn();
-  std::vector<Pose<double>> flanges;
-  for (const Joints<double>& q : joints) flanges.push_back(chain.forward(q));
-  measure(state,
-          [&](std::size_t i) { benchmark::DoNotOptimize(inverse_near(chain, flanges[i], joints[i])); });
+  return ur5e_from_calibration<double>(calibration);
 }
-BENCHMARK(inverse_of_a_calibrated_arm);
 
-void stick_task_in_closed_form(benchmark::State& state) {
-  const Chain<double> chain = ur5e_nominal<double>();
-  const std::vector<Joints<double>> joints = drawn();
-  std::vector<Vector3<double>> targets;
-  for (const Joints<double>& q : joints) targets.push_back(chain.forward(q) * kTip);
-  measure(state, [&](std::size_t i) {
-    benchmark::DoNotOptimize(stick_inverse<double>(targets[i], kTip, posture_of(joints[i])));
+std::unique_ptr<Job> inverse_of_a_calibrated_arm() {
+  const Chain<double> chain = calibrated_chain();
+  std::vector<std::pair<Pose<double>, Joints<double>>> inputs;
+  for (const Joints<double>& q : drawn()) inputs.emplace_back(chain.forward(q), q);
+  return each(inputs, [chain](const auto& input) {
+    benchmark::DoNotOptimize(inverse_near(chain, input.first, input.second));
   });
 }
-BENCHMARK(stick_task_in_closed_form);
+
+std::unique_ptr<Job> stick_task_in_closed_form() {
+  const Chain<double> chain = ur5e_nominal<double>();
+  std::vector<std::pair<Vector3<double>, Joints<double>>> inputs;
+  for (const Joints<double>& q : drawn()) inputs.emplace_back(chain.forward(q) * kTip, q);
+  return each(inputs, [](const auto& input) {
+    benchmark::DoNotOptimize(stick_inverse<double>(input.first, kTip, posture_of(input.second)));
+  });
+}
 
 /// Looking up the seed and solving, nominal arm or calibrated; `p99_us` and `worst_us` of single calls.
-void seed_grid_look_up(benchmark::State& state, bool calibrated) {
+std::unique_ptr<Job> seed_grid_look_up(bool calibrated, bool counted) {
   StickArm arm = paper_arm(Side::kRight);
-  if (calibrated) {
-    Ur5eCalibration calibration = nominal_calibration();
-    for (LinkCalibration& link : calibration) {
-      link.y += 1e-3;
-      link.roll += 1e-3;
-    }
-    arm.chain = ur5e_from_calibration<double>(calibration);
-  }
-  const StickMap map(arm, build_seed_grid(arm, paper_box(arm)));
-  const GridBox& box = map.grid().box();
+  if (calibrated) arm.chain = calibrated_chain();
+  const auto map = std::make_shared<const StickMap>(arm, build_seed_grid(arm, paper_box(arm)));
+  const GridBox& box = map->grid().box();
   std::vector<Vector3<double>> points;
   for (const Joints<double>& q : drawn()) {
     const Vector3<double> share = (q.head<3>().array() / (2.0 * kPi) + 0.5).matrix();
     points.emplace_back(box.lower + Vector3<double>(share.cwiseProduct(box.upper - box.lower)));
   }
-  std::vector<double> times(100000);
+  std::vector<double> times(counted ? 1 : 100000);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto start = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(map.at(points[i % 1024]));
+    benchmark::DoNotOptimize(map->at(points[i % points.size()]));
     times[i] = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   }
-  measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(map.at(points[i])); });
   std::ranges::sort(times);
-  state.counters["p99_us"] = times[times.size() * 99 / 100];
-  state.counters["worst_us"] = times.back();
+  return each(points, [map](const Vector3<double>& point) { benchmark::DoNotOptimize(map->at(point)); },
+              {{"p99_us", times[times.size() * 99 / 100]}, {"worst_us", times.back()}});
 }
-BENCHMARK_CAPTURE(seed_grid_look_up, nominal, false);
-BENCHMARK_CAPTURE(seed_grid_look_up, calibrated, true);
 
-void build_a_seed_grid(benchmark::State& state) {
-  const StickArm arm = paper_arm(Side::kRight);
-  for (auto _ : state) benchmark::DoNotOptimize(build_seed_grid(arm, paper_box(arm)));
+std::unique_ptr<Job> build_a_seed_grid() {
+  return std::make_unique<Calls>(1.0, [arm = paper_arm(Side::kRight)] {
+    benchmark::DoNotOptimize(build_seed_grid(arm, paper_box(arm)));
+  });
 }
-BENCHMARK(build_a_seed_grid)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace diabolo
+
+int main(int argc, char** argv) {
+  using namespace diabolo;
+  const bool counted = argc > 1 && std::string_view(argv[1]) == "--count";
+  return run_jobs({{"kdl_forward", kdl_forward},
+                   {"forward", forward},
+                   {"kdl_jacobian", kdl_jacobian},
+                   {"jacobian", jacobian},
+                   {"inverse_all_8", inverse_all_8},
+                   {"inverse_of_a_calibrated_arm", inverse_of_a_calibrated_arm},
+                   {"stick_task_in_closed_form", stick_task_in_closed_form},
+                   {"seed_grid_look_up/nominal", [=] { return seed_grid_look_up(false, counted); }},
+                   {"seed_grid_look_up/calibrated", [=] { return seed_grid_look_up(true, counted); }},
+                   {"build_a_seed_grid", build_a_seed_grid}},
+                  argc, argv);
+}

@@ -18,7 +18,7 @@ from typing import Any
 import measure
 from page import page
 
-COUNTED_IN_BATCH = "1 thread/shared tips/1000 steps$"
+COUNTED_IN_BATCH = "1 thread/.*/1000 steps$"  # callgrind would count nothing of what other threads do
 
 
 def measured(programs: Path, compiler: str, brief: bool) -> dict[str, Any]:
@@ -40,6 +40,9 @@ def measured(programs: Path, compiler: str, brief: bool) -> dict[str, Any]:
     )
     pattern = f"baseline/{COUNTED_IN_BATCH}" if brief else COUNTED_IN_BATCH
     stage("batch_counts", lambda: measure.counted(programs / "bench_batch", pattern))
+    for name in ("loader", "robot"):
+        if name in results and not brief:
+            stage(f"{name}_counts", lambda name=name: measure.counted(programs / f"bench_{name}", ""))
     stage("compile", lambda: measure.compile_times(1 if brief else 3, compiler))
     stage("header_lines", measure.header_lines)
     stage("mujoco", lambda: measure.mujoco(brief))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Hides something that is known from the simulator and asks whether the diagnosis of recordings finds it.
+"""Hides what is known from the simulator, and has it found; offers forms that no law has, and none may win.
 
 .venv/bin/python benchmarks/real/controls.py RECORDING...
 """
@@ -11,6 +11,7 @@ import sys
 
 from diabolo import Diagnosis, Model, Parameters, diagnose, load_recording
 
+PLACEBOS = ("placebo_drag", "placebo_push")
 SHORTER = 0.05  # of the string [m]
 
 
@@ -48,7 +49,20 @@ def main() -> int:
         found += hit
         verdict = ("yes" if hit else "no") if name else "-"
         print(f"| {what} | {name or '-'} | {verdict} | {shown(answer)} |", flush=True)
-    return 0 if found == len(controls) - 1 else 1
+    won = 0
+    for group in ([takes] if len(takes) > 1 else []) + [[take] for take in takes]:
+        names = [rung["name"] for rung in diagnose(group).result["ladder"]]
+        if not names:
+            continue
+        answer = diagnose(group, bank=[*names, "body_swap", *PLACEBOS])
+        claimed = [name for name in PLACEBOS if name in [effect["name"] for effect in answer.effects]]
+        won += len(claimed)
+        told = " and ".join(take.name for take in group) if len(group) < 3 else f"all {len(group)}"
+        print(
+            f"| nothing, placebos in {told} | none | {', '.join(claimed) or 'none'} | {shown(answer)} |",
+            flush=True,
+        )
+    return 0 if found == len(controls) - 1 and won == 0 else 1
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include <regex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "heap.hpp"
@@ -21,11 +22,26 @@ class Job {
  public:
   virtual ~Job() = default;
   virtual void run() = 0;
-  /// Diabolo steps in a run.
+  /// In a run: of a diabolo, or calls.
   virtual double steps() const = 0;
   /// Figures that say what was run, such as the share of the steps on the string. Throws std::runtime_error
   /// when it was not what the job's name says.
   virtual std::map<std::string, double> check() { return {}; }
+};
+
+/// Work on so many inputs, one after the other; `figures` say what was seen of it apart.
+class Calls : public Job {
+ public:
+  Calls(double count, std::function<void()> work, std::map<std::string, double> figures = {})
+      : count_(count), work_(std::move(work)), figures_(std::move(figures)) {}
+  void run() override { work_(); }
+  double steps() const override { return count_; }
+  std::map<std::string, double> check() override { return figures_; }
+
+ private:
+  double count_;
+  std::function<void()> work_;
+  std::map<std::string, double> figures_;
 };
 
 /// Makes a job, which may take memory, only when its turn has come.

@@ -31,3 +31,9 @@ TEST_CASE("a bank that names the scale of lengths keeps it") {
   CHECK(asks(7.0, {"length_scale"}, "length_scale"));
   CHECK_FALSE(asks(7.0, {"length_scale"}, "gravity_magnitude"));
 }
+
+TEST_CASE("forms that no law has are asked about by name alone") {
+  CHECK_FALSE(asks(kStandardGravity, {}, "placebo_drag"));
+  CHECK(asks(kStandardGravity, {"placebo_drag"}, "placebo_drag"));
+  CHECK_FALSE(asks(kStandardGravity, {"placebo_drag"}, "placebo_push"));
+}

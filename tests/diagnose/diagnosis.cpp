@@ -138,6 +138,40 @@ TEST_CASE("a tilted frame is a fault of the measurement, not physics") {
   }
 }
 
+TEST_CASE("a track that went through a low pass is no delay, and no lag of the sticks") {
+  constexpr double kLag = 0.03;
+  Recording r = played({}, 14.0, 6);
+  Vector trail = r.diabolo.position.col(0), before = trail;
+  for (Eigen::Index i = 1; i < r.size(); ++i) {
+    const Vector now = r.diabolo.position.col(i);
+    trail = detail::low_passed(trail, before, now, 1.0 / kRate, kLag);
+    r.diabolo.position.col(i) = trail;
+    before = now;
+  }
+  const Diagnosis d = diagnose({r});
+  CAPTURE(d.sentence);
+  CHECK(d.headline == Headline::kMeasurementFault);
+  const Finding* const lag = claimed(d, "filter_lag");
+  REQUIRE(lag != nullptr);
+  const int u = index_of(Unknown::kLag);
+  CAPTURE(lag->estimate[u], lag->deviation[u]);
+  CHECK(std::abs(lag->estimate[u] - kLag) < 4.0 * lag->deviation[u]);
+  CHECK(lag->deviation[u] < 1e-3);
+  CHECK(claimed(d, "time_offset") == nullptr);
+}
+
+TEST_CASE("a placebo does not take the place of friction") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.2;
+  DiagnosisOptions options;
+  for (const Candidate& candidate : candidates()) options.bank.emplace_back(candidate.name);
+  const Diagnosis d = diagnose({played(effects, 14.0, 2)}, options);
+  CAPTURE(d.sentence);
+  CHECK(claimed(d, "string_friction") != nullptr);
+  for (const Finding& f : d.findings)
+    if (is_placebo(*f.candidate)) CHECK_FALSE(f.claimed);
+}
+
 TEST_CASE("the turning of the axle is measured, and too small to claim") {
   for (const double gain : {0.0, 3.8}) {
     AllEffects<double> effects;

@@ -59,6 +59,25 @@ inline bool may_be_wrapped(const Fit& fit) {
          (fit.at[index_of(Unknown::kFriction)] > 0.35 || fit.at[index_of(Unknown::kStringLength)] < -0.02);
 }
 
+/// A drag by the square of the speed relative to a wind, in place of a drag and a tilt. To a diabolo that is
+/// slower than the wind it is a linear drag of k w and a push of k w^2, as a tilt gives.
+inline Alternative drag_in_wind(const Fit& fit, const ActiveSet& set, std::string_view from) {
+  Alternative result = from == "air_drag_linear" ? exchanged(fit, set, from, "air_drag_quadratic", 0.0)
+                                                 : Alternative{from, fit.delay, set, fit.at};
+  result.name = "wind";
+  result.set = with(result.set, candidate_of("wind"));
+  constexpr int kTilt = index_of(Unknown::kTiltX), kWind = index_of(Unknown::kWindX);
+  const Eigen::Vector2d push = kStandardGravity * fit.at.segment<2>(kTilt);
+  const double linear = std::max(fit.at[index_of(Unknown::kLinearDrag)], 1e-3);
+  double& quadratic = result.at[index_of(Unknown::kQuadraticDrag)];
+  const double speed =
+      std::clamp(quadratic > 0.0 ? std::sqrt(push.norm() / quadratic) : push.norm() / linear, 0.5, 5.0);
+  if (!(quadratic > 0.0)) quadratic = linear / speed;
+  result.at.segment<2>(kWind) = push.normalized() * speed;
+  result.at.segment<2>(kTilt).setZero();
+  return result;
+}
+
 /// What else may explain what is claimed under this name. A pure delay, a low pass and a lagging servo differ
 /// in the second order of the delay only; a wrong rate of the frames looks like a wrong scale on a string of
 /// another length; wind in a drag like a tilt; a string wrapped around the axle like one that is shorter by
@@ -68,13 +87,15 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   constexpr double kUsualSpeed = 2.0, kUsualContact = 2.6;  // [m/s], [rad]
   std::vector<Alternative> others;
   const auto absent = [&](std::string_view other) { return !is_in(set, candidate_of(other)); };
-  if (name == "time_offset" && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
+  if (name == "time_offset" && fit.delay == Delay::kClock && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
+    // Two beginnings: from a lag that is all of the delay the way to one that is a part of it may be barred.
     for (const auto& [lag, delay] :
-         {std::pair("filter_lag", Delay::kFilter), {"robot_servo_lag", Delay::kServo}}) {
-      others.push_back({lag, delay, with(set, candidate_of(lag)), fit.at});
-      std::swap(others.back().at[index_of(Unknown::kLag)], others.back().at[index_of(Unknown::kTimeOffset)]);
-      others.back().at[index_of(Unknown::kLag)] *= -1.0;
-    }
+         {std::pair("filter_lag", Delay::kFilter), {"robot_servo_lag", Delay::kServo}})
+      for (const double share : {1.0, 0.5}) {
+        others.push_back({lag, delay, with(set, candidate_of(lag)), fit.at});
+        others.back().at[index_of(Unknown::kLag)] = -share * fit.at[index_of(Unknown::kTimeOffset)];
+        others.back().at[index_of(Unknown::kTimeOffset)] *= 1.0 - share;
+      }
   } else if (name == "length_scale" && !set[index_of(Unknown::kGravity)]) {
     ActiveSet rate = set;
     rate[index_of(Unknown::kLengthScale)] = false;
@@ -82,9 +103,7 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
     others.push_back({"frame_rate", fit.delay, rate, fit.at});
   } else if (name == "gravity_tilt" && absent("wind") && !absent("air_drag_quadratic")) {
     // (In a drag that is linear it is exactly that tilt: nothing could tell, and a tilt is the likelier one.)
-    Alternative wind{"wind", fit.delay, with(with(set, candidate_of("wind")), candidate_of(name), false),
-                     fit.at};
-    others.push_back(wind);
+    others.push_back(drag_in_wind(fit, with(set, candidate_of(name), false), "air_drag_quadratic"));
   } else if (name == "wind") {
     others.push_back({"gravity_tilt", fit.delay, with(set, candidate_of(name), false), fit.at});
   } else if (name == "string_friction" && may_be_wrapped(fit)) {
@@ -103,8 +122,10 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
     others.push_back(exchanged(fit, set, name, "string_elasticity", 2.0));
   } else if (name == "air_drag_linear" && absent("air_drag_quadratic")) {
     others.push_back(exchanged(fit, set, name, "air_drag_quadratic", 1.0 / kUsualSpeed));
+    if (absent("wind")) others.push_back(drag_in_wind(fit, set, name));
   } else if (name == "air_drag_quadratic" && absent("air_drag_linear")) {
     others.push_back(exchanged(fit, set, name, "air_drag_linear", kUsualSpeed));
+    if (absent("wind")) others.push_back(drag_in_wind(fit, set, name));
   }
   return others;
 }
@@ -130,9 +151,9 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
 }
 
 /// Refits with each alternative to a claim and keeps the best: of those that are sure and explain it as well
-/// as any, the one that needs the fewest; then a fault stays what it is, the others being rarer, and physics
-/// is what leaves least. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to what is
-/// best.
+/// as any (one that may be there and does is a tie), the one that needs the fewest; then a fault stays what
+/// it is, the others being rarer, and physics is what leaves least. `draft` holds what is claimed before;
+/// `fit`, `bank` and `set` are moved to what is best.
 template <class D = detail::FitDual>
 std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
                                       const Model& base, int threads, const Watch& watch) {
@@ -141,6 +162,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
     Fit fit;
     ActiveSet set;
     std::ptrdiff_t explanations;
+    bool sure;
   };
   std::vector<Exchange> result;
   const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
@@ -155,7 +177,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
     const std::string_view name = finding.candidate->name;
     const std::vector<Alternative> others = alternatives_to(name, fit, set);
     if (others.empty()) continue;
-    std::vector<Option> options{{name, fit, set, explanations_of(fit, set, bank)}};
+    std::vector<Option> options{{name, fit, set, explanations_of(fit, set, bank), true}};
     for (const Alternative& other : others) {
       const bool known = std::ranges::any_of(bank, [&](const Candidate* c) {
         return c->name == other.name || c->name == alternative_to(other.name);
@@ -173,21 +195,34 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       if (other.name == "string_wrap" &&
           std::abs(trial.at[index_of(Unknown::kStringLength)]) > kWrappedLength)
         continue;
-      if (is_in(other.set, young) &&
-          !speaks_for(young, significance(young, standing(Evidence(trial), other.set))))
-        continue;
+      bool sure = true;
+      if (is_in(other.set, young)) {
+        const Standing now = standing(Evidence(trial), other.set);
+        const double z = significance(young, now);
+        if ((young.positive ? z : std::abs(z)) < kMayBe) continue;
+        sure = speaks_for(young, z);
+        if (const Candidate& drag = candidate_of("air_drag_quadratic");
+            other.name == "wind")  // it acts in it
+          sure = sure && speaks_for(drag, significance(drag, now));
+      }
       const std::ptrdiff_t explanations =
           explanations_of(trial, other.set, exchanged(bank, name, other.name));
-      options.push_back({other.name, std::move(trial), other.set, explanations});
+      Option option{other.name, std::move(trial), other.set, explanations, sure};
+      const auto same = std::ranges::find(options, other.name, &Option::name);
+      if (same == options.end())
+        options.push_back(std::move(option));
+      else if (option.fit.cost < same->fit.cost)
+        *same = std::move(option);
     }
-    const auto cost = [](const Option& option) { return option.fit.cost; };
-    const double least = std::ranges::min(options, {}, cost).fit.cost, before_cost = fit.cost;
-    const double worse = 9.0 * fit.dispersion + kSameResidual * least;
+    double least = fit.cost;
+    for (const Option& option : options)
+      if (option.sure) least = std::min(least, option.fit.cost);
+    const double before_cost = fit.cost, worse = 9.0 * fit.dispersion + kSameResidual * least;
     std::erase_if(options, [&](const Option& option) { return option.fit.cost - least >= worse; });
     const bool fault = finding.candidate->kind == CandidateKind::kMeasurement;
     const Option best = std::ranges::min(options, {}, [&](const Option& option) {
       const bool rarer = fault || option.fit.at[index_of(Unknown::kWraps)] > 0.0;
-      return std::tuple(option.explanations, rarer && option.name != name, option.fit.cost);
+      return std::tuple(!option.sure, option.explanations, rarer && option.name != name, option.fit.cost);
     });
     Exchange exchange{best.name, {}, std::sqrt(std::max(0.0, before_cost - best.fit.cost) / fit.dispersion)};
     for (const Option& option : options)

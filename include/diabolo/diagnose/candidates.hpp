@@ -54,6 +54,13 @@ inline const std::vector<Candidate>& candidates() {
        true},
       {"gravity_magnitude", "the strength of gravity", kPhysics, {kGravity}, 0.05 * kStandardGravity, false},
       {"frame_rate", "the rate of the frames", kMeasurement, {kGravity}, 0.01 * kStandardGravity, false},
+      {"placebo_drag", "a drag along one axis of the recording", kPhysics, {kPlacebo}, 0.0, true},
+      {"placebo_push",
+       "a push along the string that never changes its sign",
+       kPhysics,
+       {kStringTangent},
+       0.0,
+       false},
       {"gravity_tilt", "a tilted frame", kMeasurement, {kTiltX, kTiltY}, 0.3 * kDegree, false},
       {"length_scale", "the scale of lengths", kMeasurement, {kLengthScale}, 0.003, false},
       {"time_offset", "a delay between diabolo and sticks", kMeasurement, {kTimeOffset}, 0.002, false},
@@ -89,6 +96,9 @@ inline ActiveSet nuisances() {
   return set;
 }
 
+/// Of a form that no law has: asked about by name alone, to see that it does not win.
+inline bool is_placebo(const Candidate& candidate) { return candidate.name.starts_with("placebo"); }
+
 /// The candidates that a diagnosis chooses from.
 using Bank = std::vector<const Candidate*>;
 
@@ -111,7 +121,8 @@ inline std::string_view alternative_to(std::string_view name) {
 inline Bank bank_for(const Parameters<double>& base, const std::vector<std::string>& names) {
   Bank bank;
   const auto wanted = [&](const Candidate& candidate) {
-    return names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
+    return (names.empty() && !is_placebo(candidate)) ||
+           std::ranges::any_of(names, [&](const std::string& name) {
              return name == candidate.name || alternative_to(name) == candidate.name;
            });
   };

@@ -15,6 +15,9 @@ namespace diabolo {
 /// What stands out by so many standard deviations is there, whatever it is.
 inline constexpr double kStrong = 10.0;
 
+/// Why a claim fell that predicts nothing better.
+inline constexpr const char* kDenied = "does not help on data that were left out";
+
 inline void claims_first(Diagnosis& d) {
   // (The algorithm on ranges returns a subrange, which Clang 14 cannot read in libstdc++ 12.)
   std::stable_partition(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.claimed; });
@@ -27,6 +30,34 @@ inline void withdraw_what_cannot_be(Diagnosis& d) {
     if (!f.claimed || f.possible) continue;
     f.claimed = false;
     f.reason = "farther off than any measurement: something else is at work";
+  }
+  claims_first(d);
+}
+
+/// Physics that is left out since it is not sure, and would leave nothing sure of a fault; null where there
+/// is none.
+inline const Candidate* physics_instead(const Evidence& evidence, const Bank& bank, const ActiveSet& set,
+                                        const Candidate& fault) {
+  for (const Candidate* other : bank) {
+    if (other->kind != CandidateKind::kPhysics || is_in(set, *other)) continue;
+    const Standing beside = standing(evidence, with(set, *other));
+    const double z = significance(*other, beside);
+    if ((other->positive ? z : std::abs(z)) < kMayBe) continue;
+    if (!speaks_for(fault, significance(fault, beside)) || !is_beyond_floor(fault, beside)) return other;
+  }
+  return nullptr;
+}
+
+/// No fault is claimed that may as well be physics. (To be asked last: what a fault is exchanged for is asked
+/// of claims.)
+inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence, const Bank& bank,
+                                         const ActiveSet& set) {
+  for (Finding& f : d.findings) {
+    if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement) continue;
+    const Candidate* other = physics_instead(evidence, bank, set, *f.candidate);
+    if (other == nullptr) continue;
+    f.claimed = false;
+    f.reason = "may as well be " + std::string(other->plain);
   }
   claims_first(d);
 }
@@ -44,27 +75,43 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
     if (!f.claimed) continue;
     f.claimed = false;
     d.withdrawn = d.withdrawn || (f.candidate->kind == CandidateKind::kPhysics && std::abs(f.z) > kStrong);
-    f.reason = "does not help on data that were left out";
+    f.reason = kDenied;
   }
   return true;
 }
 
-/// No tips are claimed to be elsewhere unless that predicts better what was left out, where it can be said:
-/// six numbers explain much that nobody knows. (Of other faults this is not asked: what one of them does,
-/// tips elsewhere could do as well.)
-inline void withdraw_tips_that_do_not_help(Diagnosis& d) {
+/// No physics is claimed without which what was left out is predicted better, nor tips somewhere else unless
+/// it is predicted worse without, where that can be said: six numbers explain much that nobody knows. (Of
+/// other faults this is not asked: what one of them does, tips elsewhere could do as well.) Returns the least
+/// sure physics that was withdrawn, which the model has to do without; null where there is none.
+inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
+  const Finding* weakest = nullptr;
   for (Finding& f : d.findings) {
-    if (!f.claimed || first_of(*f.candidate) != Unknown::kLeftX) continue;
-    const auto said = [](const std::optional<Interval>& interval) { return interval.has_value(); };
-    const auto helps = [](const std::optional<Interval>& interval) {
-      return interval && interval->low > 0.0;
-    };
-    if (std::ranges::none_of(f.worsening_ci95, said) || std::ranges::any_of(f.worsening_ci95, helps))
-      continue;
+    const auto any = [&](auto says) { return std::ranges::any_of(f.worsening_ci95, says); };
+    const bool said = any([](const auto&interval) { return interval.has_value(); }),
+               helps = any([](const auto&interval) { return interval && interval->low > 0.0; }),
+               harms = any([](const auto&interval) { return interval && interval->high < 0.0; });
+    const bool physics = f.candidate->kind == CandidateKind::kPhysics,
+               wrapped = d.at[index_of(Unknown::kWraps)] > 0.0,
+               rubs = first_of(*f.candidate) == Unknown::kFriction,
+               tips = first_of(*f.candidate) == Unknown::kLeftX;
+    const bool denied = physics ? harms && !is_of_spin(*f.candidate) && !(rubs && wrapped) : tips && said;
+    if (!f.claimed || helps || !denied) continue;
     f.claimed = false;
-    f.reason = "does not help on data that were left out";
+    f.reason = kDenied;
+    if (!physics) continue;
+    d.withdrawn = d.withdrawn || std::abs(f.z) > kStrong;
+    if (weakest == nullptr || std::abs(f.z) < std::abs(weakest->z)) weakest = &f;
   }
+  const Candidate* result = weakest == nullptr ? nullptr : weakest->candidate;
   claims_first(d);
+  return result;
+}
+
+/// Of physics that left-out data denied before the last fit.
+inline void say_denied(Diagnosis& d, const Candidate& candidate) {
+  for (Finding& f : d.findings)
+    if (f.candidate == &candidate && !f.claimed) f.reason = kDenied;
 }
 
 /// The first of what a finding is tied with, in plain words.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "diabolo/diagnose/axle_motion.hpp"
 #include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/swapped_bodies.hpp"
@@ -40,12 +42,6 @@ struct DiagnosisWatch {
 
 /// Fewest windows from which anything is concluded.
 inline constexpr std::size_t kFewestWindows = 8;
-
-/// A usual spin [rad/s].
-inline constexpr double kUnseenSpin = 80.0;
-
-/// The give of a soft string to begin with [m/N].
-inline constexpr double kSoftStart = 3e-3;
 
 namespace detail {
 
@@ -75,62 +71,6 @@ inline std::string insufficient(const std::vector<Stage>& stages) {
            ": wrong units, swapped bodies, or another string";
   if (!length_known || taut * 10 < windows) return "the string is never seen taut for long";
   return {};
-}
-
-inline Fit prepared(const std::vector<Recording>& recordings) {
-  Fit fit;
-  for (const Recording& recording : recordings) {
-    fit.stages.push_back(make_stage(recording));
-    fit.noise.emplace_back();
-  }
-  // A string's centre line lies half its thickness outside the axle: some 0.7 mm.
-  fit.centre[index_of(Unknown::kAxleRadius)] = fit.stages.front().recording.properties.axle_radius + 7e-4;
-  fit.centre[index_of(Unknown::kDamping)] = 10.0;
-  fit.centre[index_of(Unknown::kTipMass)] = 0.011;  // of wooden and plastic sticks: 8 to 15 g
-  fit.at = fit.centre;
-  return fit;
-}
-
-/// From starts alone, with all of `set` free. A soft string rings, and from a stiff one the way there is long
-/// and uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone
-/// on with.
-template <class D>
-void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
-  fit.far_window = kFarWindowAtFirst;
-  Fit soft = fit;
-  refine<D>(fit, physics, set, 5, threads, watch);
-  const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
-  if (set[index_of(give)]) {
-    soft.at[index_of(give)] = kSoftStart;
-    refine<D>(soft, physics, set, 5, threads, watch);
-    if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
-  }
-  fit.far_window = kFarWindow;
-  refine<D>(fit, physics, set, 6, threads, watch);
-}
-
-/// Leaves out what acts on the spin, or by it in a direction that nobody saw.
-inline void without_spin(Bank& bank, ActiveSet& set) {
-  for (const Unknown u :
-       {Unknown::kLift, Unknown::kSpinAir, Unknown::kSpinAxle, Unknown::kSpinCoupling, Unknown::kSpinGain}) {
-    set[index_of(u)] = false;
-    std::erase_if(bank, [&](const Candidate* candidate) { return first_of(*candidate) == u; });
-  }
-}
-
-/// Where nobody saw the diabolo turn: friction is begun with a fast spin of either sense, and what fits
-/// better is gone on with. (It saturates with the slip: how fast does not matter.)
-template <class D>
-void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
-  const auto begun = [&](double spin) {
-    Fit trial = fit;
-    for (Stage& stage : trial.stages)
-      for (FitWindow& window : stage.windows) window.start.spin = spin;
-    fit_everything<D>(trial, physics, set, threads, watch);
-    return trial;
-  };
-  Fit forwards = begun(kUnseenSpin), backwards = begun(-kUnseenSpin);
-  fit = std::move(left_over(forwards) <= left_over(backwards) ? forwards : backwards);
 }
 
 /// With every body under its name, unless friction would have to give energy: then `backwards`.
@@ -172,53 +112,79 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   // A bounce throws every later catch about: it is asked about once the rest fits.
   set[index_of(Unknown::kRestitution)] = false;
   if (set[index_of(Unknown::kGravity)]) set[index_of(Unknown::kLengthScale)] = false;  // see bank_for()
-  if (std::ranges::any_of(fit.stages, &Stage::has_spin)) {
-    fit_everything<D>(fit, physics, set, options.threads, step("fitting everything", 0.15));
-  } else {
-    without_spin(bank, set);
-    fit_unseen_spin<D>(fit, physics, set, options.threads, step("fitting everything", 0.15));
+  if (std::ranges::none_of(fit.stages, &Stage::has_spin)) without_spin(bank, set);
+  // Another delay than was thought at first changes what all else looks like: with it everything is asked
+  // again.
+  std::vector<Exchange> exchanged;
+  for (bool again = false;; again = true) {
+    const Watch everything = step("fitting everything", again ? 0.6 : 0.15);
+    if (std::ranges::any_of(fit.stages, &Stage::has_spin) || again)
+      fit_everything<D>(fit, physics, set, options.threads, everything);
+    else
+      fit_unseen_spin<D>(fit, physics, set, options.threads, everything);
+    const Candidate& friction = candidate_of("string_friction");
+    backwards = is_in(set, friction) && significance(friction, standing(Evidence(fit), set)) < -kSignificance;
+    set = eliminate(Evidence(fit), bank, set);
+    for (int round = 0;; ++round) {
+      for (int u = 0; u < kUnknowns; ++u)
+        if (!set[u]) fit.at[u] = fit.centre[u];
+      refine<D>(fit, physics, set, 6, options.threads,
+                step("refitting what is sure", (again ? 0.7 : 0.4) + 0.03 * round));
+      const Evidence evidence(fit);
+      ActiveSet next = eliminate(evidence, bank, set);
+      if (const Candidate* candidate = strongest_left_out(evidence, bank, next))
+        next = with(next, *candidate);
+      if ((next == set).all() || round == 2 || elapsed() > options.budget) break;  // judged at its own fit
+      set = next;
+    }
+    Diagnosis draft = result;
+    find(draft, fit, Evidence(fit), bank, set);
+    const Delay before = fit.delay;
+    std::ranges::move(exchange_claims<D>(fit, bank, set, draft, physics, options.threads,
+                                         step("trying other explanations", again ? 0.8 : 0.5)),
+                      std::back_inserter(exchanged));
+    if (fit.delay == before || elapsed() > options.budget) break;
+    fit.noise_is_known = false;
+    for (const Candidate* candidate : bank)
+      if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kRestitution)
+        set = with(set, *candidate);
   }
-  const Candidate& friction = candidate_of("string_friction");
-  backwards = is_in(set, friction) && significance(friction, standing(Evidence(fit), set)) < -kSignificance;
-  set = eliminate(Evidence(fit), bank, set);
-  for (int round = 0;; ++round) {
-    for (int u = 0; u < kUnknowns; ++u)
-      if (!set[u]) fit.at[u] = fit.centre[u];
-    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is sure", 0.5 + 0.1 * round));
+  std::vector<const Candidate*> denied;
+  for (;;) {
     const Evidence evidence(fit);
-    ActiveSet next = eliminate(evidence, bank, set);
-    if (const Candidate* candidate = strongest_left_out(evidence, bank, next)) next = with(next, *candidate);
-    if ((next == set).all() || round == 2 || elapsed() > options.budget) break;  // judged at its own fit
-    set = next;
+    result.at = fit.at;
+    result.model = augmented_model(physics, fit.at, "diagnosed");
+    if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
+      result.model.parameters.gravity = physics.parameters.gravity;
+    result.findings.clear();
+    result.leftovers.clear();
+    find(result, fit, evidence, bank, set);
+    if (options.bank.empty() || std::ranges::count(options.bank, "gyroscopic_tilt") > 0)
+      result.findings.push_back(find_axle_motion(fit, result.model));
+    withdraw_what_cannot_be(result);
+    withdraw_what_may_be_physics(result, evidence, bank, set);
+    for (const Exchange& exchange : exchanged)
+      for (Finding& f : result.findings)
+        if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
+    for (const Exchange& exchange : exchanged)
+      if (exchange.name == "string_wrap") claim_wraps(result, fit, exchange.z);
+    std::vector<ActiveSet> without;
+    for (const Finding& f : result.findings)
+      if (f.claimed) without.push_back(with(set, *f.candidate, false));
+    const std::vector<HeldOutRecording> held = leave_out(fit, evidence, set, without, options.holdout);
+    result.heldout = compare_held_out(held, options.base, physics, options.seed, options.threads,
+                                      step("comparing on data left out", 0.85));
+    for (std::size_t i = 0; i < without.size(); ++i)  // claims come first
+      result.findings[i].worsening_ci95 = result.heldout.worsening_ci95[i];
+    const Candidate* physics_denied = withdraw_what_left_out_data_deny(result);
+    for (const Candidate* candidate : denied) say_denied(result, *candidate);
+    if (physics_denied == nullptr || elapsed() > options.budget) break;
+    denied.push_back(physics_denied);
+    set = with(set, *physics_denied, false);
+    for (const Unknown u : physics_denied->unknowns) fit.at[index_of(u)] = fit.centre[index_of(u)];
+    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is left", 0.83));
   }
-  Diagnosis draft = result;
-  find(draft, fit, Evidence(fit), bank, set);
-  const std::vector<Exchange> exchanged = exchange_claims<D>(fit, bank, set, draft, physics, options.threads,
-                                                             step("trying other explanations", 0.8));
-  const Evidence evidence(fit);
-  result.at = fit.at;
-  result.model = augmented_model(physics, fit.at, "diagnosed");
-  if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
-    result.model.parameters.gravity = physics.parameters.gravity;
-  find(result, fit, evidence, bank, set);
-  if (options.bank.empty() || std::ranges::count(options.bank, "gyroscopic_tilt") > 0)
-    result.findings.push_back(find_axle_motion(fit, result.model));
-  withdraw_what_cannot_be(result);
-  for (const Exchange& exchange : exchanged)
-    for (Finding& f : result.findings)
-      if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
-  for (const Exchange& exchange : exchanged)
-    if (exchange.name == "string_wrap") claim_wraps(result, fit, exchange.z);
-  std::vector<ActiveSet> without;
-  for (const Finding& f : result.findings)
-    if (f.claimed) without.push_back(with(set, *f.candidate, false));
-  const std::vector<HeldOutRecording> held = leave_out(fit, evidence, set, without, options.holdout);
-  result.heldout = compare_held_out(held, options.base, physics, options.seed, options.threads,
-                                    step("comparing on data left out", 0.85));
-  for (std::size_t i = 0; i < without.size(); ++i)  // claims come first
-    result.findings[i].worsening_ci95 = result.heldout.worsening_ci95[i];
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
-  withdraw_tips_that_do_not_help(result);
   if (withdraw_what_does_not_help(result)) result.model = options.base;
   if (numerical)
     result.numerical =

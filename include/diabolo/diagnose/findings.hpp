@@ -177,14 +177,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     for (std::size_t w = 0; w < fit.systems.size(); ++w)
       if (size_of(candidate, f.estimate, {fit.systems[w]}) > smallest) f.windows.push_back(w);
     f.sure = speaks_for(candidate, f.z);
-    if (candidate.kind == CandidateKind::kPhysics && candidate.floor == 0.0) {
-      f.material = f.size > smallest;
-    } else {
-      for (const Unknown u : candidate.unknowns) {
-        const double value = std::abs(f.estimate[index_of(u)]);
-        f.material = f.material || value - 2.0 * f.deviation[index_of(u)] > candidate.floor;
-      }
-    }
+    f.material = candidate.floor == 0.0 ? f.size > smallest : is_beyond_floor(candidate, own);
     f.possible = candidate.kind == CandidateKind::kPhysics || is_possible(candidate, own);
     f.claimed = f.sure && f.material && is_in(set, candidate);
     f.reason = !f.sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"

@@ -100,6 +100,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   latent.flight_lift = x(Unknown::kFlightLift);
   latent.spin_string = x(Unknown::kSpinString);
   latent.spin_free = x(Unknown::kSpinFree);
+  latent.placebo = x(Unknown::kPlacebo);
   return {p, effects};
 }
 

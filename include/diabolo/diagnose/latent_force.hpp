@@ -19,17 +19,18 @@ struct LatentForce : NeutralEffect<Scalar> {
   Scalar flight_lift{0};      ///< off the string, along omega x v [m/s^2]
   Scalar spin_string{0};      ///< ON_STRING, against the spin [rad/s^2]
   Scalar spin_free{0};        ///< off the string, against the spin [rad/s^2]
+  Scalar placebo{0};          ///< against the velocity along x, and along no other axis [1/s]
 
   Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips, const Scalar&,
                                const Parameters<Scalar>&) const {
-    const Vector3<Scalar> zero = Vector3<Scalar>::Constant(Scalar(0));
+    const Vector3<Scalar> along_x(-(placebo * state.velocity.x()), Scalar(0), Scalar(0));
     if (is(state.string_state, StringState::kOnString)) {
       const Vector3<Scalar> left = unit(tips.left - state.position),
                             right = unit(tips.right - state.position);
-      return unit(right - left) * string_tangent + unit(cross(left, right)) * string_binormal;
+      return along_x + unit(right - left) * string_tangent + unit(cross(left, right)) * string_binormal;
     }
     const Scalar sign = state.spin > Scalar(0) ? Scalar(-1) : Scalar(1);
-    return zero - unit(state.velocity) * flight_against +
+    return along_x - unit(state.velocity) * flight_against +
            unit(cross(state.axis, state.velocity)) * (flight_lift * sign) +
            Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical);
   }

@@ -17,6 +17,9 @@ namespace diabolo {
 /// the nuisances.
 inline constexpr double kSignificance = 4.0, kSignificanceOfFault = 5.0;
 
+/// What stands out by so many standard deviations may be there, where it would explain something else.
+inline constexpr double kMayBe = 2.0;
+
 /// Estimates and their standing once a set of unknowns is free.
 struct Standing {
   UnknownVector estimate;         ///< SI units
@@ -61,6 +64,36 @@ inline double significance(const Candidate& candidate, const Standing& standing)
   if (own.size() == 1) return x[0] / standing.deviation(own.front());
   return std::min(normal_equivalent(x, standing.noise(own, own)),
                   normal_equivalent(x, standing.spread(own, own)));
+}
+
+/// By how many standard deviations x lies outside the box of +-half on every side: the nearest point of the
+/// box in the covariance's measure, found coordinate by coordinate.
+inline double beyond_box(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance, double half) {
+  if (!(covariance.diagonal().minCoeff() > 0.0)) return 0.0;
+  constexpr int kSweeps = 100;
+  const Eigen::Index n = x.size();
+  const Eigen::MatrixXd precision = solve_symmetric(covariance, Eigen::MatrixXd::Identity(n, n));
+  Eigen::VectorXd rest = x - x.cwiseMin(half).cwiseMax(-half);  // x less a point of the box
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double best = rest[i] - precision.row(i).dot(rest) / precision(i, i);
+      rest[i] = std::clamp(best, x[i] - half, x[i] + half);
+    }
+  return normal_equivalent(rest, covariance);
+}
+
+/// A fault matters that lies beyond its floor by so many standard deviations.
+inline constexpr double kBeyondFloor = 2.5;
+
+/// Whether a candidate lies beyond its floor: that its unknowns should all be within can be ruled out.
+inline bool is_beyond_floor(const Candidate& candidate, const Standing& standing) {
+  std::vector<int> own;
+  for (const Unknown u : candidate.unknowns) own.push_back(index_of(u));
+  const Eigen::VectorXd x = standing.estimate(own);
+  if (own.size() == 1)
+    return std::abs(x[0]) - kBeyondFloor * standing.deviation(own.front()) > candidate.floor;
+  return std::min(beyond_box(x, standing.noise(own, own), candidate.floor),
+                  beyond_box(x, standing.spread(own, own), candidate.floor)) > kBeyondFloor;
 }
 
 /// Whether a standing speaks for a candidate.

@@ -56,6 +56,7 @@ enum class Unknown : int {
   kFlightLift,
   kSpinString,
   kSpinFree,
+  kPlacebo,  ///< of a drag that acts along the recording's x alone, as nothing does [1/s]
   kCount
 };
 
@@ -69,8 +70,9 @@ enum class Delay {
   kServo,   ///< sticks that follow the recorded, commanded ones as through such a filter
 };
 
-/// One number for each unknown, in SI units.
-using UnknownVector = Eigen::Matrix<double, kUnknowns, 1>;
+/// One number for each unknown, in SI units. (Not aligned for SIMD: the buffers that libstdc++'s stable
+/// algorithms work in are not, either.)
+using UnknownVector = Eigen::Matrix<double, kUnknowns, 1, Eigen::ColMajor | Eigen::DontAlign>;
 using UnknownMatrix = Eigen::MatrixXd;  ///< kUnknowns x kUnknowns
 
 /// What is known of an unknown before a recording is looked at.
@@ -127,6 +129,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"flight_axis_x_v", "m/s^2", 0.1, 0.0, -10.0, 10.0},
     {"spin_on_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"spin_off_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
+    {"placebo", "1/s", 0.1, 0.0, -10.0, 10.0},
 }};
 
 inline constexpr const UnknownInfo& info_of(Unknown u) {

@@ -26,6 +26,16 @@ Vector3<D> low_passed(const Vector3<D>& y, const Vector3<D>& from, const Vector3
   return y * kept + from * D(share - kept) + to * D(D(1.0) - share);
 }
 
+/// Moves a centre to where the markers say that it is, in a body that lies as `frame`.
+template <class D>
+void move_to_marker(Vector3<D>& centre, const Eigen::Matrix3d& frame, const UnknownVector& at) {
+  for (int j = 0; j < 3; ++j) {
+    const Unknown marker = static_cast<Unknown>(index_of(Unknown::kMarkerX) + j);
+    const D offset = unknown(marker, at);
+    for (int c = 0; c < 3; ++c) centre[c] = centre[c] + offset * D(frame(c, j));
+  }
+}
+
 }  // namespace detail
 
 /// Columns: start, unknowns, residual.
@@ -83,20 +93,32 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     return D((stage.times[row + 1] - stage.times[row]) / stage.substeps);
   };
   State<D> state = detail::fit_start<D>(begun, predictor, now, next, step_of(window.first));
-  const Vector3<double> marker = at.segment<3>(index_of(Unknown::kMarkerX));
   const double half = stage.times[window.first] + 0.5;
   bool measured_reach = false;
-  // A low pass of the diabolo's track: y' = (x - y) / tau, begun as x - tau v.
+  // A low pass of the diabolo's track: y' = (x - y) / tau, begun with what was recorded.
   const bool filtered = delay == Delay::kFilter;
-  D lag(0.0);
-  Vector3<D> trail = state.position;
-  if (filtered) {
-    lag = D(lag_of(at)) + (detail::unknown(Unknown::kLag, at) - D(at[index_of(Unknown::kLag)]));
-    trail = state.position - state.velocity * lag;
-  }
+  const D lag = D(lag_of(at)) + (detail::unknown(Unknown::kLag, at) - D(at[index_of(Unknown::kLag)]));
+  Vector3<D> centre_before, trail = r.diabolo.position.col(window.first).template cast<D>();
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();  ///< body to world, as last seen
   Eigen::VectorXd line(n + 1);
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
+    const bool turned = stage.has_orientation && r.diabolo_orientation.valid[row];
+    if (turned)
+      frame =
+          Eigen::Quaterniond(Eigen::Vector4d(r.diabolo_orientation.quaternion.col(row))).toRotationMatrix();
+    Vector3<D> centre = state.position;
+    const double pull = value_of(squared_norm(state.string_acceleration));
+    if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
+      centre = centre + detail::string_shift(state, now, stretch, usual);
+    detail::move_to_marker(centre, frame, at);
+    if (filtered) {
+      if (row > window.first)
+        trail =
+            detail::low_passed(trail, centre_before, centre, D(stage.times[row] - stage.times[row - 1]), lag);
+      centre_before = centre;
+      centre = trail;
+    }
     if (r.diabolo.valid[row]) {
       // A catch that the prediction missed: what follows says nothing of the motion before it.
       const Vector3<double> seen = r.diabolo.position.col(row);
@@ -106,28 +128,11 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
         system.lost = 3 * static_cast<int>(r.diabolo.valid.segment(row, window.last - row + 1).count());
         break;
       }
-      Vector3<double> shift = Vector3<double>::Zero();
-      Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();
-      bool known = true;
-      if (stage.has_orientation) {
-        known = r.diabolo_orientation.valid[row];
-        if (known)
-          frame = Eigen::Quaterniond(Eigen::Vector4d(r.diabolo_orientation.quaternion.col(row)))
-                      .toRotationMatrix();
-        shift = frame * marker;
-      }
-      Vector3<D> centre = state.position;
-      const double pull = value_of(squared_norm(state.string_acceleration));
-      if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
-        centre = centre + detail::string_shift(state, now, stretch, usual);
-      if (filtered) centre = centre + (trail - state.position);
+      // (What a filtered track begins with is taken from it.)
+      const bool known = (!stage.has_orientation || turned) && !(filtered && row == window.first);
       for (int c = 0; c < 3 && known; ++c) {
-        const double residual = r.diabolo.position(c, row) - centre[c].value - shift[c];
+        const double residual = seen[c] - centre[c].value;
         line.head(n) = centre[c].gradient.matrix().template cast<double>();
-        for (int j = 0; j < 3; ++j) {
-          const int unknown = index_of(Unknown::kMarkerX) + j;
-          line[kStartUnknowns + unknown] += frame(c, j) * info_of(static_cast<Unknown>(unknown)).scale;
-        }
         line[n] = residual;
         system.positions.selfadjointView<Eigen::Lower>().rankUpdate(line);
         system.position_square += residual * residual;
@@ -160,9 +165,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     spin_before = state.spin;
     for (int s = 0; s < stage.substeps; ++s, ++k) {
       next = tips_at(k + 1);
-      const Vector3<D> before = state.position;
       predictor.step(state, now, next, step_of(row));
-      if (filtered) trail = detail::low_passed(trail, before, state.position, step_of(row), lag);
       now = next;
     }
     state.axis = stage.axis.col(row + 1).cast<D>();

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/diagnose/findings.hpp"
+
+namespace diabolo {
+
+/// A usual spin [rad/s].
+inline constexpr double kUnseenSpin = 80.0;
+
+/// The give of a soft string to begin with [m/N].
+inline constexpr double kSoftStart = 3e-3;
+
+namespace detail {
+
+/// Recordings made ready, and what is expected of the unknowns.
+inline Fit prepared(const std::vector<Recording>& recordings) {
+  Fit fit;
+  for (const Recording& recording : recordings) {
+    fit.stages.push_back(make_stage(recording));
+    fit.noise.emplace_back();
+  }
+  // A string's centre line lies half its thickness outside the axle: some 0.7 mm.
+  fit.centre[index_of(Unknown::kAxleRadius)] = fit.stages.front().recording.properties.axle_radius + 7e-4;
+  fit.centre[index_of(Unknown::kDamping)] = 10.0;
+  fit.centre[index_of(Unknown::kTipMass)] = 0.011;  // of wooden and plastic sticks: 8 to 15 g
+  fit.at = fit.centre;
+  return fit;
+}
+
+/// From starts alone, with all of `set` free. A soft string rings, and from a stiff one the way there is long
+/// and uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone
+/// on with.
+template <class D>
+void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
+  fit.far_window = kFarWindowAtFirst;
+  Fit soft = fit;
+  refine<D>(fit, physics, set, 5, threads, watch);
+  const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
+  if (set[index_of(give)]) {
+    soft.at[index_of(give)] = kSoftStart;
+    refine<D>(soft, physics, set, 5, threads, watch);
+    if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
+  }
+  fit.far_window = kFarWindow;
+  refine<D>(fit, physics, set, 6, threads, watch);
+}
+
+/// Leaves out what acts on the spin, or by it in a direction that nobody saw.
+inline void without_spin(Bank& bank, ActiveSet& set) {
+  for (const Unknown u :
+       {Unknown::kLift, Unknown::kSpinAir, Unknown::kSpinAxle, Unknown::kSpinCoupling, Unknown::kSpinGain}) {
+    set[index_of(u)] = false;
+    std::erase_if(bank, [&](const Candidate* candidate) { return first_of(*candidate) == u; });
+  }
+}
+
+/// Where nobody saw the diabolo turn: friction is begun with a fast spin of either sense, and what fits
+/// better is gone on with. (It saturates with the slip: how fast does not matter.)
+template <class D>
+void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
+  const auto begun = [&](double spin) {
+    Fit trial = fit;
+    for (Stage& stage : trial.stages)
+      for (FitWindow& window : stage.windows) window.start.spin = spin;
+    fit_everything<D>(trial, physics, set, threads, watch);
+    return trial;
+  };
+  Fit forwards = begun(kUnseenSpin), backwards = begun(-kUnseenSpin);
+  fit = std::move(left_over(forwards) <= left_over(backwards) ? forwards : backwards);
+}
+
+}  // namespace detail
+
+}  // namespace diabolo
