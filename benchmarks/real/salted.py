@@ -30,6 +30,15 @@ from diabolo import (
 )
 from numpy.typing import NDArray
 
+EFFECTS = (
+    "finite_axle",
+    "gravity_tilt",
+    "gyroscopic_tilt",
+    "landing_restitution",
+    "stick_flex",
+    "string_elasticity",
+    "string_mass",
+)
 FARTHEST = 0.15  # that a prediction may be from the recording for its response to count [m]
 
 
@@ -45,10 +54,7 @@ class Force:
     def added_to(self, model: Model, dose: float) -> Model:
         """The model with so much more of it."""
         air, loss, friction = model.air or Air(), model.spin_loss or SpinLoss(), model.string_friction
-        effects: dict[str, Any] = {
-            name: getattr(model, name)
-            for name in ("string_elasticity", "stick_flex", "finite_axle", "gravity_tilt", "string_mass")
-        }
+        effects: dict[str, Any] = {name: getattr(model, name) for name in EFFECTS}
         effects |= {
             "air": air,
             "spin_loss": loss,
@@ -107,14 +113,20 @@ def salted(take: Recording, model: Model, force: Force, dose: float) -> Recordin
     row = first_start(take)
     without = predict(take, model, row=row, start="fair")
     with_force = predict(take, force.added_to(model, dose), row=row, start="fair")
-    off = np.linalg.norm(without.states[:, :3] - take.diabolo, axis=1)
-    if not np.nanmax(off) < FARTHEST:
+    change = with_force.states - without.states
+    off = np.linalg.norm(without.states[:, :3] - take.diabolo, axis=1)[row:]
+    if not (np.isfinite(change[row:]).all() and np.nanmax(off) < FARTHEST):
         return None
-    change = np.nan_to_num(with_force.states - without.states)
+    if np.abs(change[row:, :3]).max() > FARTHEST:
+        return None
+    change[:row] = 0.0
     orientation = take.diabolo_orientation
     if orientation is not None:
         steps = np.diff(take.time, prepend=take.time[0])
-        orientation = turned(orientation, np.cumsum(change[:, 6] * steps))
+        forward = np.sign(
+            1.0 - 2.0 * (orientation[:, 1] ** 2 + orientation[:, 2] ** 2)
+        )  # body x, or backward
+        orientation = turned(orientation, -forward * np.cumsum(change[:, 6] * steps))
     return Recording(
         take.time,
         take.left,

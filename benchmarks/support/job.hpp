@@ -22,7 +22,7 @@ class Job {
  public:
   virtual ~Job() = default;
   virtual void run() = 0;
-  /// In a run: of a diabolo, or calls.
+  /// How many a run takes: steps of a diabolo, or calls.
   virtual double steps() const = 0;
   /// Figures that say what was run, such as the share of the steps on the string. Throws std::runtime_error
   /// when it was not what the job's name says.

@@ -63,9 +63,9 @@ def diagnose(
     holdout: recordings that nothing is fitted to, to compare base and answer on; by default recordings, or
         thirds of a single one, are left out in turn. Those on which nothing can be compared are named in
         result["fit"]["holdout_unused"].
-    bank: names of what may be claimed, such as "string_friction"; by default everything known. What no
-        measurement is without stays free in every fit.
-    budget: no new refit begins after so many seconds.
+    bank: names of what may be claimed, such as "string_friction"; by default everything known but placebos.
+        What no measurement is without stays free in every fit.
+    budget: nothing more is looked for after so many seconds.
     seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.
     progress: called with the name of the step and the fraction done.
 

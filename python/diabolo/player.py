@@ -34,6 +34,15 @@ Solver: TypeAlias = Literal["gradient", "walk"]
 ACTIONS: tuple[str, ...] = (*(name for name in ACTION_NAMES if name != "catch"), "throw_and_catch")
 """What `plan_action` knows."""
 MOST_CYCLES = 1000
+LONGEST_SEARCH = 1e6  # [s]
+WANTED = {
+    "height": ("hop", "throw", "side_throw", "throw_and_catch"),
+    "sideways": ("swing", "side_throw", "throw_and_catch"),
+    "spin_gain": ("linear_acceleration", "circular_acceleration"),
+}
+"""What may be wanted of which action."""
+GUESSED = ("string_length", "air_drag_quadratic", "magnus_lift")
+"""What `best_guess` takes from a diagnosis."""
 
 
 class PlannedPlay(NamedTuple):
@@ -106,7 +115,7 @@ def plan(
         freedom or Freedom(),
         solver,
         whole_number("evaluations", evaluations, 1, 2**31 - 1),
-        seconds,
+        min(seconds, LONGEST_SEARCH),
         whole_number("random_seed", random_seed, 0, LARGEST_SEED),
         dt,
     )
@@ -148,6 +157,13 @@ def plan_action(
     """
     if name not in ACTIONS:
         raise ValueError(f"action '{name}'; expected one of {', '.join(ACTIONS)}")
+    for what, value in (("height", height), ("sideways", sideways), ("spin_gain", spin_gain)):
+        if value is not None and name not in WANTED[what]:
+            raise ValueError(
+                f"{what}: nothing that {name} can aim at; expected with {', '.join(WANTED[what])}"
+            )
+    if name == "throw_and_catch" and solver != "gradient":
+        raise ValueError(f"solver: {solver!r}; throw_and_catch is planned by 'gradient' only")
     cycles = whole_number("cycles", cycles, 1, MOST_CYCLES)
     catches = name == "throw_and_catch"
     figure = name if not catches else "side_throw" if sideways else "throw"
@@ -160,7 +176,7 @@ def plan_action(
     if start is None and figure == "stop":
         for initial in initials:
             initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
-    limits = limits or TipLimits()
+    limits = TipLimits() if limits is None else limits
     path: TipPath | None = None
     plans: list[Plan] = []
     wanted: list[Goals] = []
@@ -182,7 +198,15 @@ def plan_action(
         wanted = wanted or [action.goals]
         if catches:
             thrown, caught, piece, _ = _core.plan_throw_and_catch(
-                models, states_now, action.seed, action.goals, limits, action.freedom, 100_000, seconds, dt
+                models,
+                states_now,
+                action.seed,
+                action.goals,
+                limits,
+                action.freedom,
+                100_000,
+                min(seconds, LONGEST_SEARCH),
+                dt,
             )
             has_flown = thrown.end.string_state == StringState.FLYING
             plans += [thrown, caught] if has_flown else [thrown]
@@ -237,12 +261,15 @@ def hanging(
 def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
     """The share of the models by which the diabolo of a planned motion ends on its string, within 0.3 m of
     where it was planned to: how robust the motion is."""
+    given = list_of("models", models, (Model,))
+    if not given:
+        raise ValueError("models: none; at least one expected")
     ended = 0
-    for one in list_of("models", models, (Model,)):
+    for one in given:
         _, states, codes, _, _ = _core.foresee(one, play.start, play.path)
         close = float(np.linalg.norm(states[-1, :3] - play.states[-1, :3])) < 0.3
         ended += close and codes[-1] != StringState.FLYING
-    return ended / len(models)
+    return ended / len(given)
 
 
 def model_for(model: AnyModel, recording: Recording) -> Model:
@@ -269,7 +296,7 @@ def best_guess(model: Model, result: Mapping[str, Any]) -> Model:
     result: `Diagnosis.result`, or what its file holds. Of an estimate that is z standard deviations away from
     zero the share 1 - 1 / z^2 counts; where z is below one, nothing.
     """
-    found = {entry["name"]: entry for entry in result["ladder"]}
+    found = {entry["name"]: entry for entry in _rungs(result)}
 
     def claimed(name: str) -> bool:
         return name in found and bool(found[name]["claimed"])
@@ -286,6 +313,22 @@ def best_guess(model: Model, result: Mapping[str, Any]) -> Model:
         guess.air.quadratic_drag += max(0.0, likeliest("air_drag_quadratic"))
     guess.magnus_lift.coefficient += likeliest("magnus_lift")
     return guess
+
+
+def _rungs(result: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The candidates of a diagnosis."""
+    ladder = result.get("ladder")
+    if not isinstance(ladder, list):
+        raise ValueError(f"ladder: {ladder!r:.60}; expected a list of candidates, as a diagnosis has")
+    for index, rung in enumerate(ladder):
+        known = isinstance(rung, dict) and isinstance(rung.get("name"), str)
+        if not known or not isinstance(rung.get("claimed"), bool):
+            raise ValueError(f"ladder[{index}]: {rung!r:.60}; expected a candidate with name and claimed")
+        for field in ("z", "estimate") if rung["name"] in GUESSED else ():
+            value = rung.get(field)
+            if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+                raise ValueError(f"ladder[{index}], {field}: {value!r:.60}; expected a finite number")
+    return ladder
 
 
 def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:

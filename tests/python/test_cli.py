@@ -291,6 +291,7 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
         (("evaluate", "played.csv", "--json", "/dev/null"), "/dev/null: a device or a pipe; expected a file"),
         (("evaluate", "played.csv", "--json", "played.csv"), "played.csv: this file is read already"),
         (("evaluate", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
+        (("evaluate", "played.csv:0-60", "--json", "played.csv:0-60"), "played.csv:0-60: this file is read"),
         (("info", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
         (("evaluate", "played.csv:0-99999999999999999999"), "played.csv:0-99999999999999999999: there is no"),
         (

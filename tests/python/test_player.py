@@ -2,8 +2,10 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from pathlib import Path
+from typing import Any
 
 import diabolo
 import numpy as np
@@ -215,8 +217,33 @@ def test_bad_input_is_refused_in_a_sentence() -> None:
         TipLimits(speed=-1.0)
     with pytest.raises(ValueError, match="height"):
         diabolo.plan_action("throw", height=-0.5)
+    with pytest.raises(ValueError, match="spin_gain: nothing that hop can aim at"):
+        diabolo.plan_action("hop", spin_gain=5.0)
+    with pytest.raises(ValueError, match="solver: 'walk'"):
+        diabolo.plan_action("throw_and_catch", solver="walk")
+    with pytest.raises(ValueError, match="models: none"):
+        diabolo.success_rate(diabolo.plan_action("hop"), [])
     with pytest.raises(ValueError, match="left tip z, highest"):
         diabolo.plan(start, seed, Goals(taut=1.0), limits=TipLimits(highest=[2.0, 2.0, 1.0]))
+
+
+@pytest.mark.parametrize(
+    ("result", "words"),
+    [
+        ({}, "ladder: None"),
+        ({"ladder": 5}, "ladder: 5; expected a list"),
+        ({"ladder": [{}]}, r"ladder\[0\]"),
+        ({"ladder": [{"name": "magnus_lift", "claimed": False}]}, r"ladder\[0\], z: None"),
+        ({"ladder": [{"name": "magnus_lift", "claimed": False, "z": math.nan, "estimate": 1.0}]}, "z: nan"),
+    ],
+)
+def test_a_diagnosis_that_is_none_is_refused(result: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        diabolo.best_guess(Model(), result)
+
+
+def test_a_search_may_take_any_time() -> None:
+    assert diabolo.plan_action("hop", seconds=math.inf).reached
 
 
 def test_command_writes_what_the_readers_read(command: Command, tmp_path: Path) -> None:
@@ -268,6 +295,7 @@ def test_command_complains_in_one_sentence(command: Command, tmp_path: Path) -> 
         (["throw", "--limit", "speed=0"], "speed"),
         (["throw", "--out", str(tmp_path / "plan.txt")], "ends in .csv"),
         (["throw", "--cycles", "3"], "not caught"),
+        (["hop", "--goal", "spin=5"], "nothing that hop can aim at"),
         (["hop", "--limit", "joint_speed=2"], "with --robots only"),
         (["hop", "--diagnosis", __file__], "no JSON"),
     ):

@@ -72,7 +72,7 @@ inline Alternative drag_in_wind(const Fit& fit, const ActiveSet& set, std::strin
   double& quadratic = result.at[index_of(Unknown::kQuadraticDrag)];
   const double speed =
       std::clamp(quadratic > 0.0 ? std::sqrt(push.norm() / quadratic) : push.norm() / linear, 0.5, 5.0);
-  if (!(quadratic > 0.0)) quadratic = linear / speed;
+  if (!(quadratic > 0.0)) quadratic = std::min(info_of(Unknown::kQuadraticDrag).maximum, linear / speed);
   result.at.segment<2>(kWind) = push.normalized() * speed;
   result.at.segment<2>(kTilt).setZero();
   return result;

@@ -99,6 +99,11 @@ inline ActiveSet nuisances() {
 /// Of a form that no law has: asked about by name alone, to see that it does not win.
 inline bool is_placebo(const Candidate& candidate) { return candidate.name.starts_with("placebo"); }
 
+/// Physics that there may be.
+inline bool is_law(const Candidate& candidate) {
+  return candidate.kind == CandidateKind::kPhysics && !is_placebo(candidate);
+}
+
 /// The candidates that a diagnosis chooses from.
 using Bank = std::vector<const Candidate*>;
 
@@ -113,9 +118,9 @@ inline std::string_view alternative_to(std::string_view name) {
   return name == "frame_rate" ? "length_scale" : "";
 }
 
-/// All of them, or those of some names, as far as they can be missing in a base: a base that has a spin
-/// coupling leaves it to be fitted, and one with the Earth's gravity has it right. In another one gravity is
-/// asked about, and not the scale of lengths, which acts alike and is the better known. What is an
+/// All of them but placebos, or those of some names, as far as they can be missing in a base: a base that has
+/// a spin coupling leaves it to be fitted, and one with the Earth's gravity has it right. In another one
+/// gravity is asked about, and not the scale of lengths, which acts alike and is the better known. What is an
 /// alternative to another fault comes in by exchange_claims(). Throws std::invalid_argument about a name that
 /// is none.
 inline Bank bank_for(const Parameters<double>& base, const std::vector<std::string>& names) {

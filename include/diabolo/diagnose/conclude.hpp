@@ -39,7 +39,7 @@ inline void withdraw_what_cannot_be(Diagnosis& d) {
 inline const Candidate* physics_instead(const Evidence& evidence, const Bank& bank, const ActiveSet& set,
                                         const Candidate& fault) {
   for (const Candidate* other : bank) {
-    if (other->kind != CandidateKind::kPhysics || is_in(set, *other)) continue;
+    if (!is_law(*other) || is_in(set, *other)) continue;
     const Standing beside = standing(evidence, with(set, *other));
     const double z = significance(*other, beside);
     if ((other->positive ? z : std::abs(z)) < kMayBe) continue;
@@ -48,8 +48,8 @@ inline const Candidate* physics_instead(const Evidence& evidence, const Bank& ba
   return nullptr;
 }
 
-/// No fault is claimed that may as well be physics. (To be asked last: what a fault is exchanged for is asked
-/// of claims.)
+/// No fault is claimed that may as well be physics. (To be asked after exchange_claims(), which tries others
+/// in the place of claims.)
 inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence, const Bank& bank,
                                          const ActiveSet& set) {
   for (Finding& f : d.findings) {
@@ -82,8 +82,9 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
 
 /// No physics is claimed without which what was left out is predicted better, nor tips somewhere else unless
 /// it is predicted worse without, where that can be said: six numbers explain much that nobody knows. (Of
-/// other faults this is not asked: what one of them does, tips elsewhere could do as well.) Returns the least
-/// sure physics that was withdrawn, which the model has to do without; null where there is none.
+/// other faults this is not asked: what one of them does, tips elsewhere could do as well; nor of what acts
+/// on the spin, which positions hardly show.) Returns the least sure physics that was withdrawn, which the
+/// model has to do without; null where there is none.
 inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
   const Finding* weakest = nullptr;
   for (Finding& f : d.findings) {
@@ -91,11 +92,8 @@ inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
     const bool said = any([](const auto&interval) { return interval.has_value(); }),
                helps = any([](const auto&interval) { return interval && interval->low > 0.0; }),
                harms = any([](const auto&interval) { return interval && interval->high < 0.0; });
-    const bool physics = f.candidate->kind == CandidateKind::kPhysics,
-               wrapped = d.at[index_of(Unknown::kWraps)] > 0.0,
-               rubs = first_of(*f.candidate) == Unknown::kFriction,
-               tips = first_of(*f.candidate) == Unknown::kLeftX;
-    const bool denied = physics ? harms && !is_of_spin(*f.candidate) && !(rubs && wrapped) : tips && said;
+    const bool physics = is_law(*f.candidate), tips = first_of(*f.candidate) == Unknown::kLeftX;
+    const bool denied = physics ? harms && !is_of_spin(*f.candidate) : tips && said;
     if (!f.claimed || helps || !denied) continue;
     f.claimed = false;
     f.reason = kDenied;
@@ -126,7 +124,7 @@ inline std::string tied_plainly(const Finding& finding) {
 inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
   const auto friction = std::ranges::find_if(
       d.findings, [](const Finding& f) { return f.candidate->name == "string_friction"; });
-  if (friction == d.findings.end()) return;
+  if (friction == d.findings.end() || !friction->claimed) return;
   Finding f = *friction;
   f.candidate = &candidate_of("string_wrap");
   f.estimate = fit.at;

@@ -28,8 +28,8 @@ namespace diabolo {
 struct DiagnosisOptions {
   Model base = consistent_model();  ///< the simulator that is asked about
   std::vector<Recording> holdout;   ///< to compare on; else recordings, or blocks, are left out in turn
-  std::vector<std::string> bank;    ///< names of the candidates; empty: all
-  double budget = 1e9;              ///< no new refit begins after it [s]
+  std::vector<std::string> bank;    ///< names of the candidates; empty: all but placebos
+  double budget = 1e9;              ///< nothing more is looked for after it [s]
   std::uint64_t seed = 1;           ///< of the bootstrap
   int threads = 0;                  ///< 0: one for every processor; the result is the same
 };
@@ -145,9 +145,13 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
                       std::back_inserter(exchanged));
     if (fit.delay == before || elapsed() > options.budget) break;
     fit.noise_is_known = false;
+    std::erase_if(exchanged, [](const Exchange& e) {  // what is asked again
+      return e.name != "string_wrap" && alternative_to(e.name) != "time_offset";
+    });
     for (const Candidate* candidate : bank)
       if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kRestitution)
         set = with(set, *candidate);
+    if (std::ranges::none_of(fit.stages, &Stage::has_spin)) without_spin(bank, set);
   }
   std::vector<const Candidate*> denied;
   for (;;) {
@@ -162,10 +166,14 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
     if (options.bank.empty() || std::ranges::count(options.bank, "gyroscopic_tilt") > 0)
       result.findings.push_back(find_axle_motion(fit, result.model));
     withdraw_what_cannot_be(result);
-    withdraw_what_may_be_physics(result, evidence, bank, set);
+    Bank possible = bank;
+    for (const Candidate* candidate : denied) std::erase(possible, candidate);
+    withdraw_what_may_be_physics(result, evidence, possible, set);
     for (const Exchange& exchange : exchanged)
       for (Finding& f : result.findings)
         if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
+    for (const Candidate* candidate : denied)
+      for (Finding& f : result.findings) std::erase(f.tied_with, candidate->name);
     for (const Exchange& exchange : exchanged)
       if (exchange.name == "string_wrap") claim_wraps(result, fit, exchange.z);
     std::vector<ActiveSet> without;
@@ -178,11 +186,12 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
       result.findings[i].worsening_ci95 = result.heldout.worsening_ci95[i];
     const Candidate* physics_denied = withdraw_what_left_out_data_deny(result);
     for (const Candidate* candidate : denied) say_denied(result, *candidate);
-    if (physics_denied == nullptr || elapsed() > options.budget) break;
+    if (physics_denied == nullptr) break;
     denied.push_back(physics_denied);
     set = with(set, *physics_denied, false);
-    for (const Unknown u : physics_denied->unknowns) fit.at[index_of(u)] = fit.centre[index_of(u)];
-    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is left", 0.83));
+    for (int u = 0; u < kUnknowns; ++u)
+      if (!set[u]) fit.at[u] = fit.centre[u];
+    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is left", 0.85));
   }
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
   if (withdraw_what_does_not_help(result)) result.model = options.base;

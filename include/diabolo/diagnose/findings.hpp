@@ -186,13 +186,13 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
                              : "sure, and large enough to matter";
     if (f.claimed && candidate.kind == CandidateKind::kPhysics)
       for (const Candidate* other : bank)
-        if (other->kind == CandidateKind::kPhysics && other != member &&
-            is_tied(evidence, set, candidate, *other))
+        if (is_law(*other) && other != member && is_tied(evidence, set, candidate, *other))
           f.tied_with.emplace_back(other->name);
     f.confidence = !f.claimed ? 0.0 : !f.tied_with.empty() ? 0.5 : confidence_of(std::abs(f.z));
     result.findings.push_back(f);
   }
   for (int k = 0; k < kLatents; ++k) {
+    if (set[kLatentFirst + k]) continue;  // a placebo
     ActiveSet with_latent = set;
     with_latent[kLatentFirst + k] = true;
     const Standing own = standing(evidence, with_latent);

@@ -54,9 +54,10 @@ struct HeldOutRecording {
   std::vector<UnknownVector> without;
 };
 
-/// Scaled unknowns in SI units, within their bounds.
-inline UnknownVector within_bounds(const UnknownVector& scaled) {
+/// Scaled unknowns in SI units, within their bounds, with the wraps that are tried and never free.
+inline UnknownVector within_bounds(const UnknownVector& scaled, const Fit& fit) {
   UnknownVector at = scaled.cwiseProduct(scales());
+  at[index_of(Unknown::kWraps)] = fit.at[index_of(Unknown::kWraps)];
   for (int u = 0; u < kUnknowns; ++u) {
     const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
     at[u] = std::clamp(at[u], info.minimum, info.maximum);
@@ -72,9 +73,9 @@ inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& e
                                                const std::vector<Recording>& holdout) {
   std::vector<HeldOutRecording> result;
   const auto add = [&](Recording recording, const std::vector<bool>& left_out) {
-    result.push_back({std::move(recording), within_bounds(evidence.solve_without(free, left_out)), {}});
+    result.push_back({std::move(recording), within_bounds(evidence.solve_without(free, left_out), fit), {}});
     for (const ActiveSet& set : without)
-      result.back().without.push_back(within_bounds(evidence.solve_without(set, left_out)));
+      result.back().without.push_back(within_bounds(evidence.solve_without(set, left_out), fit));
   };
   std::vector<bool> nothing;
   for (const Stage& stage : fit.stages) nothing.resize(nothing.size() + stage.windows.size());

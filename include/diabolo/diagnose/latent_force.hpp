@@ -8,7 +8,8 @@
 namespace diabolo {
 
 /// Constant accelerations in the directions that tell physics apart, by the string's state: how a diagnosis
-/// sees where something is missing before it has a name for it.
+/// sees where something is missing before it has a name for it. And a law that nothing obeys, to be offered
+/// to it.
 template <class Scalar>
 struct LatentForce : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "latent_force";

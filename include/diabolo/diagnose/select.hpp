@@ -70,15 +70,19 @@ inline double significance(const Candidate& candidate, const Standing& standing)
 /// box in the covariance's measure, found coordinate by coordinate.
 inline double beyond_box(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance, double half) {
   if (!(covariance.diagonal().minCoeff() > 0.0)) return 0.0;
-  constexpr int kSweeps = 100;
+  constexpr int kMostSweeps = 10000;
   const Eigen::Index n = x.size();
   const Eigen::MatrixXd precision = solve_symmetric(covariance, Eigen::MatrixXd::Identity(n, n));
   Eigen::VectorXd rest = x - x.cwiseMin(half).cwiseMax(-half);  // x less a point of the box
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
+  double moved = 1.0;  // in a sweep, at most [standard deviations given the others]
+  for (int sweep = 0; sweep < kMostSweeps && moved > 1e-6; ++sweep) {
+    moved = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double best = rest[i] - precision.row(i).dot(rest) / precision(i, i);
+      const double before = rest[i], best = before - precision.row(i).dot(rest) / precision(i, i);
       rest[i] = std::clamp(best, x[i] - half, x[i] + half);
+      moved = std::max(moved, std::abs(rest[i] - before) * std::sqrt(precision(i, i)));
     }
+  }
   return normal_equivalent(rest, covariance);
 }
 

@@ -26,6 +26,19 @@ Vector3<D> low_passed(const Vector3<D>& y, const Vector3<D>& from, const Vector3
   return y * kept + from * D(share - kept) + to * D(D(1.0) - share);
 }
 
+/// Body to world.
+inline Eigen::Matrix3d frame_of(const OrientationTrack& track, Eigen::Index row) {
+  return Eigen::Quaterniond(Eigen::Vector4d(track.quaternion.col(row))).toRotationMatrix();
+}
+
+/// The same where it is first seen in a window; zero where it never is.
+inline Eigen::Matrix3d first_frame(const Stage& stage, const FitWindow& window) {
+  const OrientationTrack& track = stage.recording.diabolo_orientation;
+  for (Eigen::Index row = window.first; stage.has_orientation && row <= window.last; ++row)
+    if (track.valid[row]) return frame_of(track, row);
+  return Eigen::Matrix3d::Zero();
+}
+
 /// Moves a centre to where the markers say that it is, in a body that lies as `frame`.
 template <class D>
 void move_to_marker(Vector3<D>& centre, const Eigen::Matrix3d& frame, const UnknownVector& at) {
@@ -99,14 +112,12 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
   const bool filtered = delay == Delay::kFilter;
   const D lag = D(lag_of(at)) + (detail::unknown(Unknown::kLag, at) - D(at[index_of(Unknown::kLag)]));
   Vector3<D> centre_before, trail = r.diabolo.position.col(window.first).template cast<D>();
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Zero();  ///< body to world, as last seen
+  Eigen::Matrix3d frame = detail::first_frame(stage, window);  ///< body to world, as last seen
   Eigen::VectorXd line(n + 1);
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
     const bool turned = stage.has_orientation && r.diabolo_orientation.valid[row];
-    if (turned)
-      frame =
-          Eigen::Quaterniond(Eigen::Vector4d(r.diabolo_orientation.quaternion.col(row))).toRotationMatrix();
+    if (turned) frame = detail::frame_of(r.diabolo_orientation, row);
     Vector3<D> centre = state.position;
     const double pull = value_of(squared_norm(state.string_acceleration));
     if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
@@ -128,8 +139,9 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
         system.lost = 3 * static_cast<int>(r.diabolo.valid.segment(row, window.last - row + 1).count());
         break;
       }
-      // (What a filtered track begins with is taken from it.)
-      const bool known = (!stage.has_orientation || turned) && !(filtered && row == window.first);
+      // (What a filtered track begins with is taken from the first row, which then says nothing; nor may it
+      // under another delay, which is compared with this one.)
+      const bool known = (!stage.has_orientation || turned) && row > window.first;
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = seen[c] - centre[c].value;
         line.head(n) = centre[c].gradient.matrix().template cast<double>();

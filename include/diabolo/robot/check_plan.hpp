@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,7 @@ struct PlanCheck {
 /// std::invalid_argument where the motion is too short to start and stop in.
 inline PlanCheck check_plan(const StickPlanner& planner, const TipMotion<double>& motion,
                             double least_clearance = 0.10) {
+  if (!std::isfinite(least_clearance)) throw std::invalid_argument("least_clearance: must be finite");
   PlanCheck check;
   const auto trouble = [&check](double time, const std::string& who, const std::string& why,
                                 const Vector3<double>& tip) {

@@ -72,7 +72,7 @@ def add_parser(commands: Any) -> None:
         "--out", metavar="DIR", help=f"folder for {REPORT_FILE}, {RESULT_FILE} and {MODEL_FILE}"
     )
     parser.add_argument(
-        "--budget", metavar="SECONDS", type=float, default=1e9, help="begin no new refit after so long"
+        "--budget", metavar="SECONDS", type=float, default=1e9, help="look for nothing more after so long"
     )
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the intervals; default: 1")
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
@@ -135,9 +135,10 @@ def check_written(file: Path, model: Model, arguments: argparse.Namespace, calib
         here = evaluate(excerpts, model, starts_every=BETWEEN_CHECKS, threads=arguments.threads).to_dict()
     except ValueError:  # no start that an evaluation takes
         return
-    command = [sys.executable, "-m", "diabolo", "evaluate", *arguments.recordings, "--model", str(file)]
-    command += ["--starts", f"every={BETWEEN_CHECKS}", "--json", files.STDOUT]
-    command += ["--calibration", arguments.calibration] if arguments.calibration else []
+    command = [sys.executable, "-m", "diabolo", "evaluate", f"--model={file}", f"--json={files.STDOUT}"]
+    command += [f"--starts=every={BETWEEN_CHECKS}"]
+    command += [f"--calibration={arguments.calibration}"] if arguments.calibration else []
+    command += ["--", *arguments.recordings]
     environment = {**os.environ, "PYTHONSAFEPATH": "1"}
     process = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     found = _means(json.loads(process.stdout)) if process.returncode == 0 else process.stderr.strip()

@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> None:
     inputs = [split_excerpt(text)[0] for text in arguments.recordings]
     inputs += [text for text in arguments.model or () if text not in DEFAULT_MODELS]
     inputs += [arguments.calibration] if arguments.calibration else []
-    files.check_outputs([arguments.json, arguments.plot], inputs)
+    files.check_outputs([arguments.json, arguments.plot], [*inputs, *arguments.recordings])
     if arguments.plot is not None:
         from . import plots
 

@@ -140,7 +140,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.recording:
         model = model_for(model, load_recording(arguments.recording))
     if arguments.diagnosis:
-        model = best_guess(model, _read_diagnosis(Path(arguments.diagnosis)))
+        result = _read_diagnosis(Path(arguments.diagnosis))
+        try:
+            model = best_guess(model, result)
+        except ValueError as error:
+            raise ValueError(f"{arguments.diagnosis}: {error}") from None
     played = plan_action(
         arguments.action,
         model,
@@ -264,7 +268,7 @@ def text_of(found: dict[str, Any]) -> str:
 def _read_diagnosis(path: Path) -> dict[str, Any]:
     try:
         result = json.loads(path.read_text())
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ValueError(f"{path}: no JSON: {error}") from None
     if not isinstance(result, dict) or result.get("schema") != DIAGNOSIS_SCHEMA:
         raise ValueError(f"{path}: expected a file of the schema {DIAGNOSIS_SCHEMA}")

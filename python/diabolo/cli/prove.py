@@ -163,7 +163,9 @@ def run(arguments: argparse.Namespace) -> None:
     minutes = getattr(arguments, "minutes", math.inf)
     if not minutes > 0.0:
         raise ValueError(f"--minutes: {minutes}; expected more than 0")
-    files.check_outputs([arguments.json], [])
+    name = getattr(arguments, "name", None)
+    own = [path for folder in ("batches", "results") for path in (sources / folder).glob(f"{name}.*")]
+    files.check_outputs([arguments.json, getattr(arguments, "out", None)], own)
     with progress_steps() as report:
         places = commands.Places(sources, Path(BUILD), Path(arguments.plant), report)
         status = _act(commands, places, arguments, cases, minutes)
@@ -183,6 +185,5 @@ def _act(commands: Any, places: Any, arguments: argparse.Namespace, cases: int, 
     elif what == "score":
         status = commands.score_batch(places, arguments.name, arguments.tool, arguments.jobs, json_file)
     else:
-        files.check_outputs([arguments.out], [])
         status = commands.write_page(places, arguments.name, Path(arguments.out))
     return int(status)

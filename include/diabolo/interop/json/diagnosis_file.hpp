@@ -59,8 +59,11 @@ inline const char* direction_of(const Candidate& candidate) {
       return "vertical";
     case Unknown::kGravity:
       return candidate.kind == CandidateKind::kPhysics ? "vertical" : "measurement";
+    case Unknown::kPlacebo:
+      return "horizontal";
     case Unknown::kFriction:
     case Unknown::kWraps:
+    case Unknown::kStringTangent:
       return "string_tangent";
     case Unknown::kGyroscopicGain:
       return "axle";

@@ -93,6 +93,10 @@ inline Json parameters_of(const Finding& f, double given_length, double given_gr
     }
     case kGyroscopicGain:
       return Json::array({plain("gain", kGyroscopicGain, "1/m")});
+    case kPlacebo:
+      return Json::array({plain("rate", kPlacebo, "1/s")});
+    case kStringTangent:
+      return Json::array({plain("acceleration", kStringTangent, "m/s^2")});
     case kLift:
       return Json::array({plain("coefficient", kLift, "1/rad")});
     case kStringMass:

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/alternatives.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+Fit tilted(double x, double y) {
+  Fit fit;
+  fit.at[index_of(Unknown::kTiltX)] = x;
+  fit.at[index_of(Unknown::kTiltY)] = y;
+  return fit;
+}
+
+bool has(const std::vector<Alternative>& others, std::string_view name) {
+  return std::ranges::any_of(others, [&](const Alternative& a) { return a.name == name; });
+}
+
+}  // namespace
+
+TEST_CASE("the wind in place of a drag and a tilt pushes as the tilt did") {
+  Fit fit = tilted(0.02, -0.03);
+  const auto speed_and_push = [](const Alternative& a) {
+    const Eigen::Vector2d wind = a.at.segment<2>(index_of(Unknown::kWindX));
+    return std::pair(wind.norm(),
+                     Eigen::Vector2d(a.at[index_of(Unknown::kQuadraticDrag)] * wind.norm() * wind));
+  };
+  const Eigen::Vector2d wanted = kStandardGravity * Eigen::Vector2d(0.02, -0.03);
+  SECTION("of a linear drag, which is k w") {
+    fit.at[index_of(Unknown::kLinearDrag)] = 0.15;
+    const Alternative a =
+        drag_in_wind(fit, with(nuisances(), candidate_of("air_drag_linear")), "air_drag_linear");
+    const auto [speed, push] = speed_and_push(a);
+    CHECK((push - wanted).norm() < 1e-12);
+    CHECK(a.at[index_of(Unknown::kQuadraticDrag)] * speed == Approx(0.15));
+    CHECK_FALSE(is_in(a.set, candidate_of("air_drag_linear")));
+  }
+  SECTION("of a quadratic one") {
+    fit.at[index_of(Unknown::kQuadraticDrag)] = 0.04;
+    const Alternative a =
+        drag_in_wind(fit, with(nuisances(), candidate_of("air_drag_quadratic")), "air_drag_quadratic");
+    const auto [speed, push] = speed_and_push(a);
+    CHECK((push - wanted).norm() < 1e-12);
+    CHECK(a.at[index_of(Unknown::kQuadraticDrag)] == 0.04);
+  }
+}
+
+TEST_CASE("a drag without a tilt begins in a weak wind, within bounds") {
+  Fit fit = tilted(0.0, 0.0);
+  fit.at[index_of(Unknown::kLinearDrag)] = 0.9;
+  const Alternative a =
+      drag_in_wind(fit, with(nuisances(), candidate_of("air_drag_linear")), "air_drag_linear");
+  CHECK(a.at.allFinite());
+  CHECK(a.at[index_of(Unknown::kQuadraticDrag)] <= info_of(Unknown::kQuadraticDrag).maximum);
+}
+
+TEST_CASE("a delay may be a low pass or a lag once, and no lead is either") {
+  Fit fit;
+  fit.at[index_of(Unknown::kTimeOffset)] = -0.02;
+  CHECK(has(alternatives_to("time_offset", fit, nuisances()), "filter_lag"));
+  CHECK(has(alternatives_to("time_offset", fit, nuisances()), "robot_servo_lag"));
+  fit.delay = Delay::kFilter;
+  CHECK(alternatives_to("time_offset", fit, nuisances()).empty());
+  fit.delay = Delay::kClock;
+  fit.at[index_of(Unknown::kTimeOffset)] = 0.02;
+  CHECK(alternatives_to("time_offset", fit, nuisances()).empty());
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/conclude.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+using Worsening = std::vector<std::optional<Interval>>;
+
+Finding claim(std::string_view name, double z, Worsening worsening) {
+  Finding f;
+  f.candidate = &candidate_of(name);
+  f.z = z;
+  f.claimed = f.material = f.sure = true;
+  f.worsening_ci95 = std::move(worsening);
+  return f;
+}
+
+bool stands(const Diagnosis& d, std::string_view name) {
+  return std::ranges::any_of(d.findings,
+                             [&](const Finding& f) { return f.claimed && f.candidate->name == name; });
+}
+
+}  // namespace
+
+TEST_CASE("physics stands unless what was left out is predicted better without it") {
+  const Worsening better_without{Interval{-3e-3, -5e-4}, Interval{-4e-3, 1e-3}, std::nullopt},
+      nothing_said{Interval{-1e-3, 2e-3}, std::nullopt}, mixed{Interval{-3e-3, -5e-4}, Interval{1e-3, 4e-3}};
+  Diagnosis d;
+  d.findings = {claim("string_elasticity", 12.0, better_without), claim("string_friction", 6.0, nothing_said),
+                claim("air_drag_linear", 5.0, mixed), claim("spin_drag", 30.0, better_without),
+                claim("marker_offset", 20.0, better_without)};
+  CHECK(withdraw_what_left_out_data_deny(d) == &candidate_of("string_elasticity"));
+  CHECK_FALSE(stands(d, "string_elasticity"));
+  CHECK(d.withdrawn);
+  for (const std::string_view name : {"string_friction", "air_drag_linear", "spin_drag", "marker_offset"}) {
+    CAPTURE(name);
+    CHECK(stands(d, name));
+  }
+  CHECK(withdraw_what_left_out_data_deny(d) == nullptr);
+}
+
+TEST_CASE("of two that are denied the less sure goes first") {
+  const Worsening better_without{Interval{-3e-3, -5e-4}};
+  Diagnosis d;
+  d.findings = {claim("stick_flex", 9.0, better_without), claim("string_mass", 5.0, better_without)};
+  CHECK(withdraw_what_left_out_data_deny(d) == &candidate_of("string_mass"));
+}
+
+TEST_CASE("tips stand only where left-out data are predicted worse without, or say nothing") {
+  Diagnosis helps, idle, silent;
+  helps.findings = {claim("stick_tip_offset", 20.0, {Interval{1e-4, 2e-3}})};
+  idle.findings = {claim("stick_tip_offset", 20.0, {Interval{-1e-4, 2e-3}})};
+  silent.findings = {claim("stick_tip_offset", 20.0, {std::nullopt})};
+  for (Diagnosis* d : {&helps, &idle, &silent}) CHECK(withdraw_what_left_out_data_deny(*d) == nullptr);
+  CHECK(stands(helps, "stick_tip_offset"));
+  CHECK_FALSE(stands(idle, "stick_tip_offset"));
+  CHECK(stands(silent, "stick_tip_offset"));
+}
+
+TEST_CASE("a wrap is claimed beside friction that is") {
+  Fit fit;
+  Diagnosis with, without;
+  with.findings = {claim("string_friction", 20.0, {})};
+  without.findings = with.findings;
+  without.findings.front().claimed = false;
+  claim_wraps(with, fit, 8.0);
+  claim_wraps(without, fit, 8.0);
+  CHECK(stands(with, "string_wrap"));
+  CHECK_FALSE(stands(without, "string_wrap"));
+}
