@@ -27,7 +27,7 @@ def check_outputs(
     for given in inputs:
         path = Path(given)
         taken[path.resolve()] = "read"
-        if path.suffix != ".json":  # a tidy recording's other half
+        if path.name and path.suffix != ".json":  # a tidy recording's other half
             taken[path.with_suffix(".json").resolve()] = "read"
     for output in outputs:
         if output is None or output == STDOUT:
