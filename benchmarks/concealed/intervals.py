@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Intervals of rates and medians that assume nothing about distributions."""
+"""Intervals of rates and medians, which assume nothing about distributions, and of means."""
 
 from __future__ import annotations
 
 import functools
 import math
+import statistics
 from collections.abc import Callable, Sequence
 
 
@@ -63,3 +64,12 @@ def median_interval(values: Sequence[float], level: float = 0.95) -> tuple[float
     if rank < 0 or not ordered:
         return None
     return ordered[rank], ordered[len(ordered) - 1 - rank]
+
+
+def mean_interval(values: Sequence[float]) -> tuple[float, float] | None:
+    """95 % of a mean, as if normally distributed; None of fewer than two values."""
+    if len(values) < 2:
+        return None
+    reach = 1.96 * statistics.stdev(values) / math.sqrt(len(values))
+    middle = statistics.fmean(values)
+    return middle - reach, middle + reach

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import statistics
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -63,9 +64,9 @@ def median(
 
 
 def mean(name: str, values: Sequence[float], most: float) -> Score:
-    """Without an interval: judged as it is."""
-    value = sum(values) / len(values) if values else None
-    return Score(name, value, None, len(values), None if value is None else (value, value), None, most)
+    """With the interval of a normal distribution."""
+    interval = intervals.mean_interval(values)
+    return Score(name, statistics.fmean(values) if values else None, None, len(values), interval, None, most)
 
 
 def _of(verdicts: list[Verdict], *arms: str) -> list[Verdict]:

@@ -402,3 +402,11 @@ def test_a_tie_that_the_data_break_is_not_owed(keys: list[dict[str, Any]]) -> No
     oracle, other = kept(right(key)), kept(result([], z=29.9))
     assert judge.judge(key, oracle, oracle, other).tie_is_real
     assert not judge.judge(key, oracle, oracle, kept(result([], z=29.0))).tie_is_real
+
+
+def test_the_interval_of_a_mean_is_of_the_values_spread() -> None:
+    assert intervals.mean_interval([1.0]) is None
+    assert intervals.mean_interval([2.0, 2.0, 2.0]) == (2.0, 2.0)
+    low, high = intervals.mean_interval([1.0, 3.0] * 50) or (0.0, 0.0)
+    assert 0.5 * (low + high) == pytest.approx(2.0)
+    assert high - low == pytest.approx(2.0 * 1.96 * 0.1, rel=0.01)
