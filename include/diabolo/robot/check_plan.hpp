@@ -35,7 +35,7 @@ struct PlanCheck {
 };
 
 /// Looks at every tick of the motion. `least_clearance` [m] is what must stay between the arms. Throws
-/// std::invalid_argument where the motion is too short to start and stop in.
+/// std::invalid_argument where that is not finite, or the motion is too short to start and stop in.
 inline PlanCheck check_plan(const StickPlanner& planner, const TipMotion<double>& motion,
                             double least_clearance = 0.10) {
   if (!std::isfinite(least_clearance)) throw std::invalid_argument("least_clearance: must be finite");
