@@ -72,13 +72,13 @@ def low_passed(values: Array, interval: float, tau: float) -> Array:
     return result
 
 
-def slopes(values: Array, interval: float, reach: int = 2) -> Array:
-    """Rates of change, by parabolas through each value and its neighbours."""
+def slopes(values: Array, interval: float, reach: int = 4) -> Array:
+    """Rates of change, by cubics through each value and its neighbours."""
     offsets = np.arange(-reach, reach + 1)
     padded = np.concatenate(
         [2.0 * values[0] - values[reach:0:-1], values, 2.0 * values[-1] - values[-2 : -reach - 2 : -1]]
     )
-    weights = offsets / (np.sum(offsets**2) * interval)
+    weights = np.linalg.pinv(np.vander(offsets, 4, increasing=True))[1] / interval
     return np.convolve(padded, weights[::-1], mode="valid")
 
 

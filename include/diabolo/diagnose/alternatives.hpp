@@ -52,11 +52,11 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
   return result;
 }
 
-/// Whether wraps of the string are worth a trial: it seems shorter, or to rub harder, than it should, on a
-/// spin that was seen.
+/// Whether wraps of the string are worth a trial, which multiply friction by three to five: it rubs no less
+/// than three times what the smoothest string does, on a spin that was seen.
 inline bool may_be_wrapped(const Fit& fit) {
   return fit.at[index_of(Unknown::kWraps)] == 0.0 && std::ranges::all_of(fit.stages, &Stage::has_spin) &&
-         (fit.at[index_of(Unknown::kFriction)] > 0.35 || fit.at[index_of(Unknown::kStringLength)] < -0.02);
+         fit.at[index_of(Unknown::kFriction)] > 0.1;
 }
 
 /// A drag by the square of the speed relative to a wind, in place of a drag and a tilt. To a diabolo that is
@@ -75,6 +75,18 @@ inline Alternative drag_in_wind(const Fit& fit, const ActiveSet& set, std::strin
   if (!(quadratic > 0.0)) quadratic = std::min(info_of(Unknown::kQuadraticDrag).maximum, linear / speed);
   result.at.segment<2>(kWind) = push.normalized() * speed;
   result.at.segment<2>(kTilt).setZero();
+  return result;
+}
+
+/// A wrong rate of the frames in place of a wrong scale: recorded gravity and string stay as long.
+inline Alternative rate_for_scale(const Fit& fit, const ActiveSet& set) {
+  Alternative result{"frame_rate", fit.delay, set, fit.at};
+  result.set[index_of(Unknown::kLengthScale)] = false;
+  result.set[index_of(Unknown::kGravity)] = true;
+  const double scale = fit.at[index_of(Unknown::kLengthScale)];
+  double& length = result.at[index_of(Unknown::kStringLength)];
+  length += scale * (fit.stages.front().recording.string_length + length);
+  result.at[index_of(Unknown::kGravity)] = scale * kStandardGravity;
   return result;
 }
 
@@ -97,10 +109,7 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
         others.back().at[index_of(Unknown::kTimeOffset)] *= 1.0 - share;
       }
   } else if (name == "length_scale" && !set[index_of(Unknown::kGravity)]) {
-    ActiveSet rate = set;
-    rate[index_of(Unknown::kLengthScale)] = false;
-    rate[index_of(Unknown::kGravity)] = true;
-    others.push_back({"frame_rate", fit.delay, rate, fit.at});
+    others.push_back(rate_for_scale(fit, set));
   } else if (name == "gravity_tilt" && absent("wind") && !absent("air_drag_quadratic")) {
     // (In a drag that is linear it is exactly that tilt: nothing could tell, and a tilt is the likelier one.)
     others.push_back(drag_in_wind(fit, with(set, candidate_of(name), false), "air_drag_quadratic"));
@@ -217,7 +226,9 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
     double least = fit.cost;
     for (const Option& option : options)
       if (option.sure) least = std::min(least, option.fit.cost);
-    const double before_cost = fit.cost, worse = 9.0 * fit.dispersion + kSameResidual * least;
+    // What the model does not describe is the same whether the string is wrapped or not.
+    const double imprecision = name == "string_friction" ? 0.0 : kSameResidual;
+    const double before_cost = fit.cost, worse = 9.0 * fit.dispersion + imprecision * least;
     std::erase_if(options, [&](const Option& option) { return option.fit.cost - least >= worse; });
     const bool fault = finding.candidate->kind == CandidateKind::kMeasurement;
     const Option best = std::ranges::min(options, {}, [&](const Option& option) {

@@ -46,7 +46,10 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   auto& loss = model.effects.get<SpinLoss>();
   loss.air += std::max(0.0, x(Unknown::kSpinAir));
   loss.axle += std::max(0.0, x(Unknown::kSpinAxle));
-  model.effects.get<FiniteAxle>().radius += std::max(0.0, x(Unknown::kAxleRadius));
+  if (x(Unknown::kAxleRadius) > 0.0) {
+    model.parameters.axle_radius = model.effects.get<FiniteAxle>().radius = x(Unknown::kAxleRadius);
+    model.own_axle_radius = true;
+  }
   return model;
 }
 

@@ -98,7 +98,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   result.base_gravity = physics.parameters.gravity;
   result.base_string_length = parameters_for(physics, recordings.front()).string_length;
   step("reading the motion", 0.0);
-  Fit fit = detail::prepared(recordings);
+  Fit fit = detail::prepared(recordings, physics);
   result.reason = detail::insufficient(fit.stages);
   if (!result.reason.empty()) {
     result.model = options.base;

@@ -19,14 +19,16 @@ inline constexpr double kSoftStart = 3e-3;
 namespace detail {
 
 /// Recordings made ready, and what is expected of the unknowns.
-inline Fit prepared(const std::vector<Recording>& recordings) {
+inline Fit prepared(const std::vector<Recording>& recordings, const Model& physics) {
   Fit fit;
   for (const Recording& recording : recordings) {
     fit.stages.push_back(make_stage(recording));
     fit.noise.emplace_back();
   }
   // A string's centre line lies half its thickness outside the axle: some 0.7 mm.
-  fit.centre[index_of(Unknown::kAxleRadius)] = fit.stages.front().recording.properties.axle_radius + 7e-4;
+  const double known = physics.effects.get<FiniteAxle>().radius;
+  fit.centre[index_of(Unknown::kAxleRadius)] =
+      known > 0.0 ? known : parameters_for(physics, recordings.front()).axle_radius + 7e-4;
   fit.centre[index_of(Unknown::kDamping)] = 10.0;
   fit.centre[index_of(Unknown::kTipMass)] = 0.011;  // of wooden and plastic sticks: 8 to 15 g
   fit.at = fit.centre;

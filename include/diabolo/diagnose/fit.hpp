@@ -17,7 +17,7 @@ namespace diabolo {
 /// Windows whose residuals are so many times those of the middle one count less and less: a mistimed catch
 /// says nothing of the forces. A first fit is more patient, lest it settle for what explains the most windows
 /// well and the others not at all.
-inline constexpr double kFarWindow = 2.0, kFarWindowAtFirst = 10.0;
+inline constexpr double kFarWindow = 1.5, kFarWindowAtFirst = 10.0;
 
 /// Tries at a step, each shorter than the one before.
 inline constexpr int kMostAttempts = 5;
@@ -63,6 +63,7 @@ struct Fit {
   Delay delay = Delay::kClock;
   double far_window = kFarWindow;
   bool noise_is_known = false;        ///< else it is estimated again in the first iterations
+  double usual = 1.0;                 ///< what the middle window leaves [noise]; settled with the noise
   std::vector<Stage> stages;          ///< with the fitted starts
   std::vector<CameraNoise> noise;     ///< of each stage
   std::vector<WindowSystem> systems;  ///< of all windows, stage after stage
@@ -101,15 +102,17 @@ inline void weigh(Fit& fit) {
   std::vector<double> sizes;
   for (const WindowScore& score : fit.scores)
     sizes.push_back(std::sqrt(score.chi_square / std::max(1, score.numbers)));
-  std::vector<double> sorted = sizes;
-  std::ranges::sort(sorted);
-  const double usual = sorted.empty() ? 1.0 : quantile(sorted, 0.5);
+  if (!fit.noise_is_known && !sizes.empty()) {
+    std::vector<double> sorted = sizes;
+    std::ranges::sort(sorted);
+    fit.usual = quantile(sorted, 0.5);
+  }
   fit.cost = 0.0;
   double chi_square = 0.0, numbers = 0.0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const WindowSystem& system = fit.systems[i];
     WindowScore& score = fit.scores[i];
-    const double far = std::max(fit.far_window * usual, 1e-12), off = sizes[i] / far, square = off * off;
+    const double far = std::max(fit.far_window * fit.usual, 1e-12), off = sizes[i] / far, square = off * off;
     score.weight = system.failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
     // What a window cannot tell since its prediction failed, or missed a catch, costs as much as if it were
     // infinitely far off: a better fit never pays more for seeing more.

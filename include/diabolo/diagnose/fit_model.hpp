@@ -60,7 +60,6 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   const D scale = D(1.0) + x(Unknown::kLengthScale);
   p.string_length = (p.string_length + x(Unknown::kStringLength)) * scale;
   p.gravity = (p.gravity + x(Unknown::kGravity)) * scale;
-  p.axle_radius = p.axle_radius * scale;
   p.spin_coupling = p.spin_coupling + x(Unknown::kSpinCoupling);
   p.wraps = p.wraps + D(at[index_of(Unknown::kWraps)]);
   FitPredictor::Set effects;
@@ -91,7 +90,8 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   auto& loss = effects.get<SpinLoss>();
   loss.air += x(Unknown::kSpinAir);
   loss.axle += x(Unknown::kSpinAxle);
-  effects.get<FiniteAxle>().radius += x(Unknown::kAxleRadius) * scale;
+  effects.get<FiniteAxle>().radius = x(Unknown::kAxleRadius) * scale;
+  p.axle_radius = effects.get<FiniteAxle>().radius;
   auto& latent = effects.get<LatentForce>();
   latent.string_tangent = x(Unknown::kStringTangent);
   latent.string_binormal = x(Unknown::kStringBinormal);

@@ -27,7 +27,7 @@ enum class Unknown : int {
   kRightZ,
   kStringLength,     ///< true less given [m]
   kSpinCoupling,     ///< of the string to the spin, less the base's [1/s]
-  kAxleRadius,       ///< that the string runs around, beyond the base's [m]
+  kAxleRadius,       ///< of the string's centre line around the axle: there it neither slips nor stretches [m]
   kGravity,          ///< magnitude, less the base's [m/s^2]
   kCompliance,       ///< of the string [m/N]
   kDamping,          ///< of the string [N s/m]; counts where there is compliance
@@ -101,7 +101,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"right_z", "m", 0.01, 0.005, -0.04, 0.04},
     {"string_length", "m", 0.01, 0.02, -0.08, 0.08},
     {"spin_coupling", "1/s", 0.1, 1.0, -1e3, 1e3},
-    {"axle_radius", "m", 0.001, 0.0007, 0.0, 0.03},
+    {"axle_radius", "m", 0.001, 0.0007, 0.001, 0.03},
     {"gravity", "m/s^2", 0.1, 0.0, -10.0, 10.0},
     {"compliance", "m/N", 1e-3, 3e-3, 0.0, 1.0 / 30.0},
     {"damping", "N s/m", 10.0, 10.0, 0.0, 1e3},
