@@ -71,3 +71,27 @@ TEST_CASE("a delay may be a low pass or a lag once, and no lead is either") {
   fit.at[index_of(Unknown::kTimeOffset)] = 0.02;
   CHECK(alternatives_to("time_offset", fit, nuisances()).empty());
 }
+
+TEST_CASE("a wrong rate begins where it moves as the wrong scale did") {
+  Fit fit;
+  fit.stages.emplace_back().recording.string_length = 1.4;
+  fit.at[index_of(Unknown::kLengthScale)] = -0.03;
+  fit.at[index_of(Unknown::kStringLength)] = 0.04;
+  const Alternative a = rate_for_scale(fit, with(nuisances(), candidate_of("length_scale")));
+  // Accelerations and lengths as they were recorded.
+  CHECK(kStandardGravity + a.at[index_of(Unknown::kGravity)] == Approx(0.97 * kStandardGravity));
+  CHECK(1.4 + a.at[index_of(Unknown::kStringLength)] == Approx(0.97 * 1.44));
+  CHECK(a.set[index_of(Unknown::kGravity)]);
+  CHECK_FALSE(a.set[index_of(Unknown::kLengthScale)]);
+}
+
+TEST_CASE("wraps are worth a trial where the string rubs") {
+  Fit fit;
+  fit.at[index_of(Unknown::kFriction)] = 0.15;
+  CHECK(has(alternatives_to("string_friction", fit, nuisances()), "string_wrap"));
+  fit.at[index_of(Unknown::kFriction)] = 0.05;
+  CHECK(alternatives_to("string_friction", fit, nuisances()).empty());
+  fit.at[index_of(Unknown::kFriction)] = 0.15;
+  fit.at[index_of(Unknown::kWraps)] = 1.0;
+  CHECK(alternatives_to("string_friction", fit, nuisances()).empty());
+}

@@ -28,7 +28,7 @@ Tips<double> hands(double t) {
 }
 
 /// What a camera sees of play that the full model with these effects predicts; not on the diagnosis' grid.
-Recording played(const AllEffects<double>& effects, double seconds, std::uint64_t seed) {
+Recording played(const AllEffects<double>& effects, double seconds, std::uint64_t seed, double wraps = 0.0) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> noise(0.0, kNoise);
   const Eigen::Index rows = static_cast<Eigen::Index>(seconds * kRate);
@@ -42,9 +42,10 @@ Recording played(const AllEffects<double>& effects, double seconds, std::uint64_
   for (Track* track : {&r.left, &r.right, &r.diabolo}) track->valid.setConstant(true);
   r.diabolo_orientation.valid.setConstant(true);
   AllEffects<double> all = effects;
-  all.get<FiniteAxle>().radius = r.properties.axle_radius + 7e-4;
   Parameters<double> parameters;
   parameters.mass = r.properties.mass;
+  parameters.wraps = wraps;
+  parameters.axle_radius = all.get<FiniteAxle>().radius = r.properties.axle_radius + 7e-4;
   const FullPredictor<double> predictor(parameters, all);
   State<double> state;
   state.position = Vector(0.0, 0.0, 0.58);
@@ -170,6 +171,21 @@ TEST_CASE("a placebo does not take the place of friction") {
   CHECK(claimed(d, "string_friction") != nullptr);
   for (const Finding& f : d.findings)
     if (is_placebo(*f.candidate)) CHECK_FALSE(f.claimed);
+}
+
+TEST_CASE("a string that is wrapped around the axle is no shorter one that rubs more") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.05;
+  const Diagnosis d = diagnose({played(effects, 14.0, 7, 1.0)});
+  CAPTURE(d.sentence);
+  CHECK(claimed(d, "string_wrap") != nullptr);
+  CHECK(claimed(d, "string_length") == nullptr);
+  const Finding* const friction = claimed(d, "string_friction");
+  REQUIRE(friction != nullptr);
+  const int u = index_of(Unknown::kFriction);
+  CAPTURE(friction->estimate[u], friction->deviation[u]);
+  CHECK(std::abs(friction->estimate[u] - 0.05) < 4.0 * friction->deviation[u]);
+  CHECK(d.model.parameters.wraps == 1.0);
 }
 
 TEST_CASE("the turning of the axle is measured, and too small to claim") {

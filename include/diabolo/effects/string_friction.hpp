@@ -12,7 +12,8 @@ namespace diabolo {
 /// leans from the bisector of its segments by F tanh(coefficient b / 2) tan(e), e half the angle between them
 /// (b = pi - 2 e, and 2 pi more for each wrap). The constraint keeps the normal force F; friction adds the
 /// tangential part, and takes energy exactly where the string slips against it. String on a plastic or metal
-/// axle: 0.1 to 0.35.
+/// axle: 0.1 to 0.35. The slip is that of the string's centre line, which passes a sticking axle at
+/// Parameters::axle_radius times its spin: give it half the string's thickness more than the bare axle has.
 ///
 /// The same difference of tensions turns the axle: dw/dt = spin_gain (T_right - T_left) / m, spin_gain = m r
 /// / I (4 to 9 1/m for the paper's diabolos). It adds to the model's spin rule, which stands for the same
