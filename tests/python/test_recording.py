@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import re
 from pathlib import Path
 
 import diabolo
@@ -298,3 +299,13 @@ def test_a_name_that_cannot_be_is_not_called_missing(played: Recording, tmp_path
         load_recording(path)
     with pytest.raises(RecordingError, match="the file cannot be written there: File name too long"):
         played.save(path)
+
+
+def test_the_page_shows_files_that_are_read(played: Recording, tmp_path: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "recordings.md").read_text(encoding="utf-8")
+    metadata, calibration = re.findall(r"```json\n(.*?)```", page, re.DOTALL)
+    played.save(tmp_path / "take.csv")
+    (tmp_path / "take.json").write_text(metadata)
+    assert load_recording(tmp_path / "take.csv").string_length == 1.46
+    (tmp_path / "calibration.json").write_text(calibration)
+    assert "stick_left" in Calibration.load(tmp_path / "calibration.json").to_json()

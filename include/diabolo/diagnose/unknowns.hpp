@@ -25,12 +25,12 @@ enum class Unknown : int {
   kRightX,
   kRightY,
   kRightZ,
-  kStringLength,  ///< true less given [m]
-  kSpinCoupling,  ///< of the string to the spin, less the base's [1/s]
-  kAxleRadius,    ///< of the string's centre line around the axle: there it neither slips nor stretches [m]
-  kGravity,       ///< magnitude, less the base's [m/s^2]
-  kCompliance,    ///< of the string [m/N]
-  kDamping,       ///< of the string [N s/m]; counts where there is compliance
+  kStringLength,     ///< true less given [m]
+  kSpinCoupling,     ///< of the string to the spin, less the base's [1/s]
+  kAxleRadius,       ///< of the string's centre line around the axle; slip and path count with it [m]
+  kGravity,          ///< magnitude, less the base's [m/s^2]
+  kCompliance,       ///< of the string [m/N]
+  kDamping,          ///< of the string [N s/m]; counts where there is compliance
   kStickCompliance,  ///< of one stick's tip [m/N]
   kStickDamping,     ///< of one stick's tip [N s/m]; counts where there is compliance
   kTipMass,          ///< of one stick's tip [kg]; counts where there is compliance

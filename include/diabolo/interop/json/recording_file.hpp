@@ -63,6 +63,9 @@ inline Recording load_recording(const std::filesystem::path& path,
         file_name + ", line 1: starts with " + shown(first_line) +
         "; expected a Motive export (\"Format Version,...\") or a tidy recording (\"time,...\")");
   const std::filesystem::path metadata = std::filesystem::path(path).replace_extension(".json");
+  if (!std::filesystem::exists(metadata))
+    throw RecordingError(file_name + ": expected " + metadata.string() +
+                         " beside it, which says the string's length, the rate and what the diabolo is like");
   return read_tidy(text, file_name, read_metadata(read_file(metadata), metadata.string()));
 }
 
