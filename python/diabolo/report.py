@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 SCHEMA = "diabolo.diagnosis/1"
 SIGNIFICANCE = 4.0
 """Standard deviations beyond which a candidate counts; kSignificance of the engine."""
+THRESHOLDS = {"physics": SIGNIFICANCE, "measurement": 5.0}
+"""By kind of candidate; the other is kSignificanceOfFault."""
 LONGEST_BAR = 3.0 * SIGNIFICANCE
 CLIPPED = 6.0
 FIRST_RECORDINGS = 4
@@ -62,8 +64,7 @@ def report_html(result: dict[str, Any]) -> str:
             strips=_strips(result.get("locate") or {}),
             first_strips=FIRST_RECORDINGS,
             ladder=_ladder(result),
-            threshold=f"{SIGNIFICANCE:g}",
-            threshold_percent=100.0 * SIGNIFICANCE / LONGEST_BAR,
+            thresholds=[f"{z:g}" for z in THRESHOLDS.values()],
             ties=_ties(result),
             nuisances=[
                 [_named(row), quantity(row.get("value"), row.get("unit"), row.get("ci90"))]
@@ -80,6 +81,7 @@ def report_html(result: dict[str, Any]) -> str:
                 for row in _rows(result, "upper_limits")
             ],
             experiments=[_experiment(row) for row in _rows(result, "next_experiment")],
+            takes=_joined(Path(str(row.get("file"))).stem for row in _rows(result, "inputs")),
             inputs=[[row.get("file"), (row.get("sha256") or "")[:16]] for row in _rows(result, "inputs")],
             noise=[
                 [
@@ -214,20 +216,20 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
     }.get(fit.get("heldout") or "", "data that the fit did not see")
     where = f"On {held_out}, the prediction's position error after {quantity(horizon, 's')}"
     windows = f" ({fit['windows']} windows)" if fit.get("windows") is not None else ""
-    tile = f"{quantity(base, 'm')}"
+    tile = _millimetres(base)
     if augmented is None:
         sentence = f"{where} is {tile}{windows}. There is no corrected simulator to compare with."
     else:
-        tile += f" → {quantity(augmented, 'm')}"
+        tile += f" → {_millimetres(augmented)}"
         share = (
             f" ({percent(abs(augmented / base - 1.0))} {'less' if augmented <= base else 'more'})"
             if base
             else ""
         )
-        sentence = f"{where} goes from {quantity(base, 'm')} to {quantity(augmented, 'm')}{share}{windows}. "
+        sentence = f"{where} goes from {_millimetres(base)} to {_millimetres(augmented)}{share}{windows}. "
         sentence += _improvement(base - augmented, interval)
         if start is not None:
-            sentence += f" The noise of the starts alone would make {quantity(start, 'm')}."
+            sentence += f" The noise of the starts alone would make {_millimetres(start)}."
     table = [
         [
             quantity(row[0], "s"),
@@ -250,7 +252,7 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
 
 
 def _millimetres(length: float | None, interval: Any = None) -> str:
-    """For columns, whose numbers compare at a glance only in one unit."""
+    """For errors, which compare at a glance only in one unit."""
     ends = [None if end is None else 1e3 * end for end in interval] if interval else None
     return quantity(None if length is None else 1e3 * length, "mm", ends)
 
@@ -258,7 +260,7 @@ def _millimetres(length: float | None, interval: Any = None) -> str:
 def _improvement(gain: float, interval: Any) -> str:
     if not interval or None in interval:
         return "How sure this is, the result does not say."
-    shown = f"The improvement is {quantity(gain, 'm', interval)}, with its 95 % interval"
+    shown = f"The improvement is {_millimetres(gain, interval)}, with its 95 % interval"
     if interval[0] > 0.0:
         return f"{shown}, which excludes zero."
     verdict = "it predicts worse" if interval[1] < 0.0 else "zero is inside, so no improvement is shown"
@@ -342,6 +344,7 @@ def _ladder(result: dict[str, Any]) -> list[dict[str, Any]]:
             "kind": row.get("kind") or "other",
             "claimed": bool(row.get("claimed")),
             "z": "no z" if row.get("z") is None else f"{abs(row['z']):.1f}",
+            "threshold": 100.0 * THRESHOLDS.get(row.get("kind") or "", SIGNIFICANCE) / LONGEST_BAR,
             "bar": 100.0 * min(abs(row.get("z") or 0.0) / LONGEST_BAR, 1.0),
             "beyond": abs(row.get("z") or 0.0) > LONGEST_BAR,
             "reason": row.get("reason") or ("no reason given" if not row.get("claimed") else ""),
@@ -376,11 +379,10 @@ def _ties(result: dict[str, Any]) -> list[str]:
 
 
 def _experiment(row: dict[str, Any]) -> list[Any]:
-    odds, parts = row.get("odds"), row.get("parts") or []
+    parts = row.get("parts") or []
     return [
         words(row.get("motion")),
         [f"{words(part)} ({part})" for part in parts] or ["not given"],
-        "not known" if odds is None else f"{odds:.3g} to 1",
         quantity(row.get("seconds"), "s"),
     ]
 
@@ -402,8 +404,7 @@ def _picture(figure: Figure) -> str:
 
 
 def _error_figure(rows: list[Any]) -> Figure:
-    largest = max(number for row in rows for number in row[1:3] if number is not None)
-    factor, unit = (1e3, "mm") if largest < 0.2 else (1e2, "cm")
+    factor = 1e3
     figure = _figure(5.6, 3.6)
     axes = figure.add_subplot()
     axes.plot([r[0] for r in rows], [factor * r[1] for r in rows], "o--", color=BEFORE, lw=2, label="base")
@@ -419,9 +420,7 @@ def _error_figure(rows: list[Any]) -> Figure:
     if starts:
         made = [factor * r[4] for r in starts]
         axes.plot([r[0] for r in starts], made, ":", color=BEFORE, lw=1.6, label="noise of the starts")
-    axes.set(
-        xlabel="time predicted ahead [s]", ylabel=f"position error [{unit}]", ylim=(0, None), xlim=(0, None)
-    )
+    axes.set(xlabel="time predicted ahead [s]", ylabel="position error [mm]", ylim=(0, None), xlim=(0, None))
     axes.grid(alpha=0.25)
     axes.legend(frameon=False, loc="upper left")
     return figure

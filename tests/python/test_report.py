@@ -137,10 +137,9 @@ INVENTED: dict[str, Any] = {
         {
             "motion": "high_throw",
             "parts": ["air_drag_linear", "air_drag_quadratic"],
-            "odds": 20.0,
             "seconds": 12.0,
         },
-        {"motion": "two_spin_directions", "parts": ["magnus_lift"], "odds": 6.4, "seconds": 20.0},
+        {"motion": "two_spin_directions", "parts": ["magnus_lift"], "seconds": 20.0},
     ],
     "model": "model.json",
     "seconds": 12.3,

@@ -19,6 +19,9 @@ namespace diabolo {
 /// three standard deviations' worth: the model itself is no better.
 inline constexpr double kSameResidual = 0.01;
 
+/// By how much a wrapped string may differ from its given length [m].
+inline constexpr double kWrappedLength = 0.03;
+
 /// Another explanation, which takes the place of the first in a fit of its own.
 struct Alternative {
   std::string_view name;
@@ -196,6 +199,10 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
       refine<D>(trial, base, other.set, kIterations, threads, watch);
+      // A wrap is there to explain why the string is short: with one, its length must be right.
+      if (other.name == "string_wrap" &&
+          std::abs(trial.at[index_of(Unknown::kStringLength)]) > kWrappedLength)
+        continue;
       const Candidate& young = candidate_of(other.name);
       bool sure = true;
       if (is_in(other.set, young)) {
