@@ -29,7 +29,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove prove-player mujoco sanitize \
+.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove prove-player mujoco browser sanitize \
   fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
@@ -133,7 +133,11 @@ prove-player: $(VENV)/.package ## Play a few plans on the independent plant, and
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test mujoco sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, sanitizers, fuzzing, stress
+test-all: test mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots' library, the proofs, sanitizers, fuzzing, stress
+
+browser: $(VENV)/.package-with-tests # The report and the view as a person sees them.
+	@$(packages) browser
+	@$(VENV)/bin/python -m pytest -m browser tests/heavy
 
 mujoco: $(VENV)/.package-with-tests
 	@$(packages) mujoco

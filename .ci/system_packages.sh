@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Usage: system_packages.sh GROUP...   with groups build, test, plant, ur-rtde, bench, lint, mujoco
+# Usage: system_packages.sh GROUP...   with groups build, test, plant, ur-rtde, bench, lint, mujoco, browser
 # Looks for what the groups need and installs with apt-get what is missing; asks for nothing when all is there.
 set -euo pipefail
 
@@ -60,8 +60,9 @@ missing_packages() {
       has_fuzzer || echo libclang-rt-dev
       ;;
     mujoco) ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri ;;
+    browser) has_command chromium || echo chromium ;;
     *)
-      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, ur-rtde, bench, lint or mujoco" >&2
+      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, ur-rtde, bench, lint, mujoco or browser" >&2
       exit 2
       ;;
   esac

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""The report and the view in a real browser, Debian's chromium: their scripts run, their pictures show."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import diabolo
+import matplotlib.image
+import numpy as np
+import pytest
+
+BROWSER = shutil.which("chromium")
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(BROWSER is None, reason="chromium is not installed: apt-get install chromium"),
+]
+
+RECORDINGS = Path(__file__).resolve().parents[2] / "data" / "recordings"
+# What a script of the page's own can see once it has loaded, written where the DOM's text shows it.
+LOOK = """<script>addEventListener("load", () => setTimeout(() => {
+  const root = document.documentElement;
+  root.dataset.pictures = [...document.images].filter(i => i.complete && i.naturalWidth > 0).length;
+  root.dataset.missing = [...document.images].filter(i => !(i.complete && i.naturalWidth > 0)).length;
+  root.dataset.overflow = Math.max(0, root.scrollWidth - innerWidth);
+}, 500));</script>"""
+
+
+def opened(page: Path, width: int, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Opens a page without any network; ends by itself."""
+    command = [
+        str(BROWSER),
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--hide-scrollbars",
+        "--enable-logging=stderr",
+        "--host-resolver-rules=MAP * ~NOTFOUND",
+        f"--user-data-dir={page.parent / 'profile'}",
+        f"--window-size={width},900",
+        "--virtual-time-budget=4000",
+        *arguments,
+        page.as_uri(),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    assert "Uncaught" not in done.stderr, done.stderr
+    return done
+
+
+def document(page: Path, width: int) -> str:
+    return opened(page, width, "--dump-dom").stdout
+
+
+def colors(page: Path, width: int) -> int:
+    """How many colours a picture of the page has."""
+    picture = page.with_suffix(".png")
+    opened(page, width, f"--screenshot={picture}")
+    pixels = matplotlib.image.imread(picture)[..., :3].reshape(-1, 3)
+    return len(np.unique(np.round(pixels, 2), axis=0))
+
+
+def seen(dom: str, name: str) -> int:
+    found = re.search(rf'data-{name}="(\d+)"', dom)
+    assert found is not None, dom[:300]
+    return int(found[1])
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    from diabolo.report import report_html
+
+    result = diabolo.diagnose(diabolo.load_recording(RECORDINGS / "swing.csv")).to_dict()
+    page = tmp_path_factory.mktemp("report") / "report.html"
+    page.write_text(report_html(result).replace("</body>", LOOK + "</body>"), encoding="utf-8")
+    return page
+
+
+@pytest.mark.parametrize("width", [1280, 500])
+def test_a_report_shows_its_pictures_and_fits_the_window(report: Path, width: int) -> None:
+    dom = document(report, width)
+    assert seen(dom, "pictures") >= 2
+    assert seen(dom, "missing") == 0
+    assert seen(dom, "overflow") == 0
+    assert colors(report, width) > 50
+
+
+def test_a_view_plays_and_draws(tmp_path: Path) -> None:
+    page = tmp_path / "view.html"
+    page.write_text(diabolo.view_html(diabolo.load_recording(RECORDINGS / "throw.csv")), encoding="utf-8")
+    dom = document(page, 1000)
+    clock = re.search(r'id="clock">([0-9.]+) of', dom)
+    assert clock is not None, dom[-500:]
+    assert float(clock[1]) > 0.0, "the play does not run"
+    assert colors(page, 1000) > 20
