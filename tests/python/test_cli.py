@@ -273,6 +273,7 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
         (("evaluate", "."), ".: a directory; expected a file"),
         (("evaluate", "played.csv:0-481"), "rows 0 to 481; expected 0 <= first <= last < 481"),
         (("evaluate", "played.csv:9-3"), "rows 9 to 3"),
+        (("evaluate", "played.csv:0-3", "--starts", "every=0.1"), "played.csv:0-3: no start to predict from"),
         (
             ("evaluate", "played.csv", "--model", "ours"),
             "model ours: no such file; expected published, paper",

@@ -32,7 +32,8 @@ PAPER_NOTE = "program: the authors' program, run again on the same rows; printed
 
 HORIZON_NOTE = """\
 distance between predicted and recorded diabolo [m] at a time after the start, over many starts
-baseline: the diabolo rests at the lowest point of the string; intervals: of the mean, by block bootstrap"""
+baseline: the diabolo rests at the lowest point of the string; intervals: of the mean, by block bootstrap
+too few starts: they overlap, and fewer than five stretches of that length stand alone"""
 
 
 def add_parser(commands: Any) -> None:
@@ -91,6 +92,11 @@ def run(arguments: argparse.Namespace) -> None:
     result = evaluate_excerpts(
         excerpts, models, starts_every=starts_every, seed=arguments.seed, threads=arguments.threads
     )
+    if result.horizons and not any(row.score.windows for row in result.horizons):
+        raise ValueError(
+            f"{', '.join(arguments.recordings)}: no start to predict from; expected the diabolo and both tips "
+            "to be seen for some tenths of a second without a gap"
+        )
     if arguments.plot is not None:
         plots.draw_errors(arguments.plot, result, excerpts, models)
     files.write_json(arguments.json, result.to_dict())
