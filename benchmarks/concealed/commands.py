@@ -155,7 +155,10 @@ def write_page(places: Places, name: str, out: Path) -> int:
         if (other := places.results(name, f".{tool}.score.json")).exists()
     }
     sealed = seal.read(places.published(name))
-    written = page.write(out, name, sealed, result, others)
+    try:
+        written = page.write(out, name, sealed, result, others)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"{path}: not scores as they are written now ({error!r}); score again") from error
     print("; ".join(str(path) for path in written))
     return 0
 

@@ -107,8 +107,17 @@ def seal(
 def read(published: Path) -> dict[str, Any]:
     """A sealed batch."""
     found = files.read_json(published, "a sealed batch (diabolo prove seal)")
-    if found.get("schema") != SCHEMA:
-        raise ValueError(f"{published}: schema {found.get('schema')!r}; expected {SCHEMA!r}")
+    schema = found.get("schema") if isinstance(found, dict) else None
+    if schema != SCHEMA:
+        raise ValueError(f"{published}: schema {schema!r}; expected {SCHEMA!r}")
+    lacking = [
+        field for field in ("commit", "plant", "seed", "cases", "arms", "sealed") if field not in found
+    ]
+    if lacking:
+        raise ValueError(f"{published}: lacks {', '.join(lacking)}; expected a sealed batch")
+    for number, entry in enumerate(found["sealed"]):
+        if not isinstance(entry, dict) or not {"case", "recording", "key"} <= entry.keys():
+            raise ValueError(f"{published}: sealed[{number}]: expected case, recording and key")
     return dict(found)
 
 

@@ -194,6 +194,23 @@ def test_a_changed_recording_breaks_the_seal(sealed: tuple[dict[str, Any], batch
         seal.check_recordings(description, store)
 
 
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda batch: batch["sealed"], "schema None"),
+        (lambda batch: {**batch, "schema": "other"}, "schema 'other'"),
+        (lambda batch: {k: v for k, v in batch.items() if k not in ("seed", "arms")}, "lacks seed, arms"),
+        (lambda batch: {**batch, "sealed": [{"case": "case_0001"}]}, r"sealed\[0\]: expected case"),
+    ],
+)
+def test_a_broken_batch_is_told(
+    sealed: tuple[dict[str, Any], batch.Store], tmp_path: Path, change: Any, said: str
+) -> None:
+    files.write_json(tmp_path / "broken.json", change(sealed[0]))
+    with pytest.raises(ValueError, match=rf"broken\.json: {said}"):
+        seal.read(tmp_path / "broken.json")
+
+
 def test_a_resumed_run_equals_an_unbroken_one(tmp_path: Path) -> None:
     cases = [f"case_{number:04d}" for number in range(1, 9)]
 
