@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import math
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -66,9 +67,35 @@ def parameter_fit(path: Path) -> dict[str, Any]:
     return _restricted(path, MEASUREMENT)
 
 
+def bic(path: Path) -> dict[str, Any]:
+    """The bank with Schwarz's criterion alone: whatever lowers chi^2 by more than the logarithm of the number
+    of data is claimed, however small, and whether or not left-out data is predicted better."""
+    result = full(path)
+    least = math.sqrt(math.log(3.0 * len(load_recording(path))))
+    claimed = [rung for rung in result["ladder"] if rung["z"] is not None and abs(rung["z"]) > least]
+    kinds = {rung["kind"] for rung in claimed}
+    headline = "NAMED" if "physics" in kinds else "MEASUREMENT_FAULT" if kinds else "NOTHING_MISSING"
+    if result["headline"] == "INSUFFICIENT_DATA":
+        return result
+    effects = [
+        {
+            "name": rung["name"],
+            "kind": rung["kind"],
+            "material": True,
+            "tied_with": [],
+            "p_value": rung["p_value"],
+            "confidence": None,
+            "parameters": [],
+        }
+        for rung in sorted(claimed, key=lambda rung: -abs(rung["z"]))
+    ]
+    return {**result, "headline": headline, "effects": effects}
+
+
 TOOLS: dict[str, Tool] = {
     "diagnose": full,
     "no_faults": no_faults,
     "parameter_fit": parameter_fit,
+    "bic": bic,
     "sindy": sindy.diagnose,
 }

@@ -94,7 +94,7 @@ def run(arguments: argparse.Namespace) -> None:
     )
     if result.horizons and not any(row.score.windows for row in result.horizons):
         raise ValueError(
-            f"{', '.join(arguments.recordings)}: no start to predict from; expected the diabolo and both tips "
+            f"{', '.join(arguments.recordings)}: no start to predict from; expected diabolo and both tips "
             "to be seen for some tenths of a second without a gap"
         )
     if arguments.plot is not None:

@@ -115,7 +115,7 @@ def _add_tool(parser: argparse.ArgumentParser, suppress: bool) -> None:
         "--tool",
         metavar="TOOL",
         default=_default("diagnose", suppress),
-        help="diagnose (default), or a baseline: no_faults, parameter_fit, sindy",
+        help="diagnose (default), or a baseline: no_faults, parameter_fit, bic, sindy",
     )
 
 
