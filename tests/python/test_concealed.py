@@ -29,6 +29,7 @@ from concealed import (  # noqa: E402
     score,
     seal,
     tables,
+    tools,
 )
 from concealed.answer import kept  # noqa: E402
 from concealed.names import MEASUREMENT, NEVER_AT_WORK, PHYSICS, faults_among, physics_among  # noqa: E402
@@ -209,6 +210,21 @@ def test_a_broken_batch_is_told(
     files.write_json(tmp_path / "broken.json", change(sealed[0]))
     with pytest.raises(ValueError, match=rf"broken\.json: {said}"):
         seal.read(tmp_path / "broken.json")
+
+
+def test_a_criterion_alone_claims_whatever_lowers_chi_square(monkeypatch: pytest.MonkeyPatch) -> None:
+    rungs = [
+        ("wind", "physics", -3.5),
+        ("string_length", "measurement", 2.0),
+        ("body_swap", "measurement", None),
+    ]
+    ladder = [{"name": name, "kind": kind, "z": z, "p_value": 0.1} for name, kind, z in rungs]
+    found = {"headline": "NOTHING_MISSING", "effects": [], "ladder": ladder}
+    monkeypatch.setattr(tools, "full", lambda path: found)
+    monkeypatch.setattr(tools, "load_recording", lambda path: range(1000))  # sqrt(ln 3000) = 2.8
+    answer = tools.bic(Path("take.csv"))
+    assert [effect["name"] for effect in answer["effects"]] == ["wind"]
+    assert answer["headline"] == "NAMED"
 
 
 def test_a_resumed_run_equals_an_unbroken_one(tmp_path: Path) -> None:
