@@ -34,7 +34,7 @@ def numbers(pattern: str, text: str) -> list[float]:
 
 
 def test_there_are_examples() -> None:
-    assert [example.name[:2] for example in EXAMPLES] == ["01", "02", "03", "04"]
+    assert [example.name[:2] for example in EXAMPLES] == ["01", "02", "03", "04", "06"]
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
@@ -82,3 +82,12 @@ def test_the_iteration_converges(tmp_path: Path) -> None:
     output = run(EXAMPLES[3], tmp_path)
     misses = [float(miss) for miss in re.findall(r"off by +([\d.]+) mm", output)]
     assert len(misses) == 5 and misses[0] > 10.0 and misses[2] < 0.1 and misses[4] == 0.0
+
+
+def test_what_was_found_helps_on_another_recording(tmp_path: Path) -> None:
+    output = run(EXAMPLES[4], tmp_path)
+    (friction,) = numbers(r"string_friction, coefficient: ([\d.]+)", output)
+    assert friction == pytest.approx(0.3, abs=0.03)
+    (before,) = numbers(r"consistent: .*?([\d.]+) after 0.5 s", output)
+    (after,) = numbers(r"diagnosed: .*?([\d.]+) after 0.5 s", output)
+    assert after < 0.3 * before
