@@ -133,7 +133,7 @@ prove-player: $(VENV)/.package ## Play a few plans on the independent plant, and
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots' library, the proofs, sanitizers, fuzzing, stress
+test-all: test mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
 
 browser: $(VENV)/.package-with-tests # The report and the view as a person sees them.
 	@$(packages) browser

@@ -71,12 +71,12 @@ def bic(path: Path) -> dict[str, Any]:
     """The bank with Schwarz's criterion alone: whatever lowers chi^2 by more than the logarithm of the number
     of data is claimed, however small, and whether or not left-out data is predicted better."""
     result = full(path)
+    if result["headline"] == "INSUFFICIENT_DATA":
+        return result
     least = math.sqrt(math.log(3.0 * len(load_recording(path))))
     claimed = [rung for rung in result["ladder"] if rung["z"] is not None and abs(rung["z"]) > least]
     kinds = {rung["kind"] for rung in claimed}
     headline = "NAMED" if "physics" in kinds else "MEASUREMENT_FAULT" if kinds else "NOTHING_MISSING"
-    if result["headline"] == "INSUFFICIENT_DATA":
-        return result
     effects = [
         {
             "name": rung["name"],

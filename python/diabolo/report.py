@@ -404,21 +404,20 @@ def _picture(figure: Figure) -> str:
 
 
 def _error_figure(rows: list[Any]) -> Figure:
-    factor = 1e3
     figure = _figure(5.6, 3.6)
     axes = figure.add_subplot()
-    axes.plot([r[0] for r in rows], [factor * r[1] for r in rows], "o--", color=BEFORE, lw=2, label="base")
+    axes.plot([r[0] for r in rows], [1e3 * r[1] for r in rows], "o--", color=BEFORE, lw=2, label="base")
     after = [row for row in rows if row[2] is not None]
     style: dict[str, Any] = {"color": AFTER, "lw": 2.4}
-    axes.plot([r[0] for r in after], [factor * r[2] for r in after], "o-", label="corrected", **style)
+    axes.plot([r[0] for r in after], [1e3 * r[2] for r in after], "o-", label="corrected", **style)
     sure = [row for row in after if row[3] and None not in row[3]]
-    low = [factor * max(r[1] - r[3][1], 0.0) for r in sure]
-    high = [factor * (r[1] - r[3][0]) for r in sure]
+    low = [1e3 * max(r[1] - r[3][1], 0.0) for r in sure]
+    high = [1e3 * (r[1] - r[3][0]) for r in sure]
     label = "95 % of the improvement"
     axes.fill_between([r[0] for r in sure], low, high, color=AFTER, alpha=0.2, lw=0, label=label)
     starts = [row for row in rows if row[4] is not None]
     if starts:
-        made = [factor * r[4] for r in starts]
+        made = [1e3 * r[4] for r in starts]
         axes.plot([r[0] for r in starts], made, ":", color=BEFORE, lw=1.6, label="noise of the starts")
     axes.set(xlabel="time predicted ahead [s]", ylabel="position error [mm]", ylim=(0, None), xlim=(0, None))
     axes.grid(alpha=0.25)
