@@ -82,7 +82,9 @@ TEST_CASE("Files of other kinds are refused") {
         "x.csv, line 1: starts with \"t,error\"; expected a Motive export (\"Format "
         "Version,...\") or a tidy recording (\"time,...\")");
   CHECK(says("") == "x.csv: the file is empty");
-  CHECK(says(test::tidy_text()).starts_with("x.csv: expected x.json beside it, which says"));
+  CHECK(says(test::tidy_text()) == "x.csv: expected " + (folder / "x.json").string() +
+                                       " beside it, which says the string's length, the rate and what the "
+                                       "diabolo is like");
   write(folder / "x.json", "{");
   CHECK(says(test::tidy_text()) == "x.json, line 1, column 2: this is not JSON (or the file is cut off)");
   write(folder / "x.json", kMetadata);
