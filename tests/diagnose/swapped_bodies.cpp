@@ -108,3 +108,55 @@ TEST_CASE("an exchange across a dropout is found as soon as two bodies are seen 
   CHECK(unswap(r).count == 58);
   CHECK(r.left.position.col(330) == given.left.position.col(330));
 }
+
+namespace {
+
+/// Sticks that point along `left` and `right`, horizontally.
+Recording pointing(double left_degrees, double right_degrees) {
+  Recording r = played();
+  const auto turn = [&](OrientationTrack& track, double degrees) {
+    const double half = 0.5 * degrees / 180.0 * 3.14159265358979;
+    track.quaternion.colwise() = Eigen::Vector4d(0.0, 0.0, std::sin(half), std::cos(half));
+  };
+  turn(r.left_orientation, left_degrees);
+  turn(r.right_orientation, right_degrees);
+  return r;
+}
+
+/// The player and all that is played, turned about the vertical.
+Recording turned(Recording r, double degrees) {
+  const double angle = degrees / 180.0 * 3.14159265358979;
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  r.left.position = (rotation * r.left.position).eval();
+  r.right.position = (rotation * r.right.position).eval();
+  for (OrientationTrack* track : {&r.left_orientation, &r.right_orientation})
+    for (Eigen::Index i = 0; i < r.size(); ++i)
+      track->quaternion.col(i) =
+          (Eigen::Quaterniond(rotation) * Eigen::Quaterniond(Eigen::Vector4d(track->quaternion.col(i))))
+              .coeffs();
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("sticks under each other's names lie on each other's sides, whichever way the player looks") {
+  const Recording given = pointing(-10.0, 15.0);
+  for (const double degrees : {0.0, 77.0, 180.0, 250.0}) {
+    const Recording r = turned(given, degrees);
+    CHECK(sticks_are_exchanged(r) == std::optional<bool>(false));
+    CHECK(sticks_are_exchanged(with_sticks_exchanged(r)) == std::optional<bool>(true));
+  }
+}
+
+TEST_CASE(
+    "sides say nothing of sticks that face each other, are crossed for a while, or were not seen to point") {
+  CHECK(!sticks_are_exchanged(pointing(-80.0, 80.0)));
+  Recording crossed = pointing(0.0, 0.0);
+  crossed.left.position.leftCols(300).row(1).setConstant(-0.4);
+  CHECK(!sticks_are_exchanged(crossed));
+  Recording unseen = pointing(0.0, 0.0);
+  unseen.left_orientation.valid.head(700).setConstant(false);
+  CHECK(!sticks_are_exchanged(unseen));
+  unseen.left_orientation = {};
+  CHECK(!sticks_are_exchanged(unseen));
+}

@@ -113,8 +113,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   set[index_of(Unknown::kRestitution)] = false;
   if (set[index_of(Unknown::kGravity)]) set[index_of(Unknown::kLengthScale)] = false;  // see bank_for()
   if (std::ranges::none_of(fit.stages, &Stage::has_spin)) without_spin(bank, set);
-  // Another delay than was thought at first changes what all else looks like: with it everything is asked
-  // again.
+  // Another delay than was thought at first changes what all else looks like, and so do springs so soft that
+  // the diabolo's bounce on them is seen: then everything is asked again.
   std::vector<Exchange> exchanged;
   for (bool again = false;; again = true) {
     const Watch everything = step("fitting everything", again ? 0.6 : 0.15);
@@ -143,8 +143,11 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
     std::ranges::move(exchange_claims<D>(fit, bank, set, draft, physics, options.threads,
                                          step("trying other explanations", again ? 0.8 : 0.5)),
                       std::back_inserter(exchanged));
-    if (fit.delay == before || elapsed() > options.budget) break;
+    const bool soft = !fit.bounces && detail::is_bouncy(fit.at);
+    if ((fit.delay == before && !soft) || elapsed() > options.budget) break;
     fit.noise_is_known = false;
+    fit.bounces = fit.bounces || soft;
+    if (fit.delay == before) exchanged.clear();
     std::erase_if(exchanged, [](const Exchange& e) {  // what is asked again
       return e.name != "string_wrap" && alternative_to(e.name) != "time_offset";
     });
@@ -227,14 +230,25 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
   check_threads(options.threads);
   long swapped = 0, frames = 0;
-  for (Recording& recording : recordings) {
-    swapped += static_cast<long>(unswap(recording).count);
-    frames += static_cast<long>(recording.size());
-  }
-  for (Recording& recording : options.holdout) unswap(recording);
+  std::string reason = "bodies jump to each other's places and back";
+  bool sides_are_seen = false;
+  for (std::vector<Recording>* list : {&recordings, &options.holdout})
+    for (Recording& recording : *list) {
+      long own = static_cast<long>(unswap(recording).count);
+      const std::optional<bool> exchanged = sticks_are_exchanged(recording);
+      if (exchanged.value_or(false)) {
+        recording = with_sticks_exchanged(std::move(recording));
+        own = static_cast<long>(recording.size());
+        reason = "seen along the sticks, the left one is on the right";
+      }
+      if (list != &recordings) continue;
+      sides_are_seen = sides_are_seen || exchanged;
+      swapped += own;
+      frames += static_cast<long>(recording.size());
+    }
   bool backwards = false, still = false;
   Diagnosis result = detail::diagnose_named<D>(recordings, options, watch, backwards);
-  if (backwards) {
+  if (backwards && !sides_are_seen) {
     for (std::vector<Recording>* list : {&recordings, &options.holdout})
       for (Recording& recording : *list) recording = with_sticks_exchanged(std::move(recording));
     Diagnosis exchanged = detail::diagnose_named<D>(recordings, options, watch, still);
@@ -244,13 +258,11 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
     if (rubs && !still) {
       result = std::move(exchanged);
       swapped += frames;
+      reason = "friction would give energy unless the sticks are exchanged";
     }
   }
   const bool asked = options.bank.empty() || std::ranges::count(options.bank, "body_swap") > 0;
-  if (swapped > 0 && asked && result.reason.empty())
-    detail::claim_swap(result, swapped,
-                       swapped >= frames ? "friction would give energy unless the sticks are exchanged"
-                                         : "bodies jump to each other's places and back");
+  if (swapped > 0 && asked && result.reason.empty()) detail::claim_swap(result, swapped, reason);
   if (watch.progress) watch.progress("done", 1.0);
   return result;
 }

@@ -64,6 +64,7 @@ struct Fit {
   double far_window = kFarWindow;
   bool noise_is_known = false;        ///< else it is estimated again in the first iterations
   double usual = 1.0;                 ///< what the middle window leaves [noise]; settled with the noise
+  bool bounces = false;               ///< windows may begin in the middle of a bounce on soft springs
   std::vector<Stage> stages;          ///< with the fitted starts
   std::vector<CameraNoise> noise;     ///< of each stage
   std::vector<WindowSystem> systems;  ///< of all windows, stage after stage
@@ -142,7 +143,7 @@ void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
   for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
     const auto [stage, w] = jobs[i];
     fit.systems[i] = window_system<D>(fit.stages[stage], grids[stage], fit.stages[stage].windows[w],
-                                      models[stage], fit.at, fit.delay);
+                                      models[stage], fit.at, fit.delay, fit.bounces);
   });
   weigh(fit);
 }

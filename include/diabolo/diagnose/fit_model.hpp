@@ -36,9 +36,15 @@ inline FitDual unknown(Unknown u, const UnknownVector& at) {
 /// Softer than this [m/N] the string's own oscillation is slow enough for the step of a diagnosis; a stiffer
 /// one follows its tension at once (see string_shift), and only its mean stretch can be seen.
 inline constexpr double kSoftString = 3e-4;
-inline bool dynamic_spring(const UnknownVector& at) {
-  return at[index_of(Unknown::kCompliance)] + 2.0 * at[index_of(Unknown::kStickCompliance)] > kSoftString;
+inline double compliance_of(const UnknownVector& at) {
+  return at[index_of(Unknown::kCompliance)] + 2.0 * at[index_of(Unknown::kStickCompliance)];
 }
+inline bool dynamic_spring(const UnknownVector& at) { return compliance_of(at) > kSoftString; }
+
+/// From such springs on [m/N] a bounce is so slow and wide that a window's start shows it. (On stiffer ones
+/// it drowns in the noise, and a start is better at rest.)
+inline constexpr double kBouncyString = 0.012;
+inline bool is_bouncy(const UnknownVector& at) { return compliance_of(at) > kBouncyString; }
 
 using FitPredictor =
     Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
@@ -184,9 +190,22 @@ void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPred
   state.velocity = state.velocity - gradient * D(rate / (squared_norm(gradient) + D(1e-6)));
 }
 
+/// The pull of a string that is longer than its rest, in place of what a rigid one would have.
+template <class D>
+void pull_as_stretched(State<D>& state, Tips<D> tips, const D& rigid, const FitPredictor& predictor) {
+  const TipShift<D> shift = predictor.effects().tip_shift(state, tips, predictor.parameters());
+  tips.left += shift.left;
+  tips.right += shift.right;
+  const StringNow<D> string = predictor.effects().string_at(
+      predictor.effects().string(predictor.parameters()), state, tips, predictor.parameters());
+  const D stretch = StringPath<D>(state.position, tips).length() - string.length;
+  state.string_acceleration =
+      state.string_acceleration * D(maximum(stretch, D(0.0)) / (string.compliance * maximum(rigid, D(1e-3))));
+}
+
 template <class D = FitDual>
 State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const Tips<FitDual>& tips,
-                   const Tips<FitDual>& next, const FitDual& dt) {
+                   const Tips<FitDual>& next, const FitDual& dt, bool bounces) {
   State<D> state;
   for (int k = 0; k < 3; ++k) {
     state.position[k] = D(window.start.position[k]);
@@ -201,13 +220,14 @@ State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const
   const D& length = predictor.parameters().string_length;
   const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);
   if (state.string_state != StringState::kOnString || !room) return state;
+  const State<D> seen = state;
   place_on_string(state, tips, D(0.0), predictor);
   const auto& effects = predictor.effects();
   const bool rigid =
       effects.template get<StringElasticity>().neutral() && effects.template get<StickFlex>().neutral();
   if (rigid || predictor.parameters().string_law != StringLaw::kInextensible) return state;
-  // At rest relative to its springs: longer by what the tension of a rigid string's first step stretches
-  // them.
+  // At rest relative to its springs, where it does not bounce on them: longer by what the tension of a rigid
+  // string's first step stretches them.
   FitPredictor::Set stiff = effects;
   stiff.template get<StringElasticity>() = {};
   stiff.template get<StickFlex>() = {};
@@ -216,7 +236,13 @@ State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const
   const D pull =
       norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
   state.string_acceleration = trial.string_acceleration;
-  place_on_string(state, tips, pull, predictor);
+  if (bounces) {
+    state.position = seen.position;
+    state.velocity = seen.velocity;
+    pull_as_stretched(state, tips, pull, predictor);
+  } else {
+    place_on_string(state, tips, pull, predictor);
+  }
   return state;
 }
 

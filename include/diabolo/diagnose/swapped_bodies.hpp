@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -114,6 +115,33 @@ inline Swaps unswap(Recording& r) {
     }
   }
   return swaps;
+}
+
+/// Of two sticks that point the same way, as a player's do, the left one's tip is on the left as seen along
+/// them; while the arms cross it is not. What nearly all rows say; nothing where the directions are not
+/// recorded, or not alike.
+inline std::optional<bool> sticks_are_exchanged(const Recording& r) {
+  constexpr double kAlike = 0.5, kNearlyAll = 0.95;
+  Eigen::Index known = 0, exchanged = 0;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const auto seen = [i](const Track& tip, const OrientationTrack& turn) {
+      return tip.valid[i] && !turn.empty() && turn.valid[i];
+    };
+    if (!seen(r.left, r.left_orientation) || !seen(r.right, r.right_orientation)) continue;
+    const auto direction = [i](const OrientationTrack& turn) {
+      return Eigen::Quaterniond(Eigen::Vector4d(turn.quaternion.col(i))) * Eigen::Vector3d::UnitX();
+    };
+    const Eigen::Vector3d along = 0.5 * (direction(r.left_orientation) + direction(r.right_orientation)),
+                          leftwards(-along.y(), along.x(), 0.0);
+    if (leftwards.norm() < kAlike) continue;
+    ++known;
+    if (leftwards.dot(r.left.position.col(i) - r.right.position.col(i)) < 0.0) ++exchanged;
+  }
+  if (2 * known < r.size()) return {};
+  const double share = static_cast<double>(exchanged) / static_cast<double>(known);
+  if (share > kNearlyAll) return true;
+  if (share < 1.0 - kNearlyAll) return false;
+  return {};
 }
 
 /// The recording with the names of the sticks exchanged.

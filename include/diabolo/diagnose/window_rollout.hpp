@@ -85,7 +85,7 @@ struct WindowSystem {
 template <class D = detail::FitDual>
 WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid, const FitWindow& window,
                            const detail::FitModel& model, const UnknownVector& at,
-                           Delay delay = Delay::kClock) {
+                           Delay delay = Delay::kClock, bool bounces = false) {
   constexpr int n = kStartUnknowns + kUnknowns;
   const Recording& r = stage.recording;
   WindowSystem system;
@@ -105,7 +105,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
   const auto step_of = [&](Eigen::Index row) {
     return D((stage.times[row + 1] - stage.times[row]) / stage.substeps);
   };
-  State<D> state = detail::fit_start<D>(begun, predictor, now, next, step_of(window.first));
+  State<D> state = detail::fit_start<D>(begun, predictor, now, next, step_of(window.first), bounces);
   const double half = stage.times[window.first] + 0.5;
   bool measured_reach = false;
   // A low pass of the diabolo's track: y' = (x - y) / tau, begun with what was recorded.

@@ -22,9 +22,10 @@ struct StickFlex : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "stick_flex";
   /// A tip is moved aside by no more than this [m]: beyond, sticks do not bend in proportion.
   static constexpr double kFarthest = 0.08;
-  Scalar compliance{0};  ///< of one tip [m/N], >= 0
-  Scalar damping{0};     ///< of one tip [N s/m], >= 0
-  Scalar tip_mass{0};    ///< that moves with one tip [kg], >= 0
+  static constexpr int kTurns = 2;  ///< what is left is some (bend / length of a strand)^4 of the bend
+  Scalar compliance{0};             ///< of one tip [m/N], >= 0
+  Scalar damping{0};                ///< of one tip [N s/m], >= 0
+  Scalar tip_mass{0};               ///< that moves with one tip [kg], >= 0
 
   bool neutral() const { return is_constant_zero(compliance); }
 
@@ -56,22 +57,35 @@ struct StickFlex : NeutralEffect<Scalar> {
     return {gradient * Scalar(-select(result.taut, change, Scalar(0))), Scalar(0)};
   }
 
+  /// Bends and directions of the strands depend on each other, and are brought together in a few turns. What
+  /// a bend takes off along its strand is left to spring_at().
   TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips,
                              const Parameters<Scalar>& parameters) const {
-    const StringPath<Scalar> path(state.position, tips);
-    const Scalar pull =
-        parameters.mass * norm(state.string_acceleration) / maximum(norm(path.gradient()), Scalar(0.02));
-    const auto aside = [&](const Vector3<Scalar>& from_tip, const Scalar& length,
-                           const Vector3<Scalar>& stick) {
-      const Vector3<Scalar> strand = from_tip * Scalar(Scalar(1) / length);
-      const Vector3<Scalar> give = bent(from_tip, length, stick);
-      const Vector3<Scalar> move = (give - strand * dot<Scalar>(give, strand)) * Scalar(compliance * pull);
-      const Scalar square = squared_norm(move) / Scalar(kFarthest * kFarthest);
-      return Vector3<Scalar>(
-          move / positive_sqrt<Scalar>(positive_sqrt<Scalar>(Scalar(Scalar(1) + square * square))));
-    };
-    return {aside(path.from_left, path.left_length, tips.left_direction),
-            aside(path.from_right, path.right_length, tips.right_direction)};
+    const Scalar pull = parameters.mass * norm(state.string_acceleration);
+    const Vector3<Scalar> weight(Scalar(0), Scalar(0), Scalar(-tip_mass * parameters.gravity));
+    TipShift<Scalar> bends, shift;
+    for (int i = 0; i < kTurns; ++i) {
+      Tips<Scalar> bent = tips;
+      bent.left += bends.left;
+      bent.right += bends.right;
+      const StringPath<Scalar> path(state.position, bent);
+      const Scalar tension = pull / maximum(norm(path.gradient()), Scalar(0.02));
+      const auto turn = [&](Vector3<Scalar>& bend, const Vector3<Scalar>& from_tip, const Scalar& length,
+                            const Vector3<Scalar>& stick) {
+        const Vector3<Scalar> strand = from_tip * Scalar(Scalar(1) / length);
+        const Vector3<Scalar> load = strand * tension + weight;
+        const Vector3<Scalar> missing = square_to(stick, load) * compliance - bend;
+        const Vector3<Scalar> across = square_to(strand, missing);
+        // A tip that gives way across its strand turns the strand against that.
+        const Scalar against = compliance * tension / length;
+        bend += missing - across * Scalar(against / (Scalar(1) + against));
+        const Scalar along = compliance * tension * squared_norm(square_to(stick, strand));
+        return within_reach(bend - strand * along);
+      };
+      shift.left = turn(bends.left, path.from_left, path.left_length, tips.left_direction);
+      shift.right = turn(bends.right, path.from_right, path.right_length, tips.right_direction);
+    }
+    return shift;
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -91,8 +105,14 @@ struct StickFlex : NeutralEffect<Scalar> {
   /// Where a pull of one along the strand takes the tip, per compliance: its part square to the stick.
   static Vector3<Scalar> bent(const Vector3<Scalar>& from_tip, const Scalar& length,
                               const Vector3<Scalar>& stick) {
-    const Vector3<Scalar> strand = from_tip * Scalar(Scalar(1) / length);
-    return strand - stick * dot<Scalar>(stick, strand);
+    return square_to(stick, from_tip * Scalar(Scalar(1) / length));
+  }
+  static Vector3<Scalar> square_to(const Vector3<Scalar>& axis, const Vector3<Scalar>& vector) {
+    return vector - axis * dot<Scalar>(axis, vector);
+  }
+  static Vector3<Scalar> within_reach(const Vector3<Scalar>& move) {
+    const Scalar square = squared_norm(move) / Scalar(kFarthest * kFarthest);
+    return move / positive_sqrt<Scalar>(positive_sqrt<Scalar>(Scalar(Scalar(1) + square * square)));
   }
 };
 
