@@ -23,7 +23,7 @@ Tips<double> pointing(const Vector& left, const Vector& right) {
   return tips;
 }
 
-/// After a minute with some damping.
+/// After twenty seconds with some damping.
 State<double> rested(const Full& model, const Tips<double>& tips) {
   State<double> state;
   state.position = Vector(0.0, 0.02, 0.6);
@@ -165,7 +165,7 @@ TEST_CASE("the mass of the tips makes a bounce slower, as a mass beside the diab
 TEST_CASE(
     "tips with mass hang by their own weight lower, and where nothing bends their mass changes nothing") {
   const Tips<double> tips = pointing(Vector(1.0, 0.8, 0.1), Vector(1.0, -0.3, 0.6));
-  const auto lowered = [](const Tips<double>& tips, double by) {
+  const auto lowered = [&tips](double by) {
     const auto down = [by](const Vector& stick) {
       return Vector(by * (stick * stick.z() - Vector::UnitZ()));
     };
@@ -181,9 +181,8 @@ TEST_CASE(
     });
   };
   const double by = 0.012 * kStandardGravity / 250.0;
-  CHECK(
-      (rested(massive(1.0 / 250.0), tips).position - rested(bending(1.0 / 250.0), lowered(tips, by)).position)
-          .norm() < 1e-6);
+  CHECK((rested(massive(1.0 / 250.0), tips).position - rested(bending(1.0 / 250.0), lowered(by)).position)
+            .norm() < 1e-6);
   // The stiffer, the nearer to no bending at all.
   Random random(1012);
   const Scene scene = hanging_scene(random);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Everything that needs the standard library and Eigen only.
+// Everything that needs the standard library and Eigen only, but for the diagnosis (diagnose/diagnosis.hpp)
+// and the robot (robot/robot.hpp), which take long to compile.
 #include "diabolo/batch.hpp"
 #include "diabolo/dual.hpp"
 #include "diabolo/effects/all.hpp"
@@ -13,6 +14,7 @@
 #include "diabolo/recording/motive.hpp"
 #include "diabolo/recording/resample.hpp"
 #include "diabolo/recording/spin.hpp"
+#include "diabolo/recording/spin_line.hpp"
 #include "diabolo/recording/tidy.hpp"
 #include "diabolo/recording/velocity.hpp"
 #include "diabolo/rollout.hpp"

@@ -164,7 +164,8 @@ class Predictor {
   /// The paper's and the published program's rules.
   StepStatus<Scalar> pull_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                                const Scalar& dt, const StringNow<Scalar>& string) const {
-    const Mask<Scalar> was_on_string = is(state.string_state, StringState::kOnString);
+    const Mask<Scalar> was_on_string = is(state.string_state, StringState::kOnString),
+                       was_flying = is(state.string_state, StringState::kFlying);
     const Vector3<Scalar> velocity = plane_(state.velocity);
     const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, dt, parameters_));
     const StringStep<Scalar> step{state.position,
@@ -186,10 +187,11 @@ class Predictor {
         norm<Scalar>(result.position - end.right) - norm<Scalar>(state.position - begin.right);
     const Scalar driven = spin_after_passing(state.spin, change, dt, parameters_);
     state.spin = select(was_on_string && passes, driven, state.spin);
-    state.spin = effects_.after_torques(state.spin, state, dt, parameters_);
+    Scalar spin = effects_.after_torques(state.spin, state, dt, parameters_);
     Vector3<Scalar> rubbed = result.velocity;
-    const Scalar pull_difference = effects_.touch(rubbed, state.spin, state, end, result, dt, parameters_);
+    const Scalar pull_difference = effects_.touch(rubbed, spin, state, end, result, dt, parameters_);
     if constexpr (Set::kTurnsAxle) effects_.turn_axis(state.axis, state, end, result, pull_difference, dt);
+    state.spin = spin;
     state.velocity = plane_(rubbed);
     state.position = result.position;
     state.string_acceleration = result.string_acceleration;
@@ -197,6 +199,7 @@ class Predictor {
     // To the last bit as the spheroid sees it, lest a diabolo be neither put back nor held.
     status.overstretched = norm<Scalar>(end.left - end.right) >= string.length;
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
+    status.caught = was_flying && captured;
     if (!parameters_.release_when_overstretched && any(status.overstretched))
       hold(state, end, dt, captured && status.overstretched, string);
     return status;

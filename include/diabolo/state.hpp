@@ -69,7 +69,7 @@ struct StepStatus {
   /// The tips are as far apart as the string is long, or farther, whatever the diabolo does: one on a rigid
   /// string is held between them, unless the parameters release it.
   Mask<Scalar> overstretched{false};
-  Mask<Scalar> snapped_taut{false};  ///< the string came taut within the step
+  Mask<Scalar> snapped_taut{false};  ///< an inextensible string came taut within the step
   Mask<Scalar> caught{false};        ///< the string was under a flying diabolo again
 };
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Literal, NamedTuple
 
@@ -121,6 +122,8 @@ def evaluate(
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
+    if not isinstance(horizons, Iterable):
+        raise ValueError(f"horizons: {horizons!r}; expected times in seconds")
     groups = [(label, [_whole(take)]) for label, take in zip(_labels(given), given, strict=True)]
     if len(groups) > 1:
         groups.append((ALL_RECORDINGS, [take for _, takes in groups for take in takes]))
@@ -177,8 +180,8 @@ def _labels(given: list[Recording | Excerpt]) -> list[str]:
     for take in given:
         rows = "" if isinstance(take, Recording) else f":{take.first}-{take.last}"
         name = (take if isinstance(take, Recording) else take.recording).name + rows
-        same = sum(label == name or label.startswith(f"{name} (") for label in labels)
-        labels.append(f"{name} ({same + 1})" if same else name)
+        numbered = (f"{name} ({number})" for number in itertools.count(2))
+        labels.append(name if name not in labels else next(other for other in numbered if other not in labels))
     return labels[1:]
 
 

@@ -114,6 +114,18 @@ def test_exchanged_bodies_are_claimed_and_do_no_harm(plant: list[Recording], tmp
     assert answer.result["fit"]["augmented_error_m"][2] < answer.result["fit"]["base_error_m"][2]
 
 
+def test_sticks_under_each_others_names_are_claimed(plant: list[Recording], tmp_path: Path) -> None:
+    swing = next(recording for recording in plant if recording.name == "swing")
+    swing.save(tmp_path / "swing.csv")
+    names, rows = (tmp_path / "swing.csv").read_text().split("\n", 1)
+    exchanged = names.replace("left", "none").replace("right", "left").replace("none", "right")
+    (tmp_path / "swing.csv").write_text(exchanged + "\n" + rows)
+    swap, *others = diagnose(load_recording(tmp_path / "swing.csv")).effects
+    assert swap["name"] == "body_swap"
+    assert swap["parameters"][0]["value"] == len(swing.time)
+    assert others == diagnose(swing).effects
+
+
 def test_too_little_is_an_answer(played: Recording) -> None:
     short = played.cut(0, 60)
     answer = diagnose(short)

@@ -87,6 +87,9 @@ def test_recordings_of_the_same_name_are_told_apart(played: Recording) -> None:
     together = make_recording(seconds=2.0, name="all recordings")
     rows = evaluate([played, together], "paper", starts_every=1.0, horizons=[0.5]).horizons
     assert [row.recording for row in rows] == ["played", "all recordings (2)", "all recordings"]
+    numbered = make_recording(seconds=2.0, name="played (2)")
+    rows = evaluate([numbered, played, played], "paper", starts_every=1.0, horizons=[0.5]).horizons
+    assert [row.recording for row in rows] == ["played (2)", "played", "played (3)", "all recordings"]
 
 
 def test_seed_and_threads(played: Recording) -> None:
@@ -125,6 +128,8 @@ def test_bad_input_is_named(played: Recording) -> None:
         evaluate(played, ["paper", Model.paper()])
     with pytest.raises(ValueError, match="starts_every: 0 s"):
         evaluate(played, starts_every=0.0)
+    with pytest.raises(ValueError, match="horizons: 0.5; expected times"):
+        evaluate(played, starts_every=0.1, horizons=0.5)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="horizon: -1 s"):
         evaluate(played, starts_every=0.1, horizons=[-1.0])
     for change, text in (

@@ -147,7 +147,6 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
     if ((fit.delay == before && !soft) || elapsed() > options.budget) break;
     fit.noise_is_known = false;
     fit.bounces = fit.bounces || soft;
-    if (fit.delay == before) exchanged.clear();
     std::erase_if(exchanged, [](const Exchange& e) {  // what is asked again
       return e.name != "string_wrap" && alternative_to(e.name) != "time_offset";
     });
@@ -229,26 +228,23 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
                    const DiagnosisWatch& watch = {}) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
   check_threads(options.threads);
-  long swapped = 0, frames = 0;
-  std::string reason = "bodies jump to each other's places and back";
-  bool sides_are_seen = false;
+  long jumped = 0, beside = 0, frames = 0;  // rows of bodies that jump, of sticks on each other's sides
+  bool sides_are_right = true;
   for (std::vector<Recording>* list : {&recordings, &options.holdout})
     for (Recording& recording : *list) {
-      long own = static_cast<long>(unswap(recording).count);
+      const long swaps = static_cast<long>(unswap(recording).count),
+                 rows = static_cast<long>(recording.size());
       const std::optional<bool> exchanged = sticks_are_exchanged(recording);
-      if (exchanged.value_or(false)) {
-        recording = with_sticks_exchanged(std::move(recording));
-        own = static_cast<long>(recording.size());
-        reason = "seen along the sticks, the left one is on the right";
-      }
+      if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
-      sides_are_seen = sides_are_seen || exchanged;
-      swapped += own;
-      frames += static_cast<long>(recording.size());
+      sides_are_right = sides_are_right && !exchanged.value_or(true);
+      jumped += swaps;
+      beside += exchanged.value_or(false) ? rows : 0;
+      frames += rows;
     }
-  bool backwards = false, still = false;
+  bool backwards = false, still = false, by_friction = false;
   Diagnosis result = detail::diagnose_named<D>(recordings, options, watch, backwards);
-  if (backwards && !sides_are_seen) {
+  if (backwards && !sides_are_right) {
     for (std::vector<Recording>* list : {&recordings, &options.holdout})
       for (Recording& recording : *list) recording = with_sticks_exchanged(std::move(recording));
     Diagnosis exchanged = detail::diagnose_named<D>(recordings, options, watch, still);
@@ -257,10 +253,14 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
     });
     if (rubs && !still) {
       result = std::move(exchanged);
-      swapped += frames;
-      reason = "friction would give energy unless the sticks are exchanged";
+      by_friction = true;
     }
   }
+  const long whole = by_friction ? frames - beside : beside, swapped = jumped + whole;
+  const std::string reason = by_friction && whole > 0
+                                 ? "friction would give energy unless the sticks are exchanged"
+                             : whole > 0 ? "seen along the sticks, the left one is on the right"
+                                         : "bodies jump to each other's places and back";
   const bool asked = options.bank.empty() || std::ranges::count(options.bank, "body_swap") > 0;
   if (swapped > 0 && asked && result.reason.empty()) detail::claim_swap(result, swapped, reason);
   if (watch.progress) watch.progress("done", 1.0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -190,17 +191,24 @@ void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPred
   state.velocity = state.velocity - gradient * D(rate / (squared_norm(gradient) + D(1e-6)));
 }
 
-/// The pull of a string that is longer than its rest, in place of what a rigid one would have.
+/// Lets a start bounce as it was seen to, with the pull of a string of that length in place of a `rigid`
+/// one's, if what gives in its place is soft. Whether it is.
 template <class D>
-void pull_as_stretched(State<D>& state, Tips<D> tips, const D& rigid, const FitPredictor& predictor) {
+bool bounce(State<D>& state, const State<D>& seen, Tips<D> tips, const D& rigid,
+            const FitPredictor& predictor) {
   const TipShift<D> shift = predictor.effects().tip_shift(state, tips, predictor.parameters());
   tips.left += shift.left;
   tips.right += shift.right;
   const StringNow<D> string = predictor.effects().string_at(
       predictor.effects().string(predictor.parameters()), state, tips, predictor.parameters());
+  // (Both tips across the strands are twice as soft as one.)
+  if (value_of(string.compliance) < 0.5 * kBouncyString * value_of(predictor.parameters().mass)) return false;
+  state.position = seen.position;
+  state.velocity = seen.velocity;
   const D stretch = StringPath<D>(state.position, tips).length() - string.length;
   state.string_acceleration =
       state.string_acceleration * D(maximum(stretch, D(0.0)) / (string.compliance * maximum(rigid, D(1e-3))));
+  return true;
 }
 
 template <class D = FitDual>
@@ -236,13 +244,7 @@ State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const
   const D pull =
       norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
   state.string_acceleration = trial.string_acceleration;
-  if (bounces) {
-    state.position = seen.position;
-    state.velocity = seen.velocity;
-    pull_as_stretched(state, tips, pull, predictor);
-  } else {
-    place_on_string(state, tips, pull, predictor);
-  }
+  if (!bounces || !bounce(state, seen, tips, pull, predictor)) place_on_string(state, tips, pull, predictor);
   return state;
 }
 

@@ -11,12 +11,13 @@ namespace diabolo {
 /// Sticks that bend: each tip gives by `compliance` times the string's pull, square to its stick (a stick
 /// does not stretch). Along the string that is a spring in series with it; the rest moves the tip aside, so
 /// that the strands point elsewhere. Where the sticks' directions are not known (Tips) the tips give in all
-/// directions, and the effect is StringElasticity of twice the compliance. Wooden and plastic sticks: 60 to
-/// 600 N/m at the tip.
+/// directions, and without tip_mass the effect is StringElasticity of twice the compliance. Wooden and
+/// plastic sticks: 60 to 600 N/m at the tip.
 ///
 /// A tip moves with the string on it, and has a mass of its own (8 to 15 g): with e_j the part of strand j
 /// that is square to its stick, tip_mass / (e_1^2 + e_2^2) is added to the inertia of a change of path
-/// length. The bounce on such sticks is slower than their stiffness alone makes it, by some 3 %.
+/// length. The bounce on such sticks is slower than their stiffness alone makes it, by some 3 %. Its weight
+/// bends the stick as well.
 template <class Scalar>
 struct StickFlex : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "stick_flex";
@@ -65,10 +66,10 @@ struct StickFlex : NeutralEffect<Scalar> {
     const Vector3<Scalar> weight(Scalar(0), Scalar(0), Scalar(-tip_mass * parameters.gravity));
     TipShift<Scalar> bends, shift;
     for (int i = 0; i < kTurns; ++i) {
-      Tips<Scalar> bent = tips;
-      bent.left += bends.left;
-      bent.right += bends.right;
-      const StringPath<Scalar> path(state.position, bent);
+      Tips<Scalar> there = tips;
+      there.left += bends.left;
+      there.right += bends.right;
+      const StringPath<Scalar> path(state.position, there);
       const Scalar tension = pull / maximum(norm(path.gradient()), Scalar(0.02));
       const auto turn = [&](Vector3<Scalar>& bend, const Vector3<Scalar>& from_tip, const Scalar& length,
                             const Vector3<Scalar>& stick) {
@@ -79,6 +80,10 @@ struct StickFlex : NeutralEffect<Scalar> {
         // A tip that gives way across its strand turns the strand against that.
         const Scalar against = compliance * tension / length;
         bend += missing - across * Scalar(against / (Scalar(1) + against));
+        // No tip comes to its diabolo by bending.
+        const Scalar farthest = length * length * Scalar(0.25);
+        bend = bend * positive_sqrt<Scalar>(
+                          minimum(Scalar(1), Scalar(farthest / (squared_norm(bend) + Scalar(1e-12)))));
         const Scalar along = compliance * tension * squared_norm(square_to(stick, strand));
         return within_reach(bend - strand * along);
       };

@@ -26,7 +26,8 @@ struct StartNoise {
 inline StartNoise start_noise(const Recording& recording) {
   constexpr int kPowers = 4;  // of the polynomial: its degree
   const VelocityFilter causal = start_velocity_filter(recording.rate);
-  const int half = static_cast<int>(causal.weight.size()) - 1, frames = 2 * half + 1;
+  // A local polynomial takes 1000 frames at most.
+  const int half = std::min(static_cast<int>(causal.weight.size()) - 1, 499), frames = 2 * half + 1;
   const Velocity fair = velocity(recording, recording.diabolo, causal);
   const Velocity around =
       velocity(recording, recording.diabolo, local_polynomial(frames, kPowers, Window::kCentred));
