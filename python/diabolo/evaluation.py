@@ -181,7 +181,9 @@ def _labels(given: list[Recording | Excerpt]) -> list[str]:
         rows = "" if isinstance(take, Recording) else f":{take.first}-{take.last}"
         name = (take if isinstance(take, Recording) else take.recording).name + rows
         numbered = (f"{name} ({number})" for number in itertools.count(2))
-        labels.append(name if name not in labels else next(other for other in numbered if other not in labels))
+        labels.append(
+            name if name not in labels else next(other for other in numbered if other not in labels)
+        )
     return labels[1:]
 
 
