@@ -128,7 +128,7 @@ def test_bad_input_is_named(played: Recording) -> None:
         evaluate(played, ["paper", Model.paper()])
     with pytest.raises(ValueError, match="starts_every: 0 s"):
         evaluate(played, starts_every=0.0)
-    with pytest.raises(ValueError, match="horizons: 0.5; expected times"):
+    with pytest.raises(ValueError, match="horizons: 0\\.5; expected times"):
         evaluate(played, starts_every=0.1, horizons=0.5)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="horizon: -1 s"):
         evaluate(played, starts_every=0.1, horizons=[-1.0])
