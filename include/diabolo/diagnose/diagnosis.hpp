@@ -228,18 +228,18 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
                    const DiagnosisWatch& watch = {}) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
   check_threads(options.threads);
-  long jumped = 0, beside = 0, frames = 0;  // rows of bodies that jump, of sticks on each other's sides
-  bool sides_are_right = true;
+  long swapped = 0, frames = 0;
+  bool sides_are_right = true, sides_are_wrong = false;
   for (std::vector<Recording>* list : {&recordings, &options.holdout})
     for (Recording& recording : *list) {
-      const long swaps = static_cast<long>(unswap(recording).count),
+      const long jumped = static_cast<long>(unswap(recording).count),
                  rows = static_cast<long>(recording.size());
       const std::optional<bool> exchanged = sticks_are_exchanged(recording);
       if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
       sides_are_right = sides_are_right && !exchanged.value_or(true);
-      jumped += swaps;
-      beside += exchanged.value_or(false) ? rows : 0;
+      sides_are_wrong = sides_are_wrong || exchanged.value_or(false);
+      swapped += exchanged.value_or(false) ? rows - jumped : jumped;
       frames += rows;
     }
   bool backwards = false, still = false, by_friction = false;
@@ -256,11 +256,10 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
       by_friction = true;
     }
   }
-  const long whole = by_friction ? frames - beside : beside, swapped = jumped + whole;
-  const std::string reason = by_friction && whole > 0
-                                 ? "friction would give energy unless the sticks are exchanged"
-                             : whole > 0 ? "seen along the sticks, the left one is on the right"
-                                         : "bodies jump to each other's places and back";
+  if (by_friction) swapped = frames - swapped;
+  const std::string reason = by_friction       ? "friction would give energy unless the sticks are exchanged"
+                             : sides_are_wrong ? "seen along the sticks, the left one is on the right"
+                                               : "bodies jump to each other's places and back";
   const bool asked = options.bank.empty() || std::ranges::count(options.bank, "body_swap") > 0;
   if (swapped > 0 && asked && result.reason.empty()) detail::claim_swap(result, swapped, reason);
   if (watch.progress) watch.progress("done", 1.0);
