@@ -27,7 +27,7 @@ LOOK = """<script>addEventListener("load", () => setTimeout(() => {
   root.dataset.missing = [...document.images].filter(i => !(i.complete && i.naturalWidth > 0)).length;
   root.dataset.overflow = Math.max(0, root.scrollWidth - innerWidth);
 }, 500));</script>"""
-# Frames come by the clock of the page, which the test drives, also where a busy machine paints none in that time.
+# Frames come by the clock of the page, which the browser drives, also where a busy machine paints none.
 FRAMES = "<script>requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), 16);</script>"
 
 
