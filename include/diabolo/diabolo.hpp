@@ -17,5 +17,6 @@
 #include "diabolo/recording/spin_line.hpp"
 #include "diabolo/recording/tidy.hpp"
 #include "diabolo/recording/velocity.hpp"
+#include "diabolo/recording/warnings.hpp"
 #include "diabolo/rollout.hpp"
 #include "diabolo/version.hpp"

@@ -13,6 +13,7 @@
 #include "diabolo/interop/json/recording_file.hpp"
 #include "diabolo/recording/resample.hpp"
 #include "diabolo/recording/spin.hpp"
+#include "diabolo/recording/warnings.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -241,6 +242,10 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   cls.def("cut", &cut, "first"_a, "last"_a, "Rows first to last, both included.");
   cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
           "The recording at another rate [Hz]; dropouts are not bridged.");
+  cls.def(
+      "warnings", &warnings, Unlocked(),
+      "What is odd about it although it is well formed, such as other units, tips that are long unseen or "
+      "rows that are missing; a sentence each.");
   cls.def("spin", &spin, "signed"_a = true,
           "Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the "
           "published rule, which counts turning of the axle too.");

@@ -42,6 +42,7 @@ from ._core import (
     load_recording,
     start_state,
 )
+from .checks import RecordingWarning
 from .diagnosis import Diagnosis, diagnose
 from .enums import (
     FlightRule,
@@ -92,6 +93,7 @@ __all__ = [
     "Projection",
     "Recording",
     "RecordingError",
+    "RecordingWarning",
     "Rollout",
     "RolloutGradient",
     "SpinRule",

@@ -1116,6 +1116,10 @@ class Recording:
         """
         Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the published rule, which counts turning of the axle too.
         """
+    def warnings(self) -> list[str]:
+        """
+        What is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each.
+        """
     @property
     def diabolo(self) -> numpy.typing.NDArray[numpy.float64]:
         """

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable
 from typing import Any, SupportsIndex
 
@@ -17,6 +18,17 @@ def whole_number(name: str, given: object, least: int, most: int) -> int:
     if not isinstance(given, SupportsIndex) or not least <= given.__index__() <= most:
         raise ValueError(f"{name}: {given!r}; expected a whole number from {least} to {most}")
     return given.__index__()
+
+
+class RecordingWarning(UserWarning):
+    """A recording is well formed, but odd; see Recording.warnings()."""
+
+
+def warn_of(recordings: Iterable[Recording], stacklevel: int = 3) -> None:
+    """Warn of what is odd about recordings that something is computed from."""
+    for recording in recordings:
+        for sentence in recording.warnings():
+            warnings.warn(f"{recording.name}: {sentence}", RecordingWarning, stacklevel)
 
 
 def callable_or_none(name: str, given: object) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
 from typing import Any, NamedTuple
@@ -12,7 +13,16 @@ import numpy as np
 
 from . import _core
 from ._core import Model, Recording
-from .checks import LARGEST_SEED, MOST_THREADS, callable_or_none, list_of, model_of, whole_number
+from .checks import (
+    LARGEST_SEED,
+    MOST_THREADS,
+    RecordingWarning,
+    callable_or_none,
+    list_of,
+    model_of,
+    warn_of,
+    whole_number,
+)
 
 SCHEMA = "diabolo.diagnosis/1"
 
@@ -72,7 +82,8 @@ def diagnose(
         diagnose(load_recording("swing.csv")).sentence
 
     Ctrl-C ends it at once. Raises ValueError about bad input, such as samples that are given twice; a
-    recording that can decide nothing is an answer, INSUFFICIENT_DATA.
+    recording that can decide nothing is an answer, INSUFFICIENT_DATA. Warns (RecordingWarning) of recordings
+    that are odd, such as with rows that are missing.
     """
     given = list_of("recordings", recordings)
     if not given:
@@ -87,11 +98,31 @@ def diagnose(
     chosen = model_of("base", base)
     held = list_of("holdout", holdout)
     _check_distinct([*given, *held])
+    warn_of([*given, *held])
+    _warn_of_other_set_ups([*given, *held])
     unused = [recording.name for recording in held if _core.comparable_windows(recording, chosen) == 0]
     text, model = _core.diagnose(given, chosen, held, list(bank), budget, seed, threads, progress)
     result = json.loads(text)
     result["fit"]["holdout_unused"] = unused
     return Diagnosis(result, chosen if result["headline"] == "INSUFFICIENT_DATA" else model)
+
+
+def _warn_of_other_set_ups(recordings: Sequence[Recording]) -> None:
+    """Warn where recordings that are looked at together say that they are not of one set-up."""
+    first = recordings[0]
+    for other in recordings[1:]:
+        for name, unit, a, b in (
+            ("string length", "m", first.string_length, other.string_length),
+            ("mass", "kg", first.properties.mass, other.properties.mass),
+            ("axle radius", "m", first.properties.axle_radius, other.properties.axle_radius),
+        ):
+            if a != b:
+                warnings.warn(
+                    f"'{first.name}' and '{other.name}' differ in {name}, {a:g} and {b:g} {unit}; "
+                    "what is found is one value for both",
+                    RecordingWarning,
+                    stacklevel=3,
+                )
 
 
 def _check_distinct(recordings: Sequence[Recording]) -> None:

@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import HorizonScore, Model, Recording
-from .checks import LARGEST_SEED, MOST_THREADS, callable_or_none, list_of, model_of, whole_number
+from .checks import (
+    LARGEST_SEED,
+    MOST_THREADS,
+    callable_or_none,
+    list_of,
+    model_of,
+    warn_of,
+    whole_number,
+)
 from .rollout import Rollout
 
 DEFAULT_MODELS = ("published", "paper", "consistent")
@@ -99,6 +107,8 @@ def evaluate(
     seed: of the bootstrap intervals. threads: 0 takes all cores; the result does not depend on it.
     progress: called with the fraction done.
 
+    Warns (RecordingWarning) of recordings that are odd, such as in other units.
+
         evaluate(load_recording("throw_1.csv")).rows[0].error  # [m]
     """
     given = list_of("recordings", recordings, (Recording, Excerpt))
@@ -119,6 +129,7 @@ def evaluate(
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
     report = progress or (lambda fraction: None)
+    warn_of(_whole(take) for take in given)
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
@@ -153,9 +164,12 @@ def predict(
 
     row: where to start; by default the first one from which the authors' program could.
     start: as for `evaluate`. Rows before the start are NaN; `time` is that of the recording.
+
+    Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
     if row is not None:
         row = whole_number("row", row, 0, len(recording) - 1)
+    warn_of([recording])
     states, string_states = _core.predict(recording, model_of("model", model), row, start)
     return Rollout(np.asarray(recording.time), states, string_states)
 

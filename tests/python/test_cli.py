@@ -264,6 +264,35 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
 
 
 @pytest.mark.parametrize(
+    "arguments",
+    [
+        ("convert", "feet.csv", "out.csv"),
+        ("evaluate", "feet.csv", "--model", "paper"),
+        ("evaluate", "feet.csv", "--starts", "every=0.5", "--model", "paper"),
+        ("simulate", "out.csv", "--on", "feet.csv"),
+        ("view", "feet.csv", "--model", "paper", "--out", "out.html"),
+        ("diagnose", "feet.csv"),
+    ],
+    ids=lambda arguments: " ".join(arguments),
+)
+def test_a_recording_that_is_odd_is_warned_of(
+    command: Command, played: Recording, tmp_path: Path, arguments: tuple[str, ...]
+) -> None:
+    feet = Recording(
+        played.time, *(track / 0.3048 for track in (played.left, played.right, played.diabolo)), played.rate
+    )
+    feet.save(tmp_path / "feet.csv")
+    done = command(*arguments)
+    assert done.returncode == 0
+    assert done.stderr.startswith(
+        "diabolo: warning: feet: the path from tip to tip over the diabolo is mostly"
+    )
+    assert done.stderr.endswith("wrong units, swapped bodies, or another string\n")
+    assert done.stderr.count("\n") == 1
+    assert "odd: the path" in command("info", "feet.csv").stdout
+
+
+@pytest.mark.parametrize(
     ("arguments", "text"),
     [
         ((), "the following arguments are required: COMMAND"),
@@ -320,8 +349,15 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
         (("simulate", "out.csv", "--motion", "hold", "--duration", "nan"), "duration: nan s"),
         (
             ("simulate", "out.csv", "--motion", "hold", "--spin", "inf"),
-            "--spin inf: expected a finite number",
+            "--spin inf: expected less than 377 rad/s",
         ),
+        (
+            ("simulate", "out.csv", "--motion", "hold", "--spin", "-400"),
+            "--spin -400: expected less than 377",
+        ),
+        (("simulate", "-", "--on", "played.csv"), "'-'; expected a name; standard output is for --json only"),
+        (("demo", "--out", ""), "''; expected a name"),
+        (("convert", "pl\udce9.csv", "out.csv"), "'pl\\udce9.csv': not UTF-8"),
         (
             ("simulate", "out.csv", "--on", "played.csv", "--spin", "1"),
             "--duration and --spin belong to --motion",

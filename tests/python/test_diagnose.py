@@ -13,11 +13,13 @@ import pytest
 from conftest import make_recording
 from diabolo import (
     Calibration,
+    DiaboloProperties,
     Diagnosis,
     Model,
     Parameters,
     Recording,
     RecordingError,
+    RecordingWarning,
     diagnose,
     load_recording,
 )
@@ -143,8 +145,31 @@ def lost_from(recording: Recording, row: int, *tracks: str) -> Recording:
     return Recording(recording.time, *kept.values(), recording.rate, name="lost")
 
 
+def test_recordings_of_other_set_ups_are_warned_of(played: Recording) -> None:
+    other = Recording(
+        played.time + 100.0,
+        played.left,
+        played.right,
+        played.diabolo,
+        played.rate,
+        name="lighter",
+        properties=DiaboloProperties.green(),
+        string_length=played.string_length,
+    )
+    with pytest.warns(RecordingWarning, match="'played' and 'lighter' differ in mass, 0.2845 and 0.1415 kg"):
+        diagnose([played, other], bank=["string_friction"])
+
+
 def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
-    copy = Recording(played.time, played.left, played.right, played.diabolo, played.rate, name="copy")
+    copy = Recording(
+        played.time,
+        played.left,
+        played.right,
+        played.diabolo,
+        played.rate,
+        name="copy",
+        string_length=played.string_length,
+    )
     for takes, held in (
         ([played, copy], []),
         ([played], [copy]),
@@ -156,6 +181,7 @@ def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
     assert diagnose([played.cut(0, 40), copy.cut(40, 80)]).headline == "INSUFFICIENT_DATA"
 
 
+@pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 def test_a_holdout_without_windows_is_told(played: Recording) -> None:
     other = make_recording("throw")
     unseen = lost_from(other, 5, "diabolo")
@@ -164,6 +190,7 @@ def test_a_holdout_without_windows_is_told(played: Recording) -> None:
     assert "could be compared: lost." in report_html(result)
 
 
+@pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 def test_an_unusable_holdout_is_refused_before_the_fit(played: Recording) -> None:
     def fail(step: str, fraction: float) -> None:
         raise AssertionError(step)
@@ -336,6 +363,7 @@ def test_the_command_complains_in_one_sentence(
     assert error.count("\n") == 1
 
 
+@pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 def test_friction_is_left_out_of_the_real_recordings(real_recordings: Path) -> None:
     takes = [
         diabolo.load_recording(path)

@@ -157,6 +157,7 @@ def test_bad_input_is_named(played: Recording) -> None:
         evaluate(unseen)
 
 
+@pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 def test_the_published_program_is_repeated(real_recordings: Path) -> None:
     """Its figures are those of the authors' program, run on the same rows (2 %: when it changes tips)."""
     physics, extraction = "2020-07-11_basic_physics", "2020-09-14_motion_extraction"
@@ -170,6 +171,7 @@ def test_the_published_program_is_repeated(real_recordings: Path) -> None:
         assert row.error == pytest.approx(row.program_error, rel=0.02)
 
 
+@pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 @pytest.mark.parametrize("work", [evaluate, predict])
 def test_ctrl_c_ends_one_long_prediction(played: Recording, work: Callable[[Recording, str], object]) -> None:
     stretch = 20_000.0

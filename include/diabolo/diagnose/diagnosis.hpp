@@ -48,27 +48,21 @@ namespace detail {
 /// Why nothing can be concluded; empty where something can.
 inline std::string insufficient(const std::vector<Stage>& stages) {
   std::size_t windows = 0, taut = 0;
-  bool length_known = false, plausible = true;
-  std::string lengths;
+  bool length_known = false;
+  std::string odd;
   for (const Stage& stage : stages) {
     windows += stage.windows.size();
     for (const FitWindow& window : stage.windows)
       taut += window.start.string_state == StringState::kOnString ? 1 : 0;
-    if (const std::optional<double> usual = usual_path_length(stage.recording)) {
-      length_known = true;
-      const double given = stage.recording.string_length;
-      if (std::abs(*usual - given) > info_of(Unknown::kStringLength).maximum) {
-        plausible = false;
-        lengths = shown(*usual) + " m where the string is " + shown(given) + " m long";
-      }
-    }
+    length_known = length_known || usual_path_length(stage.recording);
+    if (!odd.empty()) continue;
+    odd = odd_path_length(stage.recording);
+    if (!odd.empty() && stages.size() > 1) odd += " (in " + stage.recording.name + ")";
   }
   if (windows < kFewestWindows)
     return "only " + std::to_string(windows) + " windows of half a second can be compared; " +
            std::to_string(kFewestWindows) + " are needed";
-  if (!plausible)
-    return "the path from tip to tip over the diabolo is mostly " + lengths +
-           ": wrong units, swapped bodies, or another string";
+  if (!odd.empty()) return odd;
   if (!length_known || taut * 10 < windows) return "the string is never seen taut for long";
   return {};
 }
@@ -206,6 +200,14 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   return result;
 }
 
+/// Where bodies were under each other's names: "take, rows 90 to 120 and 2 times more".
+inline std::string places_of(const Swaps& swaps, const std::string& recording) {
+  const auto [first, last] = swaps.rows.front();
+  const std::size_t more = swaps.rows.size() - 1;
+  return recording + ", rows " + std::to_string(first) + " to " + std::to_string(last) +
+         (more > 0 ? " and " + std::to_string(more) + (more > 1 ? " times more" : " time more") : "");
+}
+
 /// Claims that bodies were recorded under each other's names in so many frames.
 inline void claim_swap(Diagnosis& d, long frames, const std::string& reason) {
   Finding f;
@@ -229,11 +231,12 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
   check_threads(options.threads);
   long swapped = 0, frames = 0;
+  std::string places;
   bool sides_are_right = true, sides_are_wrong = false;
   for (std::vector<Recording>* list : {&recordings, &options.holdout})
     for (Recording& recording : *list) {
-      const long jumped = static_cast<long>(unswap(recording).count),
-                 rows = static_cast<long>(recording.size());
+      const Swaps swaps = unswap(recording);
+      const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
       const std::optional<bool> exchanged = sticks_are_exchanged(recording);
       if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
@@ -241,6 +244,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
       sides_are_wrong = sides_are_wrong || exchanged.value_or(false);
       swapped += exchanged.value_or(false) ? rows - jumped : jumped;
       frames += rows;
+      if (swaps.count > 0) places += "; " + detail::places_of(swaps, recording.name);
     }
   bool backwards = false, still = false, by_friction = false;
   Diagnosis result = detail::diagnose_named<D>(recordings, options, watch, backwards);
@@ -259,7 +263,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
   if (by_friction) swapped = frames - swapped;
   const std::string reason = by_friction       ? "friction would give energy unless the sticks are exchanged"
                              : sides_are_wrong ? "seen along the sticks, the left one is on the right"
-                                               : "bodies jump to each other's places and back";
+                                               : "bodies jump to each other's places and back" + places;
   const bool asked = options.bank.empty() || std::ranges::count(options.bank, "body_swap") > 0;
   if (swapped > 0 && asked && result.reason.empty()) detail::claim_swap(result, swapped, reason);
   if (watch.progress) watch.progress("done", 1.0);

@@ -15,6 +15,7 @@
 #include "diabolo/recording/start_state.hpp"
 #include "diabolo/recording/stick_frames.hpp"
 #include "diabolo/recording/tip_motion.hpp"
+#include "diabolo/recording/usual_path.hpp"
 #include "diabolo/recording/windows.hpp"
 
 namespace diabolo {
@@ -55,31 +56,6 @@ struct Stage {
 inline constexpr double kFitWindow = 0.5;
 /// Longest step of the simulation in a diagnosis [s].
 inline constexpr double kFitStep = 4.2e-3;
-
-/// The most frequent path length from tip to tip over the diabolo, where the diabolo is below the tips; none
-/// where no length stands out. That is the string's length while it is taut.
-inline std::optional<double> usual_path_length(const Recording& r) {
-  std::vector<double> lengths;
-  for (Eigen::Index i = 0; i < r.size(); ++i) {
-    if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
-    Tips<double> tips;
-    tips.left = r.left.position.col(i);
-    tips.right = r.right.position.col(i);
-    const Vector3<double> diabolo = r.diabolo.position.col(i);
-    if (height_above_tips(diabolo, tips.left, tips.right) > 0.0) continue;
-    lengths.push_back(StringPath<double>(diabolo, tips).length());
-  }
-  if (lengths.size() < 20) return std::nullopt;
-  std::ranges::sort(lengths);
-  // The densest interval of 20 mm.
-  std::size_t best = 0, best_count = 0;
-  for (std::size_t low = 0, high = 0; low < lengths.size(); ++low) {
-    while (high < lengths.size() && lengths[high] < lengths[low] + 0.02) ++high;
-    if (high - low > best_count) best_count = high - low, best = low;
-  }
-  if (best_count * 4 < lengths.size()) return std::nullopt;
-  return lengths[best + best_count / 2];
-}
 
 /// Cuts the rows into windows of about kFitWindow that begin where the string's state is not about to change.
 inline std::vector<FitWindow> fit_windows(const Stage& stage) {

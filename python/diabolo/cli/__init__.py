@@ -6,10 +6,12 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
 from .. import __version__
+from ..checks import RecordingWarning
 from . import convert, demo, diagnose, evaluate, info, plan, prove, robot, simulate, view
 
 DESCRIPTION = """\
@@ -57,8 +59,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if sys.stdout is None:
             raise ValueError("standard output is closed; there would be nowhere to print to")
-        parsed = make_parser().parse_args(arguments)
-        status: int = parsed.run(parsed) or 0
+        parser = make_parser()
+        for given in sys.argv[1:] if arguments is None else arguments:
+            if given != given.encode(errors="replace").decode():
+                parser.error(f"{given!r}: not UTF-8; rename the file to pass it here")
+        parsed = parser.parse_args(arguments)
+        with warnings.catch_warnings():
+            warnings.simplefilter("once", RecordingWarning)
+            warnings.showwarning = _show_warning
+            status: int = parsed.run(parsed) or 0
         sys.stdout.flush()
     except (ValueError, ArithmeticError, OSError) as error:
         if isinstance(error, OSError) and error.filename is None:  # of what is printed
@@ -71,6 +80,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("diabolo: interrupted", file=sys.stderr)
         return 130
     return status
+
+
+def _show_warning(message: Warning | str, *_: object) -> None:
+    if sys.stderr is not None:
+        print(f"diabolo: warning: {message}", file=sys.stderr)
 
 
 def _sentence(error: Exception) -> str:

@@ -13,6 +13,7 @@ from typing import Any
 
 from .._core import Calibration, Model, load_recording
 from ..evaluation import DEFAULT_MODELS, Excerpt
+from .files import STDOUT
 
 RECORDING_HELP = "a Motive export or a tidy recording; NAME.csv:0-180 takes the rows 0 to 180 of it only"
 
@@ -46,6 +47,13 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
         help="where tips and diabolo sit in the rigid bodies of Motive exports (diabolo.calibration/1); "
         "default: the published calibration of the red diabolo",
     )
+
+
+def output_name(text: str) -> str:
+    """The name of a file or folder to write, as argparse takes it."""
+    if text in ("", STDOUT):
+        raise argparse.ArgumentTypeError(f"{text!r}; expected a name; standard output is for --json only")
+    return text
 
 
 def split_excerpt(text: str) -> tuple[str, tuple[int, int] | None]:

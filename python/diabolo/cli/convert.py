@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from .._core import load_recording
+from ..checks import warn_of
 from . import files
-from .arguments import add_calibration, add_command, read_calibration
+from .arguments import add_calibration, add_command, output_name, read_calibration
 
 
 def add_parser(commands: Any) -> None:
@@ -28,7 +29,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "motive", metavar="MOTIVE.csv", help="what to read: a Motive export (or a tidy recording)"
     )
-    parser.add_argument("tidy", metavar="TIDY.csv", help="what to write")
+    parser.add_argument("tidy", metavar="TIDY.csv", type=output_name, help="what to write")
     add_calibration(parser)
     parser.add_argument(
         "--json", metavar="FILE", help="write what was converted as JSON; - is standard output"
@@ -42,6 +43,7 @@ def run(arguments: argparse.Namespace) -> None:
     inputs = [arguments.motive] + ([arguments.calibration] if arguments.calibration else [])
     files.check_outputs([target, target.with_suffix(".json"), arguments.json], inputs)
     recording = load_recording(arguments.motive, read_calibration(arguments.calibration))
+    warn_of([recording])
     recording.save(target)
     dropouts = int(np.count_nonzero(~recording.diabolo_valid))
     files.write_json(

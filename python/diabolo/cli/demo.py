@@ -11,7 +11,7 @@ from typing import Any
 from .._core import Model, load_recording
 from ..evaluation import ALL_RECORDINGS, DEFAULT_MODELS, Evaluation, Excerpt, predict
 from . import evaluate, files
-from .arguments import add_command
+from .arguments import add_command, output_name
 
 SHOWN, SHOWN_SECONDS = "swing", 3.0  # what the picture of a trajectory shows
 
@@ -27,7 +27,11 @@ def add_parser(commands: Any) -> None:
         example="  diabolo demo --out demo",
     )
     parser.add_argument(
-        "--out", metavar="DIR", default="diabolo-demo", help="folder for the pictures; default: diabolo-demo"
+        "--out",
+        metavar="DIR",
+        type=output_name,
+        default="diabolo-demo",
+        help="folder for the pictures; default: diabolo-demo",
     )
     parser.add_argument("--json", metavar="FILE", help="write the figures as JSON; - is standard output")
 

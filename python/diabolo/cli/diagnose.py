@@ -25,6 +25,7 @@ from . import files
 from .arguments import (
     add_calibration,
     add_command,
+    output_name,
     progress_steps,
     read_calibration,
     read_excerpt,
@@ -69,7 +70,10 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--json", metavar="FILE", help="write the result as JSON; - is standard output")
     parser.add_argument(
-        "--out", metavar="DIR", help=f"folder for {REPORT_FILE}, {RESULT_FILE} and {MODEL_FILE}"
+        "--out",
+        metavar="DIR",
+        type=output_name,
+        help=f"folder for {REPORT_FILE}, {RESULT_FILE} and {MODEL_FILE}",
     )
     parser.add_argument(
         "--budget", metavar="SECONDS", type=float, default=1e9, help="look for nothing more after so long"

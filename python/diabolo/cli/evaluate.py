@@ -14,6 +14,7 @@ from .arguments import (
     RECORDING_HELP,
     add_calibration,
     add_command,
+    output_name,
     progress_bar,
     read_calibration,
     read_excerpt,
@@ -66,7 +67,10 @@ def add_parser(commands: Any) -> None:
     add_calibration(parser)
     parser.add_argument("--json", metavar="FILE", help="write the figures as JSON; - is standard output")
     parser.add_argument(
-        "--plot", metavar="FILE", help="draw error against time after the start (.png, .pdf, .svg)"
+        "--plot",
+        metavar="FILE",
+        type=output_name,
+        help="draw error against time after the start (.png, .pdf, .svg)",
     )
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default 0: all cores")
     parser.add_argument(

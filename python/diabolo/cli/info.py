@@ -83,6 +83,7 @@ def describe(path: str, calibration: Any) -> dict[str, Any]:
         "bodies": [_body(name, valid, rate) for name, valid in bodies.items()],
         "spin_rad_s": _spin(recording) if recording is not None else None,
         "not_calibrated": problem,
+        "warnings": recording.warnings() if recording is not None else [],
     }
 
 
@@ -116,6 +117,7 @@ def text_of(found: dict[str, Any]) -> str:
             f"spin: {spin['min']:.1f} to {spin['max']:.1f} rad/s, median {spin['median']:.1f} rad/s; "
             f"faster than {spin['aliases_beyond']:.0f} rad/s would alias"
         )
+    lines += [f"odd: {sentence}" for sentence in found["warnings"]]
     return "\n".join(lines)
 
 

@@ -28,8 +28,8 @@ from ..evaluation import DEFAULT_MODELS
 from ..player import ACTIONS, PlannedPlay, best_guess, model_for, plan_action
 from ..view import view_html
 from . import files, plots
-from .arguments import add_command, read_model
-from .simulate import played_recording
+from .arguments import add_command, output_name, read_model
+from .simulate import check_spin, played_recording
 
 SCHEMA = "diabolo.plan/1"
 RATE = 240.0  # of the recording that is written [Hz]
@@ -104,9 +104,13 @@ def add_parser(commands: Any) -> None:
         "--seconds", metavar="S", type=float, default=10.0, help="for a plan at most; default 10"
     )
     parser.add_argument("--random-seed", metavar="N", type=int, default=1, help="of the walk; default 1")
-    parser.add_argument("--out", metavar="FILE.csv", help="tips and diabolo, with FILE.json beside it")
-    parser.add_argument("--plot", metavar="FILE", help="a picture: .png, .pdf or .svg")
-    parser.add_argument("--html", metavar="FILE", help="a page that shows it in three dimensions")
+    parser.add_argument(
+        "--out", metavar="FILE.csv", type=output_name, help="tips and diabolo, with FILE.json beside it"
+    )
+    parser.add_argument("--plot", metavar="FILE", type=output_name, help="a picture: .png, .pdf or .svg")
+    parser.add_argument(
+        "--html", metavar="FILE", type=output_name, help="a page that shows it in three dimensions"
+    )
     parser.add_argument("--json", metavar="FILE", help="write a summary as JSON; - is standard output")
 
 
@@ -121,8 +125,7 @@ def run(arguments: argparse.Namespace) -> int:
     files.check_outputs([out, beside, arguments.plot, arguments.html, arguments.json], inputs)
     if arguments.plot:
         plots.check(arguments.plot)
-    if not math.isfinite(arguments.spin):
-        raise ValueError(f"--spin {arguments.spin}: expected a finite number")
+    check_spin(arguments.spin, RATE)
     goals = _numbers("--goal", arguments.goal, GOALS)
     usual = TipLimits()
     asked = _numbers("--limit", arguments.limit, LIMITS)

@@ -21,7 +21,7 @@ from .._core import (
     recorded_plan,
 )
 from . import files
-from .arguments import add_command
+from .arguments import add_command, output_name
 from .tables import format_table
 
 SAMPLES = 20  # along each side of a grid's box, for the map of speeds
@@ -90,7 +90,7 @@ def _add_grid(actions: Any) -> None:
     )
     parser.add_argument("side", choices=("left", "right"), help="which arm")
     _add_mounts(parser)
-    parser.add_argument("--out", metavar="GRID.csv", help="write its key points there")
+    parser.add_argument("--out", metavar="GRID.csv", type=output_name, help="write its key points there")
 
 
 def _add_mounts(parser: argparse.ArgumentParser) -> None:

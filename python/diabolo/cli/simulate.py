@@ -21,6 +21,7 @@ from .arguments import (
     RECORDING_HELP,
     add_calibration,
     add_command,
+    output_name,
     read_calibration,
     read_excerpt,
     read_model,
@@ -42,7 +43,7 @@ def add_parser(commands: Any) -> None:
         example="  diabolo simulate swing.csv --motion swing\n"
         "  diabolo simulate predicted.csv --on throw_1.csv",
     )
-    parser.add_argument("tidy", metavar="TIDY.csv", help="what to write")
+    parser.add_argument("tidy", metavar="TIDY.csv", type=output_name, help="what to write")
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("--on", metavar="RECORDING", help=f"the tips of {RECORDING_HELP}")
     source.add_argument(
@@ -127,12 +128,20 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
     )
 
 
+def check_spin(spin: float, rate: float) -> None:
+    """Raise ValueError where samples at this rate [Hz] could not show the spin [rad/s]."""
+    if not abs(spin) < math.pi * rate:
+        raise ValueError(
+            f"--spin {spin:g}: expected less than {math.pi * rate:.0f} rad/s; "
+            f"at {rate:g} samples a second a faster one looks like a slower one"
+        )
+
+
 def on_motion(
     name: str, model: Model, duration: float, spin: float, title: str
 ) -> tuple[Recording, NDArray[np.uint8]]:
     """A built-in motion, from a diabolo that hangs at rest below the tips."""
-    if not math.isfinite(spin):
-        raise ValueError(f"--spin {spin}: expected a finite number")
+    check_spin(spin, RATE)
     tips = MOTIONS[name](duration)
     length = model.parameters.string_length
     start = tips.at(0.0)

@@ -14,6 +14,7 @@ from .arguments import (
     RECORDING_HELP,
     add_calibration,
     add_command,
+    output_name,
     read_calibration,
     read_excerpt,
     read_model,
@@ -32,7 +33,7 @@ def add_parser(commands: Any) -> None:
         "  diabolo view throw_1.csv:0-180 --model consistent --out throw.html",
     )
     parser.add_argument("recording", metavar="RECORDING", help=f"or a plan: {RECORDING_HELP}")
-    parser.add_argument("--out", metavar="FILE.html", required=True, help="what to write")
+    parser.add_argument("--out", metavar="FILE.html", type=output_name, required=True, help="what to write")
     parser.add_argument(
         "--model",
         metavar="NAME",

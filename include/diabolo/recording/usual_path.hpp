@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diabolo/recording/recording.hpp"
+#include "diabolo/recording/text.hpp"
+#include "diabolo/state_machine.hpp"
+#include "diabolo/string_path.hpp"
+
+namespace diabolo {
+
+/// Farthest that the string's length and the usual path may be apart [m]; beyond, something else is wrong.
+inline constexpr double kOddPathLength = 0.08;
+
+/// Path lengths from tip to tip over the diabolo [m], sorted, of the rows with the diabolo below the tips.
+inline std::vector<double> sorted_path_lengths(const Recording& r) {
+  std::vector<double> lengths;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
+    Tips<double> tips;
+    tips.left = r.left.position.col(i);
+    tips.right = r.right.position.col(i);
+    const Vector3<double> diabolo = r.diabolo.position.col(i);
+    if (height_above_tips(diabolo, tips.left, tips.right) > 0.0) continue;
+    lengths.push_back(StringPath<double>(diabolo, tips).length());
+  }
+  std::ranges::sort(lengths);
+  return lengths;
+}
+
+/// The most frequent path length from tip to tip over the diabolo, where the diabolo is below the tips; none
+/// where no length stands out. That is the string's length while it is taut.
+inline std::optional<double> usual_path_length(const Recording& r) {
+  const std::vector<double> lengths = sorted_path_lengths(r);
+  if (lengths.size() < 20) return std::nullopt;
+  // The densest interval of 20 mm.
+  std::size_t best = 0, best_count = 0;
+  for (std::size_t low = 0, high = 0; low < lengths.size(); ++low) {
+    while (high < lengths.size() && lengths[high] < lengths[low] + 0.02) ++high;
+    if (high - low > best_count) best_count = high - low, best = low;
+  }
+  if (best_count * 4 < lengths.size()) return std::nullopt;
+  return lengths[best + best_count / 2];
+}
+
+/// A clause about a recording whose usual path is not of its string's length; else empty. Where no length
+/// stands out, as in units that are much smaller than thought, the median must be within a factor of two.
+inline std::string odd_path_length(const Recording& r) {
+  double path = r.string_length;
+  bool odd = false;
+  if (const std::optional<double> usual = usual_path_length(r)) {
+    path = *usual;
+    odd = std::abs(path - r.string_length) > kOddPathLength;
+  } else if (const std::vector<double> lengths = sorted_path_lengths(r); lengths.size() >= 20) {
+    path = lengths[lengths.size() / 2];
+    odd = path > 2.0 * r.string_length || path < 0.5 * r.string_length;
+  }
+  if (!odd) return {};
+  return "the path from tip to tip over the diabolo is mostly " + shown(path) + " m where the string is " +
+         shown(r.string_length) + " m long: wrong units, swapped bodies, or another string";
+}
+
+}  // namespace diabolo
