@@ -162,7 +162,7 @@ def text_of(name: str, found: dict[str, Any]) -> str:
     ratio = None if found["as_played_s"] is None else found["as_played_s"] / found["as_planned_s"]
     verdict = "can be played" if found["playable"] else "cannot be played"
     if found["playable"] and ratio is not None and ratio > SLOWED:
-        verdict += ", but slower than planned: the diabolo will do something else"
+        verdict += ", but slower than planned: the diabolo will do something else; see diabolo plan --robots"
     lines = [f"{name}: {verdict}"]
     if ratio is not None:
         pace = (
