@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable
-from typing import Any, SupportsIndex
+from typing import Any, SupportsIndex, TypeVar
 
 from ._core import Model, Recording
+
+Kind = TypeVar("Kind")
 
 LARGEST_SEED = 2**63 - 1
 MOST_THREADS = 2**31 - 1
@@ -42,6 +44,13 @@ def model_of(name: str, given: object) -> Model:
         return Model.named(given)
     if not isinstance(given, Model):
         raise ValueError(f"{name}: {given!r}; expected a Model, or 'published', 'paper' or 'consistent'")
+    return given
+
+
+def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:
+    """`given`, of that kind; else raises ValueError."""
+    if not isinstance(given, kind):
+        raise ValueError(f"{name}: {given!r}; expected a {kind.__name__}")
     return given
 
 

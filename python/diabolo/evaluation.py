@@ -16,6 +16,7 @@ from .checks import (
     LARGEST_SEED,
     MOST_THREADS,
     callable_or_none,
+    instance_of,
     list_of,
     model_of,
     warn_of,
@@ -167,6 +168,7 @@ def predict(
 
     Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
+    instance_of("recording", recording, Recording)
     if row is not None:
         row = whole_number("row", row, 0, len(recording) - 1)
     warn_of([recording])
@@ -176,7 +178,8 @@ def predict(
 
 def position_errors(recording: Recording, predicted: Rollout) -> NDArray[np.float64]:
     """Distance from the recorded to the predicted diabolo [m], shape (N,); NaN where one is missing."""
-    if len(predicted.states) != len(recording):
+    instance_of("recording", recording, Recording)
+    if len(instance_of("predicted", predicted, Rollout).states) != len(recording):
         raise ValueError(
             f"predicted: {len(predicted.states)} rows; expected {len(recording)}, the recording's"
         )
@@ -185,7 +188,12 @@ def position_errors(recording: Recording, predicted: Rollout) -> NDArray[np.floa
 
 
 def _whole(take: Recording | Excerpt) -> Recording:
-    return take if isinstance(take, Recording) else take.recording.cut(take.first, take.last)
+    if isinstance(take, Recording):
+        return take
+    recording = instance_of("Excerpt.recording", take.recording, Recording)
+    last = len(recording) - 1
+    first = whole_number("Excerpt.first", take.first, 0, last)
+    return recording.cut(first, whole_number("Excerpt.last", take.last, first, last))
 
 
 def _labels(given: list[Recording | Excerpt]) -> list[str]:

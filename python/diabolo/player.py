@@ -25,7 +25,7 @@ from ._core import (
     TipLimits,
     TipPath,
 )
-from .checks import LARGEST_SEED, list_of, model_of, whole_number
+from .checks import LARGEST_SEED, list_of, model_of, warn_of, whole_number
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters | str
@@ -276,6 +276,7 @@ def model_for(model: AnyModel, recording: Recording) -> Model:
     """The model with the string's length, mass and axle radius of the recording where it leaves them to it,
     as one that `diagnose` made does: to plan on it for the set-up that was recorded."""
     (one,) = _models(model)
+    warn_of([recording])
     fields = one.to_dict()
     parameters = copy(one.parameters)
     if not one.own_string_length:

@@ -240,6 +240,18 @@ def test_info_reads_takes_that_the_calibration_does_not_fit(command: Command, mo
     assert json_of(command("info", motive_file, "--json").stdout)["spin_rad_s"] is None
 
 
+def test_a_warning_that_cannot_be_printed_loses_nothing(tidy: Path) -> None:
+    played = Recording.load(tidy)
+    odd = Recording(played.time, played.left, played.right, 3.0 * played.diabolo, played.rate)
+    odd.save(tidy.with_name("odd.csv"))
+    command = f"{sys.executable} -m diabolo evaluate odd.csv --model paper --json odd.out 2> /dev/full"
+    done = subprocess.run(
+        command, shell=True, cwd=tidy.parent, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.returncode == 0 and "paper" in done.stdout
+    assert json_of(tidy.with_name("odd.out").read_text())["rows"]
+
+
 @pytest.mark.parametrize("motion", ["hold", "swing", "beat", "throw"])
 def test_simulate_writes_a_recording(command: Command, tmp_path: Path, motion: str) -> None:
     done = command("simulate", "out.csv", "--motion", motion, "--duration", "3", "--spin", "80")
@@ -272,6 +284,7 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
         ("simulate", "out.csv", "--on", "feet.csv"),
         ("view", "feet.csv", "--model", "paper", "--out", "out.html"),
         ("diagnose", "feet.csv"),
+        ("plan", "stop", "--recording", "feet.csv"),
     ],
     ids=lambda arguments: " ".join(arguments),
 )

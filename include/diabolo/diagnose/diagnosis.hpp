@@ -20,7 +20,7 @@
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/select.hpp"
-#include "diabolo/diagnose/swapped_bodies.hpp"
+#include "diabolo/recording/swapped_bodies.hpp"
 
 namespace diabolo {
 

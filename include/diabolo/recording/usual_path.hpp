@@ -19,6 +19,9 @@ namespace diabolo {
 /// Farthest that the string's length and the usual path may be apart [m]; beyond, something else is wrong.
 inline constexpr double kOddPathLength = 0.08;
 
+/// Least time [s] from which something is concluded that play may be like for a moment, as a string is slack.
+inline constexpr double kFewestSeconds = 2.0;
+
 /// Path lengths from tip to tip over the diabolo [m], sorted, of the rows with the diabolo below the tips.
 inline std::vector<double> sorted_path_lengths(const Recording& r) {
   std::vector<double> lengths;
@@ -51,20 +54,19 @@ inline std::optional<double> usual_path_length(const Recording& r) {
 }
 
 /// A clause about a recording whose usual path is not of its string's length; else empty. Where no length
-/// stands out, as in units that are much smaller than thought, the median must be within a factor of two.
+/// stands out, as in units that are much smaller than thought, the median must be within a factor of two. No
+/// path is longer than the string; a slack one is shorter, for a while.
 inline std::string odd_path_length(const Recording& r) {
-  double path = r.string_length;
-  bool odd = false;
-  if (const std::optional<double> usual = usual_path_length(r)) {
-    path = *usual;
-    odd = std::abs(path - r.string_length) > kOddPathLength;
-  } else if (const std::vector<double> lengths = sorted_path_lengths(r); lengths.size() >= 20) {
-    path = lengths[lengths.size() / 2];
-    odd = path > 2.0 * r.string_length || path < 0.5 * r.string_length;
-  }
-  if (!odd) return {};
-  return "the path from tip to tip over the diabolo is mostly " + shown(path) + " m where the string is " +
-         shown(r.string_length) + " m long: wrong units, swapped bodies, or another string";
+  const std::vector<double> lengths = sorted_path_lengths(r);
+  if (lengths.size() < 20) return {};
+  const std::optional<double> usual = usual_path_length(r);
+  const double path = usual.value_or(lengths[lengths.size() / 2]), given = r.string_length;
+  const bool longer = path > (usual ? given + kOddPathLength : 2.0 * given),
+             shorter = path < (usual ? given - kOddPathLength : 0.5 * given) &&
+                       static_cast<double>(lengths.size()) >= kFewestSeconds * r.rate;
+  if (!longer && !shorter) return {};
+  return "the path from tip to tip over the diabolo is mostly " + shown(std::round(path * 1e3) / 1e3) +
+         " m where the string is " + shown(given) + " m long: wrong units, swapped bodies, or another string";
 }
 
 }  // namespace diabolo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,74 +10,75 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/recording/odd_stretches.hpp"
 #include "diabolo/recording/recording.hpp"
-#include "diabolo/recording/text.hpp"
-#include "diabolo/recording/tip_motion.hpp"
+#include "diabolo/recording/start_state.hpp"
+#include "diabolo/recording/swapped_bodies.hpp"
 #include "diabolo/recording/usual_path.hpp"
-#include "diabolo/recording/windows.hpp"
 
 namespace diabolo {
-
-/// Longest time [s] for which a tracked diabolo may seem to rest to the last digit beside moving sticks.
-inline constexpr double kLongestRest = 0.1;
 
 /// Longest time [s] for which a tip may be unseen: half a beat of a player's hands, more than which no curve
 /// through what was seen before and after can make up for.
 inline constexpr double kLongestUnseen = 0.25;
 
-/// How far a tip goes at least while a diabolo that seems to rest is thought to be frozen [m].
-inline constexpr double kMovedTip = 0.02;
+/// Longest time [s] for which a body may seem to rest to the last digit.
+inline constexpr double kLongestRest = 0.1;
+
+/// Longest time without rows [s], and the largest part of a recording that may miss.
+inline constexpr double kLongestWithoutRows = 0.1, kMostWithoutRows = 0.05;
+
+/// Usual turn of an axle from row to row at most [rad]; a player turns it by two or three radians a second.
+inline constexpr double kFastAxle = 0.15;
 
 namespace detail {
 
-/// The longest of some stretches of rows, and how many there are.
-struct LongStretch {
-  Eigen::Index first = 0, last = 0;  ///< rows at its ends
-  int count = 0;
-
-  void add(Eigen::Index from, Eigen::Index to, const Eigen::VectorXd& times) {
-    if (count++ == 0 || times[to] - times[from] > times[last] - times[first]) first = from, last = to;
+/// A clause about a diabolo that is above the tips for most of the time, at least two seconds; else empty.
+inline std::string odd_height(const Recording& r) {
+  Eigen::Index above = 0, known = 0;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
+    ++known;
+    above += height_above_tips<double>(r.diabolo.position.col(i), r.left.position.col(i),
+                                       r.right.position.col(i)) > 0.0;
   }
-  /// "2.5 s, from 1.25 s on (the longest of 3 times)".
-  std::string text(const Recording& r) const {
-    const auto rounded = [](double seconds) { return shown(std::round(seconds * 1e3) / 1e3); };
-    return rounded(r.time[last] - r.time[first]) + " s, from " + rounded(r.time[first]) + " s on" +
-           (count > 1 ? " (the longest of " + std::to_string(count) + " times)" : "");
-  }
-};
-
-/// Times for which a tip is missing; see in_long_gap().
-inline LongStretch unseen(const Track& tip, const Eigen::VectorXd& times) {
-  const std::vector<bool> gaps = in_long_gap(tip, times);
-  LongStretch found;
-  for (Eigen::Index i = 0; i + 1 < times.size(); ++i) {
-    const Eigen::Index first = i;
-    while (i + 1 < times.size() && gaps[static_cast<std::size_t>(i)]) ++i;
-    const bool missing = !tip.valid.segment(first, i - first + 1).all();
-    if (missing && times[i] - times[first] > kLongestUnseen) found.add(first, i, times);
-  }
-  return found;
+  if (static_cast<double>(known) < kFewestSeconds * r.rate || 2 * above <= known) return {};
+  return "the diabolo is above the tips in " + std::to_string(100 * above / known) +
+         " % of the rows: an axis other than z points up, or bodies are swapped";
 }
 
-/// Times for which the diabolo does not move by a digit while a tip does.
-inline LongStretch frozen(const Recording& r) {
-  LongStretch found;
-  for (Eigen::Index first = 0, i = 1; i <= r.size(); ++i) {
-    if (i < r.size() && r.diabolo.valid[i] && r.diabolo.position.col(i) == r.diabolo.position.col(first))
-      continue;
-    const Eigen::Index n = i - first;
-    const auto moved = [&](const Track& tip) {
-      double farthest = 0.0;
-      for (Eigen::Index k = first; k < i; ++k)
-        if (tip.valid[k] && tip.valid[first])
-          farthest = std::max(farthest, (tip.position.col(k) - tip.position.col(first)).norm());
-      return farthest > kMovedTip;
-    };
-    if (n > 1 && r.time[i - 1] - r.time[first] > kLongestRest && (moved(r.left) || moved(r.right)))
-      found.add(first, i - 1, r.time);
-    first = i;
+/// A clause about the diabolo's orientations where they are none of a diabolo; else empty.
+inline std::string odd_axle(const Recording& r) {
+  const OrientationTrack& track = r.diabolo_orientation;
+  if (track.empty()) return {};
+  const auto axle = [&track](Eigen::Index i) {
+    return Eigen::Quaterniond(Eigen::Vector4d(track.quaternion.col(i))) * Eigen::Vector3d::UnitX();
+  };
+  std::vector<double> turns;
+  bool changes = false;
+  for (Eigen::Index i = 0; i + 1 < r.size(); ++i) {
+    if (!track.valid[i] || !track.valid[i + 1] || !r.steps_evenly(i)) continue;
+    changes = changes || track.quaternion.col(i) != track.quaternion.col(i + 1);
+    turns.push_back(axle(i).cross(axle(i + 1)).norm());
   }
-  return found;
+  if (static_cast<double>(turns.size()) < kFewestSeconds * r.rate) return {};
+  if (!changes) return "the diabolo's orientation never changes: it was not tracked";
+  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+  std::nth_element(turns.begin(), middle, turns.end());
+  if (*middle < kFastAxle) return {};
+  return "the diabolo's body x turns by " + Stretches::rounded(*middle) +
+         " rad from row to row: it is not the axle, or the quaternions are not in the order x, y, z, w";
+}
+
+/// A clause about bodies under each other's names; else empty.
+inline std::string odd_names(const Recording& r) {
+  if (sticks_are_exchanged(r).value_or(false))
+    return "seen along the sticks, the left one is on the right: they are under each other's names";
+  Recording given = r;
+  if (const Swaps swaps = unswap(given); swaps.count > 0)
+    return "bodies jump to each other's places in " + std::to_string(swaps.count) + " rows, first in rows " +
+           std::to_string(swaps.rows.front().first) + " to " + std::to_string(swaps.rows.front().second);
+  return {};
 }
 
 }  // namespace detail
@@ -85,18 +87,25 @@ inline LongStretch frozen(const Recording& r) {
 /// means. Whatever is computed from such a recording deserves a second look.
 inline std::vector<std::string> warnings(const Recording& recording) {
   std::vector<std::string> result;
-  if (std::string path = odd_path_length(recording); !path.empty()) result.push_back(std::move(path));
+  for (std::string clause : {odd_path_length(recording), detail::odd_height(recording),
+                             detail::odd_axle(recording), detail::odd_names(recording)})
+    if (!clause.empty()) result.push_back(std::move(clause));
   for (const auto& [side, tip] : {std::pair{"left", &recording.left}, std::pair{"right", &recording.right}})
-    if (const auto gap = detail::unseen(*tip, recording.time); gap.count > 0)
-      result.push_back(std::string("the ") + side + " tip is not seen for " + gap.text(recording) +
+    if (const Stretches gap = unseen(*tip, recording.time, kLongestUnseen); gap.count > 0)
+      result.push_back(std::string("the ") + side + " tip is not seen for " + gap.text() +
                        "; a prediction across it goes by a guess");
-  detail::LongStretch jump;
-  for (Eigen::Index i = 0; i + 1 < recording.size(); ++i)
-    if (recording.time[i + 1] - recording.time[i] > kLongestTipGap) jump.add(i, i + 1, recording.time);
-  if (jump.count > 0) result.push_back("there are no rows for " + jump.text(recording));
-  if (const auto rest = detail::frozen(recording); rest.count > 0)
-    result.push_back("the diabolo does not move by a digit for " + rest.text(recording) +
-                     ", while the sticks do: frozen tracking");
+  if (const Stretches none = without_rows(recording);
+      none.length > kLongestWithoutRows ||
+      none.total >
+          kMostWithoutRows *
+              (recording.size() > 0 ? recording.time[recording.size() - 1] - recording.time[0] : 0.0))
+    if (none.count > 0) result.push_back("there are no rows for " + none.text());
+  for (const auto& [name, track] :
+       {std::pair{"left tip", &recording.left}, std::pair{"right tip", &recording.right},
+        std::pair{"diabolo", &recording.diabolo}})
+    if (const Stretches rest = frozen(recording, *track, kLongestRest); rest.count > 0)
+      result.push_back(std::string("the ") + name + " does not move by a digit for " + rest.text() +
+                       ": frozen tracking");
   return result;
 }
 

@@ -8,6 +8,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import NoReturn
 
 from .. import __version__
@@ -83,11 +84,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _show_warning(message: Warning | str, *_: object) -> None:
-    if sys.stderr is not None:
-        print(f"diabolo: warning: {message}", file=sys.stderr)
+    with suppress(OSError):  # what is warned of is no reason to lose the result
+        if sys.stderr is not None:
+            print(f"diabolo: warning: {_line(str(message))}", file=sys.stderr, flush=True)
 
 
 def _sentence(error: Exception) -> str:
     if isinstance(error, OSError):
-        return f"{error.filename or 'standard output'}: {error.strerror}"
-    return " ".join(str(error).split())
+        return _line(f"{error.filename or 'standard output'}: {error.strerror}")
+    return _line(str(error))
+
+
+def _line(text: str) -> str:
+    """In one line, without what a terminal would obey."""
+    return "".join(c if c.isprintable() else "?" for c in " ".join(text.split()))

@@ -111,7 +111,7 @@ def text_of(found: dict[str, Any]) -> str:
     if found["not_calibrated"]:
         lines.append(f"No tips and no spin: {found['not_calibrated']}.")
     elif spin is None:
-        lines.append("The diabolo's spin is unknown: no orientations.")
+        lines.append("The diabolo's spin is unknown: no orientations that tell it.")
     else:
         lines.append(
             f"spin: {spin['min']:.1f} to {spin['max']:.1f} rad/s, median {spin['median']:.1f} rad/s; "

@@ -30,6 +30,7 @@ from .arguments import (
 
 RATE = 120.0  # of a built-in motion [Hz]
 STEPS_PER_SAMPLE = 8
+FARTHEST = 100.0  # that a recording may hold [m]
 
 
 def add_parser(commands: Any) -> None:
@@ -110,6 +111,13 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
     predicted = predict(take, model)
     known = ~np.isnan(predicted.states[:, 0])
     first = int(np.argmax(known))
+    away = known & ~(np.abs(predicted.states[:, :3]).max(axis=1) <= FARTHEST)
+    if away.any():
+        seconds = take.time[int(np.argmax(away))] - take.time[first]
+        raise ValueError(
+            f"{arguments.on}: the prediction is more than {FARTHEST:g} m away after {seconds:.2f} s; "
+            "take fewer rows, as in NAME.csv:0-180"
+        )
     take = take.cut(first, len(take) - 1)
     # Where a tip is missing, the one that the prediction went by in its place.
     left, right, _, _ = TipMotion.of_recording(take, model.interpolation).at(take.time - take.time[0])

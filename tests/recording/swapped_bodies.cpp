@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/diagnose/swapped_bodies.hpp"
+#include "diabolo/recording/swapped_bodies.hpp"
 
 #include <cmath>
 
