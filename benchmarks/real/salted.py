@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import copy
 import sys
-from collections.abc import Iterator
 
 import diabolo
 import numpy as np
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 
 SALTS = {  # name: largest dose, unit, and which entry of the ladder tells its size
     "string_friction": (0.15, "1", "friction"),
-    "linear_drag": (0.4, "1/s", "linear_drag"),
+    "air_drag_linear": (0.4, "1/s", "linear_drag"),
     "magnus_lift": (4e-3, "1/rad", "lift"),
     "spin_drag": (5e-4, "1/rad", "spin_air"),
 }
@@ -32,7 +31,7 @@ def with_salt(model: Model, name: str, dose: float) -> Model:
     if name == "string_friction":
         f = model.string_friction
         salted.string_friction = StringFriction(coefficient=f.coefficient + dose, spin_gain=f.spin_gain)
-    elif name == "linear_drag":
+    elif name == "air_drag_linear":
         fields = model.air.to_dict()
         salted.air = Air(**{**fields, "linear_drag": fields["linear_drag"] + dose})
     elif name == "magnus_lift":
@@ -41,6 +40,13 @@ def with_salt(model: Model, name: str, dose: float) -> Model:
         fields = model.spin_loss.to_dict()
         salted.spin_loss = SpinLoss(**{**fields, "air": fields["air"] + dose})
     return salted
+
+
+def on_rigid_string(model: Model) -> Model:
+    """The model without what gives: the measured path from tip to tip says how long the string is."""
+    fields = model.to_dict()
+    given = ("string_friction", "air", "magnus_lift", "spin_loss", "gravity_tilt")
+    return Model(model.parameters, **{name: fields[name] for name in given if name in fields})
 
 
 class Measured:
@@ -102,11 +108,11 @@ def response(take: Recording, model: Model, salted: Model) -> NDArray[np.float64
             base = measured.states[row]
         state = base + added[row]
         taut = measured.is_taut(row)
-        follows = taut and abs(measured.path(row, state[:3]) - measured.path(row, base[:3])) < TAUT
+        longer = measured.path(row, state[:3]) - measured.path(row, base[:3])
+        follows = taut and abs(float(longer)) < TAUT
         if follows:  # as long a string as was measured
             left, right = state[:3] - measured.left[row], state[:3] - measured.right[row]
             gradient = left / np.linalg.norm(left) + right / np.linalg.norm(right)
-            longer = measured.path(row, state[:3]) - measured.path(row, base[:3])
             added[row, :3] -= gradient * longer / (gradient @ gradient)
             state = base + added[row]
         after = measured.stepped(model, row, base, taut)
@@ -117,20 +123,13 @@ def response(take: Recording, model: Model, salted: Model) -> NDArray[np.float64
 
 def with_response(take: Recording, added: NDArray[np.float64]) -> Recording:
     """The recording with the diabolo moved, and turned about its axle by what the spin is more."""
-    angle = np.concatenate([[0.0], np.cumsum(added[:-1, 6] * np.diff(take.time))])
-    turned = take.diabolo_orientation.copy()
-    x, y, z, w = turned.T
-    forward = 1.0 - 2.0 * (y * y + z * z) >= 0.0  # the axle's x component in the world
-    half = np.where(forward, -0.5, 0.5) * angle  # a spin about the axle as it points backwards
-    s, c = np.sin(half), np.cos(half)
-    turned = np.stack([w * s + x * c, y * c + z * s, z * c - y * s, w * c - x * s], axis=1)
     return Recording(
         take.time,
         take.left,
         take.right,
         take.diabolo + added[:, :3],
         take.rate,
-        diabolo_orientation=turned,
+        diabolo_orientation=turned(take, added[:, 6]),
         left_orientation=take.left_orientation,
         right_orientation=take.right_orientation,
         name=take.name,
@@ -139,15 +138,25 @@ def with_response(take: Recording, added: NDArray[np.float64]) -> Recording:
     )
 
 
-def rung_of(answer: diabolo.Diagnosis, parameter: str) -> dict[str, object]:
-    """What the ladder says of the candidate with this parameter."""
-    return next(rung for rung in answer.result["ladder"] if rung["parameter"] == parameter)
+def turned(take: Recording, spin: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """The diabolo's orientations with so much more spin [rad/s], about the axle as it points backwards."""
+    if take.diabolo_orientation is None:
+        return None
+    x, y, z, w = take.diabolo_orientation.T
+    forward = 1.0 - 2.0 * (y * y + z * z) >= 0.0  # the axle's x component in the world
+    angle = np.concatenate([[0.0], np.cumsum(spin[:-1] * np.diff(take.time))])
+    half = np.where(forward, -0.5, 0.5) * angle
+    s, c = np.sin(half), np.cos(half)
+    return np.stack([w * s + x * c, y * c + z * s, z * c - y * s, w * c - x * s], axis=1)
 
 
-def doses(random: np.random.Generator) -> Iterator[tuple[str, float]]:
-    """Each salt with a dose of 40 to 100 % of the largest."""
-    for name, (largest, _, _) in SALTS.items():
-        yield name, largest * random.uniform(0.4, 1.0)
+def estimate_of(answer: diabolo.Diagnosis, parameter: str) -> float:
+    """What the ladder says of the candidate with this parameter, claimed or not."""
+    return float(next(rung["estimate"] for rung in answer.result["ladder"] if rung["parameter"] == parameter))
+
+
+def names_of(answer: diabolo.Diagnosis) -> set[str]:
+    return {effect["name"] for effect in answer.effects}
 
 
 def main() -> int:
@@ -156,23 +165,26 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1, help="of the doses; default 1")
     arguments = parser.parse_args()
     random = np.random.default_rng(arguments.seed)
-    print("| salt | dose | found more | named before | named with it | moved [mm] |")
-    print("|---|---|---|---|---|---|")
     takes = [diabolo.load_recording(file) for file in arguments.recording]
     plain = diabolo.diagnose(takes)
-    for name, dose in doses(random):
-        salted = with_salt(plain.model, name, dose)
-        added = [response(take, plain.model, salted) for take in takes]
-        answer = diabolo.diagnose([with_response(*pair) for pair in zip(takes, added, strict=True)])
-        _, unit, parameter = SALTS[name]
-        before, after = rung_of(plain, parameter), rung_of(answer, parameter)
-        more = float(after["estimate"]) - float(before["estimate"])  # type: ignore[arg-type]
-        moved = 1e3 * float(np.sqrt(np.mean(np.concatenate(added)[:, :3] ** 2 * 3.0)))
-        claims = ["yes" if rung["claimed"] else "no" for rung in (before, after)]
-        print(
-            f"| {name} | {dose:.3g} {unit} | {more:.3g} | {claims[0]} | {claims[1]} | {moved:.1f} |",
-            flush=True,
-        )
+    model = on_rigid_string(plain.model)
+    print("| salt | dose | found more | named without it | named with it | newly named beside it | no more |")
+    print("|---|---|---|---|---|---|---|")
+    for name, (largest, unit, parameter) in SALTS.items():
+        dose = largest * random.uniform(0.4, 1.0)
+        salted = with_salt(model, name, dose)
+        takes_with = [with_response(take, response(take, model, salted)) for take in takes]
+        answer = diabolo.diagnose(takes_with)
+        before, after = names_of(plain), names_of(answer)
+        cells = [
+            name,
+            f"{dose:.3g} {unit}",
+            f"{estimate_of(answer, parameter) - estimate_of(plain, parameter):.3g}",
+            *("yes" if name in names else "no" for names in (before, after)),
+            ", ".join(sorted(after - before - {name})) or "-",
+            ", ".join(sorted(before - after)) or "-",
+        ]
+        print(f"| {' | '.join(cells)} |", flush=True)
     return 0
 
 

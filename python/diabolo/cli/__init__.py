@@ -9,7 +9,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 from .. import __version__
 from ..checks import RecordingWarning
@@ -83,7 +83,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return status
 
 
-def _show_warning(message: Warning | str, *_: object) -> None:
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """As warnings.showwarning, in a sentence."""
     with suppress(OSError):  # what is warned of is no reason to lose the result
         if sys.stderr is not None:
             print(f"diabolo: warning: {_line(str(message))}", file=sys.stderr, flush=True)
