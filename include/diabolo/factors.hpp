@@ -13,7 +13,8 @@ Scalar factor_time(const Parameters<Scalar>& parameters, const Scalar& dt) {
 
 /// The share of the velocity that dissipation leaves over a step, in the lanes `where`.
 template <class Scalar>
-Scalar dissipation(const Parameters<Scalar>& parameters, const Scalar& dt, const Mask<Scalar>& where) {
+[[gnu::always_inline]] inline Scalar dissipation(const Parameters<Scalar>& parameters, const Scalar& dt,
+                                                 const Mask<Scalar>& where) {
   using std::exp;
   if (is_constant_zero(parameters.dissipation_rate)) return Scalar(1);
   return select(where, Scalar(exp(-parameters.dissipation_rate * factor_time(parameters, dt))), Scalar(1));

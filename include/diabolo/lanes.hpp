@@ -147,27 +147,36 @@ void scatter_record(const State<Pack>& state, const LaneBlock& block, std::size_
   }
 }
 
-}  // namespace detail
-
-/// The kernel for a Pack of doubles.
-template <class Pack>
-void run_lanes(const LaneBlock& block) {
-  const FullPredictor<Pack> predictor(detail::gather_parameters<Pack>(block),
-                                      detail::gather_effects<Pack>(block),
-                                      typename FullPredictor<Pack>::AlreadyValid{});
-  State<Pack> state = detail::gather_state<Pack>(block);
+template <class Pack, class P>
+void run_with(const P& predictor, const LaneBlock& block) {
+  State<Pack> state = gather_state<Pack>(block);
   Tips<Pack> tips[2];
-  detail::gather_tips(block, 0, tips[0]);
+  gather_tips(block, 0, tips[0]);
   for (std::size_t i = 1; i <= block.steps; ++i) {
     const Tips<Pack>& now = tips[(i - 1) % 2];
     Tips<Pack>& next = tips[i % 2];
-    detail::gather_tips(block, i, next);
+    gather_tips(block, i, next);
     predictor.step(state, now, next, Pack(block.dt));
     const std::size_t done = block.first_step + i;
     if (block.record_every > 0 && done % block.record_every == 0)
-      detail::scatter_record(state, block, done / block.record_every - 1);
+      scatter_record(state, block, done / block.record_every - 1);
   }
-  detail::scatter_state(state, block);
+  scatter_state(state, block);
+}
+
+}  // namespace detail
+
+/// The kernel for a Pack of doubles. Where no effect is at work a predictor that knows none does the same,
+/// bit for bit, and does not ask at every step.
+template <class Pack>
+void run_lanes(const LaneBlock& block) {
+  const Parameters<Pack> parameters = detail::gather_parameters<Pack>(block);
+  const AllEffects<Pack> effects = detail::gather_effects<Pack>(block);
+  if (effects.neutral())
+    detail::run_with<Pack>(Predictor<Pack>(parameters, {}, typename Predictor<Pack>::AlreadyValid{}), block);
+  else
+    detail::run_with<Pack>(
+        FullPredictor<Pack>(parameters, effects, typename FullPredictor<Pack>::AlreadyValid{}), block);
 }
 
 }  // namespace diabolo

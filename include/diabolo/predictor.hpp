@@ -72,16 +72,15 @@ class Predictor {
   StepStatus<Scalar> dispatch(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                               const Scalar& dt, const StringNow<Scalar>& string) const {
     if (parameters_.string_law != StringLaw::kInextensible) return pull_step(state, begin, end, dt, string);
-    if constexpr (ScalarTraits<Scalar>::kLanes == 1)
-      if (usual_string_step(state, begin, end, dt, string)) return {};
+    if (usual_string_step(state, begin, end, dt, string)) return {};
     return string_step(state, begin, end, dt, string);
   }
 
-  /// string_step() in fewer instructions, bit for bit, while the string stays taut. False where it may not;
+  /// string_step() in fewer instructions, bit for bit, while the string stays taut. False where one may not;
   /// then the state is as it was.
   bool usual_string_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                          const Scalar& dt, const StringNow<Scalar>& string) const {
-    if (state.string_state != StringState::kOnString || plane_.active) return false;
+    if (plane_.active || !all(is(state.string_state, StringState::kOnString))) return false;
     const PlaneProjector<Scalar> no_plane;
     const Vector3<Scalar> outer = effects_.acceleration(state, begin, dt, parameters_);
     const StringStep<Scalar> step{state.position,
@@ -95,7 +94,7 @@ class Predictor {
                                   string.compliance,
                                   string.damping_time,
                                   no_plane};
-    if (step.overstretched()) return false;
+    if (any(step.overstretched())) return false;
     StringStepResult<Scalar> result;
     if (!(elastic(string) ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
       return false;

@@ -14,7 +14,8 @@ struct PlaneProjector {
     return active ? Vector3<Scalar>(v - normal * dot<Scalar>(v, normal)) : v;
   }
   /// The point moved into the plane through `origin`.
-  Vector3<Scalar> on(const Vector3<Scalar>& origin, const Vector3<Scalar>& point) const {
+  [[gnu::always_inline]] inline Vector3<Scalar> on(const Vector3<Scalar>& origin,
+                                                   const Vector3<Scalar>& point) const {
     return active ? Vector3<Scalar>(origin + (*this)(point - origin)) : point;
   }
 };

@@ -222,18 +222,19 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   return result;
 }
 
-/// The same, bit for bit, for the usual step of one captured lane: the string is taut from beginning to end,
+/// The same, bit for bit, for the usual step of captured lanes: the string is taut from beginning to end,
 /// the first step of Newton's method finds its pull, and its energy is beyond doubt. False, and no result,
 /// where that is not so.
 template <bool kElastic, class Scalar>
 [[gnu::always_inline]] inline bool advance_at_once(const StringStep<Scalar>& step,
                                                    StringStepResult<Scalar>& result) {
   detail::TautSearch<kElastic, Scalar> search{step};
-  if (search.slack || (!kElastic && !search.thrown())) return false;
+  if (any(search.slack) || (!kElastic && !all(search.thrown()))) return false;
   detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
   if constexpr (kElastic) search.resolve_spring(found.gradient);
   found.improve(search, true);
-  if (!found.settled || detail::may_gain(search, found) || !(found.pull > Scalar(0))) return false;
+  if (!all(found.settled) || any(detail::may_gain(search, found)) || !all(found.pull > Scalar(0)))
+    return false;
   result = detail::pulled(search, found);
   return true;
 }

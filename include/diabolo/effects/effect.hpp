@@ -144,6 +144,12 @@ struct EffectSet {
     each([&](const auto& effect) { sum += effect.bound_length(state, shifted, parameters); });
     return sum;
   }
+  /// Whether no effect is at work.
+  bool neutral() const {
+    bool none = true;
+    each([&](const auto&) { none = false; });
+    return none;
+  }
   /// Whether any effect moves the tips.
   bool moves_tips() const {
     bool moves = false;
