@@ -37,6 +37,26 @@ AllEffects<double> every_effect() {
   return effects;
 }
 
+/// Diabolos that hang on strings of their own lengths under one preset, without effects: what a kernel does
+/// in the fewest instructions.
+Batch hanging(const TipMotion<double>& motion, std::size_t n) {
+  Batch batch;
+  batch.motions = {&motion};
+  for (std::size_t i = 0; i < n; ++i) {
+    Parameters<double> p = Parameters<double>::consistent();
+    p.string_length = 1.3 + 0.02 * static_cast<double>(i);
+    batch.parameters.push_back(p);
+    State<double> s;
+    s.position = V(0.0, 0.0, 1.0 - std::sqrt(0.25 * p.string_length * p.string_length - 0.09));
+    s.velocity = V(0.1 * static_cast<double>(i % 3), 0.0, 0.0);
+    s.spin = 10.0 * static_cast<double>(i);
+    s.string_state = StringState::kOnString;
+    batch.initial.push_back(s);
+  }
+  batch.steps = {0.0, 1e-3, 700};
+  return batch;
+}
+
 /// Rollouts of all presets, on the string, slack and flying, without effects, with elasticity and with every
 /// effect.
 struct Case {
@@ -119,6 +139,29 @@ TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbo
           }
         }
       }
+  }
+}
+
+TEST_CASE("lanes that differ and hang on taut strings without effects give the bits of single rollouts") {
+  const std::atomic<bool> cancel = false;
+  const TipMotion<double> motion = beat(0.05, 1.0);
+  Batch batch = hanging(motion, 19);
+  std::vector<BatchKernel> kernels = batch_kernels();
+  kernels.push_back(portable_batch_kernel());
+  for (const BatchKernel& kernel : kernels) {
+    INFO("kernel " << kernel.instruction_set);
+    const BatchResult result = rollout_batch(batch, kernel, 1, cancel);
+    for (std::size_t i = 0; i < batch.initial.size(); ++i) {
+      INFO("rollout " << i);
+      const Predictor<double> predictor(batch.parameters[i]);
+      std::size_t taut = 0;
+      const State<double> expected = rollout(predictor, batch.initial[i], motion, batch.steps,
+                                             [&](std::size_t, double, const State<double>& s, const auto&) {
+                                               taut += s.string_state == StringState::kOnString ? 1 : 0;
+                                             });
+      require_same(result.final_states[i], expected);
+      CHECK(taut == batch.steps.count);
+    }
   }
 }
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "diabolo/effects/string_elasticity.hpp"
+#include "diabolo/dual.hpp"
+#include "diabolo/effects/all.hpp"
+#include "diabolo/pack.hpp"
 #include "diabolo/predictor.hpp"
 #include "random.hpp"
 #include "smooth_tips.hpp"
@@ -246,6 +248,21 @@ TEST_CASE("an effect's number out of range is refused by effect, field, value an
                     "wind push: 7 m/s^2; must be within [-5, 5] m/s^2");
   set.get<Wind>().push = std::nan("");
   CHECK_THROWS_AS((Predictor<double, SpinDrag, Wind>(Numbers(), set)), std::invalid_argument);
+}
+
+TEST_CASE("a set is neutral where no lane and no derivative of any amplitude is at work") {
+  CHECK(AllEffects<double>().neutral());
+  AllEffects<double> one;
+  one.get<MagnusLift>().coefficient = 1e-3;
+  CHECK_FALSE(one.neutral());
+  AllEffects<Pack<double, 4>> lanes;
+  CHECK(lanes.neutral());
+  lanes.get<StickFlex>().compliance.set(3, 1e-3);
+  CHECK_FALSE(lanes.neutral());
+  AllEffects<Dual<double, 2>> seeded;
+  CHECK(seeded.neutral());
+  seeded.get<StringFriction>().coefficient = Dual<double, 2>::variable(0.0, 1);
+  CHECK_FALSE(seeded.neutral());
 }
 
 TEST_CASE("a set knows its effects by their types") {

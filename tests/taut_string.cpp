@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "diabolo/pack.hpp"
+#include "lane.hpp"
 #include "random.hpp"
 #include "step_case.hpp"
 
@@ -172,6 +173,61 @@ TEST_CASE("without compliance the elastic step gives the bits of the rigid one")
                       rigid.snapped_taut == elastic.snapped_taut;
     CHECK(same);
   }
+}
+
+TEST_CASE("the usual step at once gives the bits of the whole one, in every lane") {
+  constexpr int kLanes = 4;
+  using P = Pack<double, kLanes>;
+  Vector3<P> position, velocity, guess(P(0), P(0), P(0));
+  Tips<P> tips;
+  StepCase alone[kLanes];
+  for (int k = 0; k < kLanes; ++k) {  // swings of different strings, tips and speeds
+    const double apart = 0.1 + 0.1 * k;
+    alone[k].length = 1.3 + 0.05 * k;
+    alone[k].rest({0.0, apart, 1.0}, {0.0, -apart, 1.0 + 0.03 * k});
+    const Spheroid<double> spheroid(alone[k].begin.left, alone[k].begin.right, alone[k].length);
+    alone[k].position = spheroid.center() - Vector(0.0, 0.0, spheroid.semi_minor());
+    alone[k].velocity = Vector(0.3 * k, 0.1, 0.0);
+    set_lane<P>(position, k, alone[k].position);
+    set_lane<P>(velocity, k, alone[k].velocity);
+    set_lane<P>(tips.left, k, alone[k].begin.left);
+    set_lane<P>(tips.right, k, alone[k].begin.right);
+  }
+  tips.left_velocity = tips.right_velocity = Vector3<P>(P(0), P(0), P(0));
+  const Vector3<P> gravity(P(0), P(0), P(-kStandardGravity));
+  const P length = [&] {
+    P lengths;
+    for (int k = 0; k < kLanes; ++k) lengths.set(k, alone[k].length);
+    return lengths;
+  }();
+  const PlaneProjector<P> no_plane;
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    const StringStep<P> step{position, velocity, gravity, tips, tips,    P(1e-3),
+                             length,   guess,    P(0),    P(0), no_plane};
+    const StringStepResult<P> whole = advance_on_string<false>(step, PackMask<double, kLanes>(true));
+    StringStepResult<P> at_once;
+    const bool usual = advance_at_once<false>(step, at_once);
+    hits += usual;
+    for (int k = 0; k < kLanes; ++k) {
+      CAPTURE(i, k);
+      const StringStepResult<double> one = advance(alone[k]);
+      const auto same = [&](const StringStepResult<P>& lanes) {
+        return lane<P>(lanes.position, k) == one.position && lane<P>(lanes.velocity, k) == one.velocity &&
+               lane<P>(lanes.string_acceleration, k) == one.string_acceleration &&
+               lanes.passed[k] == one.passed && lanes.slack[k] == one.slack && lanes.taut[k] == one.taut;
+      };
+      REQUIRE(same(whole));
+      if (usual) REQUIRE(same(at_once));
+      alone[k].position = one.position;
+      alone[k].velocity = one.velocity;
+      alone[k].guess = one.string_acceleration;
+    }
+    position = whole.position;
+    velocity = whole.velocity;
+    guess = whole.string_acceleration;
+  }
+  CHECK(hits > 400);
 }
 
 TEST_CASE("a diabolo found outside the string is put back without being thrown") {

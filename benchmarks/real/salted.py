@@ -144,8 +144,8 @@ def turned(take: Recording, spin: NDArray[np.float64]) -> NDArray[np.float64] | 
         return None
     x, y, z, w = take.diabolo_orientation.T
     forward = 1.0 - 2.0 * (y * y + z * z) >= 0.0  # the axle's x component in the world
-    angle = np.concatenate([[0.0], np.cumsum(spin[:-1] * np.diff(take.time))])
-    half = np.where(forward, -0.5, 0.5) * angle
+    turns = np.where(forward, -1.0, 1.0)[:-1] * spin[:-1] * np.diff(take.time)
+    half = 0.5 * np.concatenate([[0.0], np.cumsum(turns)])
     s, c = np.sin(half), np.cos(half)
     return np.stack([w * s + x * c, y * c + z * s, z * c - y * s, w * c - x * s], axis=1)
 

@@ -232,7 +232,7 @@ template <bool kElastic, class Scalar>
   if (any(search.slack) || (!kElastic && !all(search.thrown()))) return false;
   detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
   if constexpr (kElastic) search.resolve_spring(found.gradient);
-  found.improve(search, true);
+  found.improve(search, Mask<Scalar>(true));
   if (!all(found.settled) || any(detail::may_gain(search, found)) || !all(found.pull > Scalar(0)))
     return false;
   result = detail::pulled(search, found);

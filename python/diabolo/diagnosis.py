@@ -26,6 +26,9 @@ from .checks import (
 
 SCHEMA = "diabolo.diagnosis/1"
 
+SAME_SET_UP = 0.01
+"""Part by which lengths and masses of one set-up may differ, measured anew for each take."""
+
 
 class Diagnosis(NamedTuple):
     """What `diagnose` gives."""
@@ -109,20 +112,20 @@ def diagnose(
 
 def _warn_of_other_set_ups(recordings: Sequence[Recording]) -> None:
     """Warn where recordings that are looked at together say that they are not of one set-up."""
-    first = recordings[0]
-    for other in recordings[1:]:
-        for name, unit, a, b in (
-            ("string length", "m", first.string_length, other.string_length),
-            ("mass", "kg", first.properties.mass, other.properties.mass),
-            ("axle radius", "m", first.properties.axle_radius, other.properties.axle_radius),
-        ):
-            if a != b:
-                warnings.warn(
-                    f"'{first.name}' and '{other.name}' differ in {name}, {a:g} and {b:g} {unit}; "
-                    "what is found is one value for both",
-                    RecordingWarning,
-                    stacklevel=3,
-                )
+    quantities: dict[str, Callable[[Recording], float]] = {
+        "string length [m]": lambda take: take.string_length,
+        "mass [kg]": lambda take: take.properties.mass,
+        "axle radius [m]": lambda take: take.properties.axle_radius,
+    }
+    for name, of in quantities.items():
+        least, most = min(recordings, key=of), max(recordings, key=of)
+        if of(most) > of(least) * (1.0 + SAME_SET_UP):
+            warnings.warn(
+                f"'{least.name}' and '{most.name}' differ in {name}, {of(least):g} and {of(most):g}; "
+                "what is found is one value for all",
+                RecordingWarning,
+                stacklevel=3,
+            )
 
 
 def _check_distinct(recordings: Sequence[Recording]) -> None:

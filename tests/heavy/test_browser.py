@@ -92,6 +92,7 @@ def test_a_report_shows_its_pictures_and_fits_the_window(report: Path, width: in
 def test_a_view_plays_and_draws(tmp_path: Path) -> None:
     page = tmp_path / "view.html"
     html = diabolo.view_html(diabolo.load_recording(RECORDINGS / "throw.csv"))
+    assert "<body>" in html
     page.write_text(html.replace("<body>", "<body>" + FRAMES), encoding="utf-8")
     dom = document(page, 1000)
     clock = re.search(r'id="clock">([0-9.]+) of', dom)

@@ -300,7 +300,7 @@ def test_a_recording_that_is_odd_is_warned_of(
     assert done.stderr.startswith(
         "diabolo: warning: feet: the path from tip to tip over the diabolo is mostly"
     )
-    assert done.stderr.endswith("wrong units, swapped bodies, or another string\n")
+    assert done.stderr.endswith("another string, or a diabolo that lies elsewhere\n")
     assert done.stderr.count("\n") == 1
     assert "odd: the path" in command("info", "feet.csv").stdout
 

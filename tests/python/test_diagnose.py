@@ -156,7 +156,9 @@ def test_recordings_of_other_set_ups_are_warned_of(played: Recording) -> None:
         properties=DiaboloProperties.green(),
         string_length=played.string_length,
     )
-    with pytest.warns(RecordingWarning, match="'played' and 'lighter' differ in mass, 0.2845 and 0.1415 kg"):
+    with pytest.warns(
+        RecordingWarning, match="'lighter' and 'played' differ in mass .kg., 0.1415 and 0.2845"
+    ):
         diagnose([played, other], bank=["string_friction"])
 
 

@@ -20,6 +20,7 @@
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/select.hpp"
+#include "diabolo/recording/odd_tracking.hpp"
 #include "diabolo/recording/swapped_bodies.hpp"
 
 namespace diabolo {
@@ -200,14 +201,6 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   return result;
 }
 
-/// Where bodies were under each other's names: "take, rows 90 to 120 and 2 times more".
-inline std::string places_of(const Swaps& swaps, const std::string& recording) {
-  const auto [first, last] = swaps.rows.front();
-  const std::size_t more = swaps.rows.size() - 1;
-  return recording + ", rows " + std::to_string(first) + " to " + std::to_string(last) +
-         (more > 0 ? " and " + std::to_string(more) + (more > 1 ? " times more" : " time more") : "");
-}
-
 /// Claims that bodies were recorded under each other's names in so many frames.
 inline void claim_swap(Diagnosis& d, long frames, const std::string& reason) {
   Finding f;
@@ -244,7 +237,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
       sides_are_wrong = sides_are_wrong || exchanged.value_or(false);
       swapped += exchanged.value_or(false) ? rows - jumped : jumped;
       frames += rows;
-      if (swaps.count > 0) places += "; " + detail::places_of(swaps, recording.name);
+      if (swaps.count > 0) places += "; in " + recording.name + " from " + times_of(swaps, recording.time);
     }
   bool backwards = false, still = false, by_friction = false;
   Diagnosis result = detail::diagnose_named<D>(recordings, options, watch, backwards);

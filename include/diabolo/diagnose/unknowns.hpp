@@ -7,6 +7,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "diabolo/recording/usual_path.hpp"
+
 namespace diabolo {
 
 /// Everything that a diagnosis may find to differ from the base simulator, one number each. At zero it is as
@@ -99,7 +101,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"right_x", "m", 0.01, 0.005, -0.04, 0.04},
     {"right_y", "m", 0.01, 0.005, -0.04, 0.04},
     {"right_z", "m", 0.01, 0.005, -0.04, 0.04},
-    {"string_length", "m", 0.01, 0.02, -0.08, 0.08},
+    {"string_length", "m", 0.01, 0.02, -kOddPathLength, kOddPathLength},
     {"spin_coupling", "1/s", 0.1, 1.0, -1e3, 1e3},
     {"axle_radius", "m", 0.001, 0.0007, 0.001, 0.03},
     {"gravity", "m/s^2", 0.1, 0.0, -10.0, 10.0},

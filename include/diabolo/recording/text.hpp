@@ -37,6 +37,9 @@ inline std::string shown(double value) {
   return std::string(buffer, result.ptr);
 }
 
+/// The same to three digits after the point, such as millimetres of metres: for people.
+inline std::string shown_rounded(double value) { return shown(std::round(value * 1e3) / 1e3); }
+
 /// Length in bytes of the UTF-8 character at the front of `text` (not empty); 0 where there is none.
 inline std::size_t utf8_length(std::string_view text) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
