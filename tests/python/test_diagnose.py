@@ -96,6 +96,7 @@ def test_a_bank_restricts_what_is_claimed(plant: list[Recording]) -> None:
         diagnose(plant, bank=["string_frictions"])
 
 
+@pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 def test_exchanged_bodies_are_claimed_and_do_no_harm(plant: list[Recording], tmp_path: Path) -> None:
     swing = next(recording for recording in plant if recording.name == "swing")
     swing.save(tmp_path / "swapped.csv")
@@ -116,6 +117,7 @@ def test_exchanged_bodies_are_claimed_and_do_no_harm(plant: list[Recording], tmp
     assert answer.result["fit"]["augmented_error_m"][2] < answer.result["fit"]["base_error_m"][2]
 
 
+@pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 def test_sticks_under_each_others_names_are_claimed(plant: list[Recording], tmp_path: Path) -> None:
     swing = next(recording for recording in plant if recording.name == "swing")
     swing.save(tmp_path / "swing.csv")
