@@ -64,6 +64,7 @@ TEST_CASE("every operation's derivative agrees with differences and with a compl
   check_derivatives("exp", [](auto x, auto y) { return exp(x - y * y); });
   check_derivatives("sin", [](auto x, auto y) { return sin(x * y); });
   check_derivatives("cos", [](auto x, auto y) { return cos(x / y); });
+  check_derivatives("log", [](auto x, auto y) { return log(x * x + y * y); });
   check_derivatives("tanh", [](auto x, auto y) { return tanh(x * y - x); });
   check_derivatives("with constants", [](auto x, auto y) {
     using T = decltype(x);

@@ -79,6 +79,10 @@ struct Dual {
     const Base power = exp(x.value);
     return chain(power, x, power);
   }
+  friend Dual log(const Dual& x) {
+    using std::log;
+    return chain(log(x.value), x, Base(1) / x.value);
+  }
   friend Dual sin(const Dual& x) {
     using std::cos;
     using std::sin;

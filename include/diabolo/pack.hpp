@@ -88,6 +88,9 @@ struct Pack {
   friend Pack exp(Pack x) {
     return each(x, [](T t) { return std::exp(t); });
   }
+  friend Pack log(Pack x) {
+    return each(x, [](T t) { return std::log(t); });
+  }
   friend Pack sin(Pack x) {
     return each(x, [](T t) { return std::sin(t); });
   }

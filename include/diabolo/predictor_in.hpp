@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "diabolo/predictor.hpp"
@@ -22,13 +21,16 @@ void copy_fields(const From& from, To& to) {
   });
 }
 
-/// The same for each effect of `from`; `to` begins with the same effects and may have more.
+/// The same for each effect of `from` that `to` has as well.
 template <class From, class To>
 void copy_effects(const From& from, To& to) {
-  const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (copy_fields(std::get<I>(from.members), std::get<I>(to.members)), ...);
+  const auto copy = []<class One, class Other>(const One& one, Other& other) {
+    if constexpr (One::kName == Other::kName) copy_fields(one, other);
   };
-  copy(std::make_index_sequence<std::tuple_size_v<decltype(from.members)>>{});
+  const auto to_all = [&](const auto& one) {
+    std::apply([&](auto&... other) { (copy(one, other), ...); }, to.members);
+  };
+  std::apply([&](const auto&... one) { (to_all(one), ...); }, from.members);
 }
 
 /// The same predictor in another Scalar, such as a dual number.

@@ -60,6 +60,14 @@ const char* doc_of(const GyroscopicTilt<double>&) {
   return R"(Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I.)";
 }
 
+const char* doc_of(const UnnamedForce<double>&) {
+  return R"(A force without a name, as a diagnosis found it: accelerations times powers of speed and spin.
+
+Each amplitude [m/s^2] is that at 1 m/s and 100 rad/s; on the string along it (towards the right tip) and square to
+its plane, off it against the velocity, up, and along omega x v. It stops growing below 0.05 and above 20 m/s, below
+1 and above 1000 rad/s.)";
+}
+
 const char* doc_of(const FiniteAxle<double>&) {
   return R"(An axle that is not thin: string lies around it, and the strands leave it along its tangents.)";
 }

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
+__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -795,6 +795,94 @@ class GyroscopicTilt:
     @gain.setter
     def gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
+class UnnamedForce:
+    """
+    A force without a name, as a diagnosis found it: accelerations times powers of speed and spin.
+    
+    Each amplitude [m/s^2] is that at 1 m/s and 100 rad/s; on the string along it (towards the right tip) and square to
+    its plane, off it against the velocity, up, and along omega x v. It stops growing below 0.05 and above 20 m/s, below
+    1 and above 1000 rad/s.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> UnnamedForce:
+        ...
+    def __deepcopy__(self, memo: dict) -> UnnamedForce:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def flight_against(self) -> float:
+        """
+        off the string, against the velocity [m/s^2]; within [-100.0, 100.0]
+        """
+    @flight_against.setter
+    def flight_against(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def flight_lift(self) -> float:
+        """
+        off the string, along omega x v [m/s^2]; within [-100.0, 100.0]
+        """
+    @flight_lift.setter
+    def flight_lift(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def flight_vertical(self) -> float:
+        """
+        off the string, up [m/s^2]; within [-100.0, 100.0]
+        """
+    @flight_vertical.setter
+    def flight_vertical(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def speed_exponent(self) -> float:
+        """
+        power of the speed over 1 m/s [1]; within [-4.0, 4.0]
+        """
+    @speed_exponent.setter
+    def speed_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def spin_exponent(self) -> float:
+        """
+        power of the spin over 100 rad/s [1]; within [-4.0, 4.0]
+        """
+    @spin_exponent.setter
+    def spin_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def string_binormal(self) -> float:
+        """
+        on the string, square to its plane, forwards [m/s^2]; within [-100.0, 100.0]
+        """
+    @string_binormal.setter
+    def string_binormal(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def string_tangent(self) -> float:
+        """
+        on the string, along it towards the right tip, at 1 m/s and 100 rad/s [m/s^2]; within [-100.0, 100.0]
+        """
+    @string_tangent.setter
+    def string_tangent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
 class Model:
     """
     Everything that decides a prediction.
@@ -824,6 +912,7 @@ class Model:
     string_elasticity: StringElasticity
     string_friction: StringFriction
     string_mass: StringMass
+    unnamed_force: UnnamedForce
     @staticmethod
     def consistent() -> Model:
         """

@@ -60,7 +60,7 @@ def report_html(result: dict[str, Any]) -> str:
             result=result,
             fit=_fit(result.get("fit") or {}),
             effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
-            unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
+            unnamed=[_unnamed(item, horizons) for item in _rows(result, "unnamed")],
             strips=_strips(result.get("locate") or {}),
             first_strips=FIRST_RECORDINGS,
             ladder=_ladder(result),
@@ -319,7 +319,7 @@ def _where(where: dict[str, Any]) -> list[str]:
     return [line for line in lines if line] or ["everywhere or not known"]
 
 
-def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
+def _unnamed(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
     curve = [point for point in item.get("curve") or [] if point and None not in point]
     value, deviation, explained = item.get("value"), item.get("deviation"), item.get("explained")
     facts = ["; ".join(_where(item.get("where") or {}))]
@@ -328,6 +328,9 @@ def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
         facts.append(quantity(value, item.get("unit"), around) + (" (90 % interval)" if around else ""))
     facts += _sizes(item)
     facts += [] if explained is None else [f"explains {percent(explained)} of what is left over"]
+    if "in_model" in item:
+        facts += ["part of the model" if item["in_model"] else "not part of the model"]
+        facts += _without(item, horizons)
     return {
         "law": item.get("law") or "no law found",
         "facts": "; ".join(facts),

@@ -205,6 +205,26 @@ TEST_CASE("the turning of the axle is measured, and too small to claim") {
   }
 }
 
+TEST_CASE("a force that has no name is left, and its law predicts what was left out") {
+  AllEffects<double> effects;
+  effects.get<UnnamedForce>().string_binormal = 0.8;
+  effects.get<UnnamedForce>().speed_exponent = 2.0;
+  const Diagnosis d = diagnose({played(effects, 14.0, 8)});  // later it is pushed off
+  CAPTURE(d.sentence);
+  CHECK(d.headline == Headline::kUnnamedStructure);
+  const auto left = std::ranges::find(d.leftovers, Unknown::kStringBinormal, &Leftover::unknown);
+  REQUIRE(left != d.leftovers.end());
+  CAPTURE(left->law.scalar, left->law.exponent, left->law.deviation, left->law.at, left->law.value);
+  CHECK(left->law.scalar == "speed");
+  CHECK(std::abs(left->law.exponent - 2.0) < 3.0 * left->law.deviation + 0.1);
+  CHECK(left->in_model);
+  const auto& force = d.model.effects.get<UnnamedForce>();
+  CAPTURE(force.string_binormal, force.speed_exponent);
+  CHECK(force.string_binormal * std::pow(left->law.at, force.speed_exponent) ==
+        Approx(0.8 * std::pow(left->law.at, 2.0)).epsilon(0.2));
+  CHECK(d.heldout.augmented_error.back().value() < 0.5 * d.heldout.base_error.back().value());
+}
+
 TEST_CASE("one thread and two come to the same, bit for bit") {
   const std::vector<Recording> takes{played({}, 6.0, 4)};
   DiagnosisOptions one, two;

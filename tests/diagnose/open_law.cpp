@@ -53,3 +53,13 @@ TEST_CASE("what does not grow is constant, and few windows have no law") {
   CHECK(std::abs(law.exponent) <= 0.05);
   CHECK(power_law(saying(0.5, 1.0, 7, 3), "speed", "m/s").curve.empty());
 }
+
+TEST_CASE("a power that the windows do not tell is none") {
+  std::vector<WindowSays> windows = saying(0.3, 2.0, 40, 5, 0.01);
+  for (WindowSays& window : windows) window.x = 1.0 + 1e-3 * window.x;  // always the same speed
+  const PowerLaw law = power_law(windows, "speed", "m/s");
+  CHECK(law.exponent == 0.0);
+  CHECK(law.deviation > kVagueExponent);
+  CHECK(law.deviation <= 4.0);
+  CHECK(law.value > 0.3);
+}

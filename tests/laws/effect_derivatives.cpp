@@ -17,7 +17,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr int kFields = 20;
+constexpr int kFields = 27;
 constexpr int kOutputs = 10;  // position, velocity, axle, spin
 using D = Dual<double, kFields>;
 using Outputs = Eigen::Matrix<double, kOutputs, 1>;
@@ -74,6 +74,13 @@ std::array<double, kFields> at_work() {
   set("string_mass.linear_density", 2e-2);
   set("landing_restitution.coefficient", 1e-3);
   set("gyroscopic_tilt.gain", 1.0);
+  set("unnamed_force.string_tangent", 0.3);
+  set("unnamed_force.string_binormal", -0.4);
+  set("unnamed_force.flight_against", 0.2);
+  set("unnamed_force.flight_vertical", -0.3);
+  set("unnamed_force.flight_lift", 0.5);
+  set("unnamed_force.speed_exponent", 0.5);
+  set("unnamed_force.spin_exponent", -0.3);
   return x;
 }
 
@@ -160,10 +167,11 @@ double least_of(int k, double usual) {
 }
 
 /// Acts while the string is loose, or as it comes taut, only: a millimetre's fall does not show it. See
-/// string_mass.cpp and landing_restitution.cpp.
+/// string_mass.cpp, landing_restitution.cpp and unnamed_force.cpp.
 bool of_loose_string(int k) {
   const std::string name = field_names()[static_cast<std::size_t>(k)];
-  return name.starts_with("string_mass") || name.starts_with("landing_restitution");
+  return name.starts_with("string_mass") || name.starts_with("landing_restitution") ||
+         name.starts_with("unnamed_force.flight");
 }
 
 Play hanging_play(Random& random) {
@@ -228,7 +236,7 @@ TEST_CASE("derivatives by every field, all effects at work, in flight") {
       CHECK((jacobian.col(k) - difference).norm() < 1e-6 * difference.norm() + 1e-8);
       const bool of_string = name.starts_with("string_") || name.starts_with("finite_axle") ||
                              name.starts_with("stick_flex") || name.starts_with("landing_restitution") ||
-                             name.starts_with("gyroscopic_tilt");
+                             name.starts_with("gyroscopic_tilt") || name.starts_with("unnamed_force.string");
       CHECK((jacobian.col(k).norm() == 0.0) == of_string);
     }
   }
@@ -256,8 +264,8 @@ TEST_CASE("derivatives by every field where all amplitudes are zero") {
       CAPTURE(episode, name);
       if (of_loose_string(k)) continue;
       if (name.ends_with(".damping") || name.ends_with(".tip_mass") || name.starts_with("air.wind") ||
-          name.ends_with(".spin_gain")) {
-        CHECK(jacobian.col(k).norm() == 0.0);  // of no spring, no drag, no friction: nothing
+          name.ends_with(".spin_gain") || name.ends_with("_exponent")) {
+        CHECK(jacobian.col(k).norm() == 0.0);  // of no spring, no drag, no friction, no force: nothing
         continue;
       }
       if (name.ends_with(".compliance")) {
@@ -280,7 +288,7 @@ TEST_CASE("derivatives by every field where all amplitudes are zero") {
       CHECK(difference.norm() > least_of(k, 1e-2));
     }
   }
-  CHECK(compared == 60);
+  CHECK(compared == 72);
 }
 
 TEST_CASE("with both tips in one place friction's derivative is finite") {

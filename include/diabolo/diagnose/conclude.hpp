@@ -120,6 +120,30 @@ inline std::string tied_plainly(const Finding& finding) {
   return "another effect";
 }
 
+/// Where a latent acceleration acts.
+inline std::string plainly(Unknown latent) {
+  switch (latent) {
+    case Unknown::kStringTangent:
+      return "on the string, along it";
+    case Unknown::kStringBinormal:
+      return "on the string, across its plane";
+    case Unknown::kFlightAgainst:
+      return "in flight, against the velocity";
+    case Unknown::kFlightVertical:
+      return "in flight, upwards";
+    default:
+      return "in flight, square to axle and velocity";
+  }
+}
+
+/// Of the force that has no name: the end of a sentence.
+inline std::string left_plainly(const Diagnosis& d) {
+  const Leftover& leftover = d.leftovers.front();
+  return " force that has no name is left: " + plainly(leftover.unknown) +
+         (leftover.in_model ? "; with its law the simulator predicts better what was left out."
+                            : "; no law of it was found that helps on data that were left out.");
+}
+
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
 inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
   const auto friction = std::ranges::find_if(
@@ -145,6 +169,7 @@ inline void conclude(Diagnosis& d) {
     if (f.claimed) (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
   const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
   const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
+  const bool has_law = !d.leftovers.empty() && d.leftovers.front().in_model;
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -162,13 +187,18 @@ inline void conclude(Diagnosis& d) {
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
     d.sentence = "The simulator leaves out " + names(physics) +
-                 (faults.empty() ? "." : "; the measurement is off by " + names(faults) + ".");
+                 (faults.empty() ? "" : "; the measurement is off by " + names(faults)) +
+                 (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!faults.empty()) {
     d.headline = Headline::kMeasurementFault;
-    d.sentence = "The measurement is off by " + names(faults) + "; no physics is missing.";
+    d.sentence = "The measurement is off by " + names(faults) +
+                 (has_law ? "; and a" + left_plainly(d) : "; no physics that has a name is missing.");
   } else if (d.numerical && *d.numerical > 0.1) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
+  } else if (has_law) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence = "A" + left_plainly(d);
   } else if (d.withdrawn) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something is missing, but no explanation of it helps on data that were left out.";
@@ -178,8 +208,7 @@ inline void conclude(Diagnosis& d) {
                  " % of the windows are off by more than five times what the others are.";
   } else if (!d.leftovers.empty()) {
     d.headline = Headline::kUnnamedStructure;
-    d.sentence =
-        "A force that has no name is left: " + std::string(info_of(d.leftovers.front().unknown).name) + ".";
+    d.sentence = "A" + left_plainly(d);
   } else {
     d.headline = Headline::kNothingMissing;
     d.sentence = "Nothing is missing that this recording could show.";

@@ -11,6 +11,9 @@
 
 namespace diabolo {
 
+/// Of a force without a name, as UnnamedForce takes it.
+inline constexpr double kLargestPower = 4.0;
+
 /// The base with the physics of a fit.
 inline Model augmented_model(const Model& base, const UnknownVector& at, const std::string& name) {
   const auto x = [&](Unknown u) { return at[index_of(u)]; };
@@ -43,6 +46,15 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   model.effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
   model.effects.get<StringMass>().linear_density += std::max(0.0, x(Unknown::kStringMass));
   model.effects.get<LandingRestitution>().coefficient += std::max(0.0, x(Unknown::kRestitution));
+  auto& unnamed = model.effects.get<UnnamedForce>();
+  unnamed.string_tangent += x(Unknown::kStringTangent);
+  unnamed.string_binormal += x(Unknown::kStringBinormal);
+  unnamed.flight_against += x(Unknown::kFlightAgainst);
+  unnamed.flight_vertical += x(Unknown::kFlightVertical);
+  unnamed.flight_lift += x(Unknown::kFlightLift);
+  for (double* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
+    if (*exponent != 0.0)
+      *exponent = std::clamp(*exponent + x(Unknown::kPower), -kLargestPower, kLargestPower);
   auto& loss = model.effects.get<SpinLoss>();
   loss.air += std::max(0.0, x(Unknown::kSpinAir));
   loss.axle += std::max(0.0, x(Unknown::kSpinAxle));

@@ -20,6 +20,7 @@
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/select.hpp"
+#include "diabolo/diagnose/unnamed_law.hpp"
 #include "diabolo/recording/odd_tracking.hpp"
 #include "diabolo/recording/swapped_bodies.hpp"
 
@@ -79,6 +80,9 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
     physics = consistent_model();
     physics.effects = options.base.effects;
   }
+  auto& unnamed = physics.effects.get<UnnamedForce>();
+  const bool has_unnamed = !unnamed.neutral();
+  if (!has_unnamed) unnamed = {};  // constant, as what is looked for
   Bank bank = bank_for(physics.parameters, options.bank);
   const auto step = [&](const std::string& name, double done) {
     if (watch.progress) watch.progress(name, done);
@@ -150,48 +154,71 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
         set = with(set, *candidate);
     if (std::ranges::none_of(fit.stages, &Stage::has_spin)) without_spin(bank, set);
   }
-  std::vector<const Candidate*> denied;
-  for (;;) {
-    const Evidence evidence(fit);
-    result.at = fit.at;
-    result.model = augmented_model(physics, fit.at, "diagnosed");
+  const auto emitted = [&](const Model& from, const UnknownVector& at) {
+    Model model = augmented_model(from, at, "diagnosed");
     if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
-      result.model.parameters.gravity = physics.parameters.gravity;
-    result.findings.clear();
-    result.leftovers.clear();
-    find(result, fit, evidence, bank, set);
-    if (options.bank.empty() || std::ranges::count(options.bank, "gyroscopic_tilt") > 0)
-      result.findings.push_back(find_axle_motion(fit, result.model));
-    withdraw_what_cannot_be(result);
-    Bank possible = bank;
-    for (const Candidate* candidate : denied) std::erase(possible, candidate);
-    withdraw_what_may_be_physics(result, evidence, possible, set);
-    for (const Exchange& exchange : exchanged)
-      for (Finding& f : result.findings)
-        if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
-    for (const Candidate* candidate : denied)
-      for (Finding& f : result.findings) std::erase(f.tied_with, candidate->name);
-    for (const Exchange& exchange : exchanged)
-      if (exchange.name == "string_wrap") claim_wraps(result, fit, exchange.z);
-    std::vector<ActiveSet> without;
-    for (const Finding& f : result.findings)
-      if (f.claimed) without.push_back(with(set, *f.candidate, false));
-    const std::vector<HeldOutRecording> held = leave_out(fit, evidence, set, without, options.holdout);
-    result.heldout = compare_held_out(held, options.base, physics, options.seed, options.threads,
-                                      step("comparing on data left out", 0.85));
-    for (std::size_t i = 0; i < without.size(); ++i)  // claims come first
-      result.findings[i].worsening_ci95 = result.heldout.worsening_ci95[i];
-    const Candidate* physics_denied = withdraw_what_left_out_data_deny(result);
-    for (const Candidate* candidate : denied) say_denied(result, *candidate);
-    if (physics_denied == nullptr) break;
-    denied.push_back(physics_denied);
-    set = with(set, *physics_denied, false);
-    for (int u = 0; u < kUnknowns; ++u)
-      if (!set[u]) fit.at[u] = fit.centre[u];
-    refine<D>(fit, physics, set, 6, options.threads, step("refitting what is left", 0.85));
+      model.parameters.gravity = from.parameters.gravity;
+    return model;
+  };
+  std::vector<const Candidate*> denied;
+  const auto settle = [&] {
+    for (;;) {
+      const Evidence evidence(fit);
+      result.at = fit.at;
+      result.model = emitted(physics, fit.at);
+      result.findings.clear();
+      result.leftovers.clear();
+      find(result, fit, evidence, bank, set);
+      if (options.bank.empty() || std::ranges::count(options.bank, "gyroscopic_tilt") > 0)
+        result.findings.push_back(find_axle_motion(fit, result.model));
+      withdraw_what_cannot_be(result);
+      Bank possible = bank;
+      for (const Candidate* candidate : denied) std::erase(possible, candidate);
+      withdraw_what_may_be_physics(result, evidence, possible, set);
+      for (const Exchange& exchange : exchanged)
+        for (Finding& f : result.findings)
+          if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
+      for (const Candidate* candidate : denied)
+        for (Finding& f : result.findings) std::erase(f.tied_with, candidate->name);
+      for (const Exchange& exchange : exchanged)
+        if (exchange.name == "string_wrap") claim_wraps(result, fit, exchange.z);
+      std::vector<ActiveSet> without;
+      for (const Finding& f : result.findings)
+        if (f.claimed) without.push_back(with(set, *f.candidate, false));
+      const std::vector<HeldOutRecording> held = leave_out(fit, evidence, set, without, options.holdout);
+      result.heldout = compare_held_out(held, options.base, physics, options.seed, options.threads,
+                                        step("comparing on data left out", 0.85));
+      for (std::size_t i = 0; i < without.size(); ++i)  // claims come first
+        result.findings[i].worsening_ci95 = result.heldout.worsening_ci95[i];
+      const Candidate* physics_denied = withdraw_what_left_out_data_deny(result);
+      for (const Candidate* candidate : denied) say_denied(result, *candidate);
+      if (physics_denied == nullptr) return;
+      denied.push_back(physics_denied);
+      set = with(set, *physics_denied, false);
+      for (int u = 0; u < kUnknowns; ++u)
+        if (!set[u]) fit.at[u] = fit.centre[u];
+      refine<D>(fit, physics, set, 6, options.threads, step("refitting what is left", 0.85));
+    }
+  };
+  settle();
+  bool withdrawn = withdraw_what_does_not_help(result);
+  if (!withdrawn && !has_unnamed && !result.leftovers.empty() && elapsed() < options.budget) {
+    Leftover& strongest = *std::ranges::max_element(
+        result.leftovers, {}, [](const Leftover& leftover) { return std::abs(leftover.z); });
+    UnnamedTrial trial = try_unnamed<D>(strongest, fit, options.base, physics, set, bank, options.holdout,
+                                        options.seed, options.threads, step("fitting what has no name", 0.9));
+    strongest.worsening_ci95 = trial.leftover.worsening_ci95;
+    if (trial.leftover.in_model) {
+      physics = std::move(trial.physics);
+      fit = std::move(trial.fit);
+      set = trial.set;
+      settle();
+      withdrawn = withdraw_what_does_not_help(result);
+      result.leftovers.insert(result.leftovers.begin(), trial.leftover);
+    }
   }
+  if (withdrawn) result.model = options.base;
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
-  if (withdraw_what_does_not_help(result)) result.model = options.base;
   if (numerical)
     result.numerical =
         compare_rules<D>(fit, options.base, physics, options.threads, step("comparing rules", 0.95));

@@ -43,7 +43,10 @@ struct Finding {
 struct Leftover {
   Unknown unknown;
   double value, deviation, z, size;
-  PowerLaw law;  ///< how it grows
+  PowerLaw law;           ///< how it grows
+  bool in_model = false;  ///< as an UnnamedForce
+  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; where tried.
+  std::vector<std::optional<Interval>> worsening_ci95{};
 };
 
 /// What was seen in a window before anything was added, and what is left.

@@ -49,7 +49,7 @@ inline bool is_bouncy(const UnknownVector& at) { return compliance_of(at) > kBou
 
 using FitPredictor =
     Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, LatentForce>;
+              StickFlex, StringMass, LandingRestitution, UnnamedForce, LatentForce>;
 
 /// The base with everything that may be missing, which carries its derivatives.
 struct FitModel {
@@ -99,12 +99,15 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   loss.axle += x(Unknown::kSpinAxle);
   effects.get<FiniteAxle>().radius = x(Unknown::kAxleRadius) * scale;
   p.axle_radius = effects.get<FiniteAxle>().radius;
+  auto& unnamed = effects.get<UnnamedForce>();
+  unnamed.string_tangent += x(Unknown::kStringTangent);
+  unnamed.string_binormal += x(Unknown::kStringBinormal);
+  unnamed.flight_against += x(Unknown::kFlightAgainst);
+  unnamed.flight_vertical += x(Unknown::kFlightVertical);
+  unnamed.flight_lift += x(Unknown::kFlightLift);
+  for (D* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
+    if (!is_constant_zero(*exponent)) *exponent += x(Unknown::kPower);
   auto& latent = effects.get<LatentForce>();
-  latent.string_tangent = x(Unknown::kStringTangent);
-  latent.string_binormal = x(Unknown::kStringBinormal);
-  latent.flight_against = x(Unknown::kFlightAgainst);
-  latent.flight_vertical = x(Unknown::kFlightVertical);
-  latent.flight_lift = x(Unknown::kFlightLift);
   latent.spin_string = x(Unknown::kSpinString);
   latent.spin_free = x(Unknown::kSpinFree);
   latent.placebo = x(Unknown::kPlacebo);

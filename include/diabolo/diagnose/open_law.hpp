@@ -13,10 +13,13 @@
 
 namespace diabolo {
 
+/// From this deviation on an exponent says nothing.
+inline constexpr double kVagueExponent = 1.0;
+
 /// How a force without a name grows: value at `at`, times (x / at)^exponent, x a scalar of the motion.
 struct PowerLaw {
   std::string_view scalar, unit;           ///< x and its unit
-  double exponent = 0.0, deviation = 0.0;  ///< and its standard deviation
+  double exponent = 0.0, deviation = 0.0;  ///< and its standard deviation; a vague one is zero
   double at = 0.0, value = 0.0;            ///< a usual x, and the force there, in the unit of its unknown
   double explained = 0.0;                  ///< share of what the windows say beyond nothing
   std::vector<std::pair<double, double>> curve;  ///< x, and the mean of what the windows around it say
@@ -60,8 +63,8 @@ std::vector<WindowSays> windows_say(const Fit& fit, Unknown unknown, Scalar&& sc
 }  // namespace detail
 
 /// The power of x that explains best what windows, in the order of x, say: least squares for each exponent on
-/// a grid; its deviation is where the sum of squares has grown by one window's worth. Fewer than eight
-/// windows have no law.
+/// a grid; its deviation is where the sum of squares has grown by one window's worth. Where that is far off,
+/// the force counts as constant. Fewer than eight windows have no law.
 inline PowerLaw power_law(const std::vector<WindowSays>& windows, std::string_view scalar,
                           std::string_view unit) {
   constexpr std::size_t kFewest = 8, kPoints = 6;
@@ -86,8 +89,6 @@ inline PowerLaw power_law(const std::vector<WindowSays>& windows, std::string_vi
   for (int k = 0; k * kStep <= kMost - kLeast; ++k)
     if (const double rest = fitted(kLeast + k * kStep).first; rest < least)
       least = rest, law.exponent = kLeast + k * kStep;
-  law.value = fitted(law.exponent).second;
-  law.explained = nothing > 0.0 ? 1.0 - least / nothing : 0.0;
   const double one = least / static_cast<double>(windows.size() - 2);
   const auto reach = [&](double step) {
     double p = law.exponent, before = least, now = least;
@@ -95,9 +96,14 @@ inline PowerLaw power_law(const std::vector<WindowSays>& windows, std::string_vi
       before = now;
       now = fitted(p += step).first;
     }
+    if (now < least + one) return kMost;
     return std::abs(p - step * (now - least - one) / std::max(now - before, 1e-300) - law.exponent);
   };
   law.deviation = 0.5 * (reach(kStep) + reach(-kStep));
+  if (law.deviation > kVagueExponent) law.exponent = 0.0;
+  const auto [rest, value] = fitted(law.exponent);
+  law.value = value;
+  law.explained = nothing > 0.0 ? 1.0 - rest / nothing : 0.0;
   for (std::size_t k = 0; k < kPoints; ++k) {
     double x = 0.0, sum = 0.0, precision = 0.0;
     const std::size_t first = windows.size() * k / kPoints, last = windows.size() * (k + 1) / kPoints;

@@ -59,6 +59,7 @@ enum class Unknown : int {
   kSpinString,
   kSpinFree,
   kPlacebo,  ///< of a drag that acts along the recording's x alone, as nothing does [1/s]
+  kPower,    ///< by which a force without a name grows, less the base's [1]; counts where there is one
   kCount
 };
 
@@ -132,6 +133,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"spin_on_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"spin_off_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"placebo", "1/s", 0.1, 0.0, -10.0, 10.0},
+    {"power", "1", 1.0, 2.0, -4.0, 4.0},
 }};
 
 inline constexpr const UnknownInfo& info_of(Unknown u) {

@@ -12,20 +12,22 @@
 #include "diabolo/effects/string_elasticity.hpp"
 #include "diabolo/effects/string_friction.hpp"
 #include "diabolo/effects/string_mass.hpp"
+#include "diabolo/effects/unnamed_force.hpp"
 #include "diabolo/predictor.hpp"
 
 namespace diabolo {
 
 /// Every effect of the library.
 template <class Scalar>
-using AllEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt,
-                             FiniteAxle, StickFlex, StringMass, LandingRestitution, GyroscopicTilt>;
+using AllEffects =
+    EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
+              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
 
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
 using FullPredictor =
     Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, GyroscopicTilt>;
+              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
 
 }  // namespace diabolo

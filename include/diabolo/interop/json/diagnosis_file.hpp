@@ -154,11 +154,12 @@ inline Json unnamed_of(const Leftover& l) {
     text << std::setprecision(2) << value;
     return text.str();
   };
+  const bool told = !law.curve.empty() && law.deviation <= kVagueExponent;
   const std::string text =
-      law.curve.empty() ? "a constant acceleration along " + name
-                        : rounded(law.value) + " " + unit + " along " + name + " at " + rounded(law.at) +
-                              " " + std::string(law.unit) + " of " + scalar + ", growing as " + scalar +
-                              "^(" + rounded(law.exponent) + " ± " + rounded(law.deviation) + ")";
+      !told ? rounded(l.value) + " " + unit + " along " + name + "; how it grows cannot be told"
+            : rounded(law.value) + " " + unit + " along " + name + " at " + rounded(law.at) + " " +
+                  std::string(law.unit) + " of " + scalar + ", growing as " + scalar + "^(" +
+                  rounded(law.exponent) + " ± " + rounded(law.deviation) + ")";
   return {{"where", {{"direction", name}}},
           {"law", text},
           {"value", l.value},
@@ -170,7 +171,9 @@ inline Json unnamed_of(const Leftover& l) {
           {"exponent", law.exponent},
           {"exponent_deviation", law.deviation},
           {"curve", law.curve},
-          {"explained", law.explained}};
+          {"explained", law.explained},
+          {"in_model", l.in_model},
+          {"worse_without_ci95_m", intervals_of(l.worsening_ci95)}};
 }
 
 inline Json heldout_of(const HeldOut& h) {

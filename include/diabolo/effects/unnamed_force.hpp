@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "diabolo/effects/effect.hpp"
+
+namespace diabolo {
+
+/// A force that nobody has a name for, as a diagnosis sees it: accelerations in the directions that tell
+/// physics apart, by the string's state, times powers of speed and spin. No law of nature: it may do work,
+/// and tells nothing of speeds and spins that were not seen, so that it stops growing beyond its bounds.
+template <class Scalar>
+struct UnnamedForce : NeutralEffect<Scalar> {
+  static constexpr std::string_view kName = "unnamed_force";
+  static constexpr double kLeastSpeed = 0.05, kMostSpeed = 20.0;           ///< [m/s]
+  static constexpr double kLeastSpin = 1.0, kMostSpin = 1e3, kSpin = 1e2;  ///< [rad/s]
+  Scalar string_tangent{0};   ///< ON_STRING, in the string's plane, towards the right tip [m/s^2]
+  Scalar string_binormal{0};  ///< ON_STRING, square to the string's plane [m/s^2]
+  Scalar flight_against{0};   ///< off the string, against the velocity [m/s^2]
+  Scalar flight_vertical{0};  ///< off the string, up [m/s^2]
+  Scalar flight_lift{0};      ///< off the string, along omega x v [m/s^2]
+  Scalar speed_exponent{0};   ///< of the speed over 1 m/s
+  Scalar spin_exponent{0};    ///< of the spin's magnitude over 100 rad/s
+
+  bool neutral() const {
+    return is_constant_zero(string_tangent) && is_constant_zero(string_binormal) &&
+           is_constant_zero(flight_against) && is_constant_zero(flight_vertical) &&
+           is_constant_zero(flight_lift);
+  }
+
+  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips, const Scalar&,
+                               const Parameters<Scalar>&) const {
+    const Vector3<Scalar> left = unit(tips.left - state.position), right = unit(tips.right - state.position);
+    const Vector3<Scalar> taut =
+        unit(right - left) * string_tangent + unit(cross(left, right)) * string_binormal;
+    const Scalar sign = select(state.spin > Scalar(0), Scalar(-1), Scalar(1));
+    const Vector3<Scalar> free = unit(cross(state.axis, state.velocity)) * Scalar(flight_lift * sign) -
+                                 unit(state.velocity) * flight_against +
+                                 Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical);
+    return select<Scalar>(is(state.string_state, StringState::kOnString), taut, free) * growth(state);
+  }
+
+  /// Calls `visit(info, field)` for every field.
+  template <class Self, class Visitor>
+  static void for_each(Self& self, Visitor&& visit) {
+    constexpr std::string_view kAmplitude = "m/s^2", kNumber = "1";
+    visit(ParameterInfo{"string_tangent", kAmplitude, -100.0, 100.0,
+                        "on the string, along it towards the right tip, at 1 m/s and 100 rad/s"},
+          self.string_tangent);
+    visit(ParameterInfo{"string_binormal", kAmplitude, -100.0, 100.0,
+                        "on the string, square to its plane, forwards"},
+          self.string_binormal);
+    visit(ParameterInfo{"flight_against", kAmplitude, -100.0, 100.0, "off the string, against the velocity"},
+          self.flight_against);
+    visit(ParameterInfo{"flight_vertical", kAmplitude, -100.0, 100.0, "off the string, up"},
+          self.flight_vertical);
+    visit(ParameterInfo{"flight_lift", kAmplitude, -100.0, 100.0, "off the string, along omega x v"},
+          self.flight_lift);
+    visit(ParameterInfo{"speed_exponent", kNumber, -4.0, 4.0, "power of the speed over 1 m/s"},
+          self.speed_exponent);
+    visit(ParameterInfo{"spin_exponent", kNumber, -4.0, 4.0, "power of the spin over 100 rad/s"},
+          self.spin_exponent);
+  }
+
+ private:
+  /// Of length one; shorter than that below 1e-3, smoothly, down to nothing.
+  static Vector3<Scalar> unit(const Vector3<Scalar>& v) {
+    using std::sqrt;
+    return v * Scalar(Scalar(1) / sqrt(squared_norm(v) + Scalar(1e-6)));
+  }
+
+  Scalar growth(const State<Scalar>& state) const {
+    using std::exp, std::log;
+    const auto power = [](const Scalar& x, const Scalar& exponent, double least, double most) {
+      if (is_constant_zero(exponent)) return Scalar(1);
+      return Scalar(exp(exponent * log(minimum(maximum(x, Scalar(least)), Scalar(most)))));
+    };
+    return power(norm(state.velocity), speed_exponent, kLeastSpeed, kMostSpeed) *
+           power(Scalar(absolute<Scalar>(state.spin) / Scalar(kSpin)), spin_exponent, kLeastSpin / kSpin,
+                 kMostSpin / kSpin);
+  }
+};
+
+}  // namespace diabolo
