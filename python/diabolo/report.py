@@ -387,7 +387,16 @@ def _experiment(row: dict[str, Any]) -> list[Any]:
         words(row.get("motion")),
         [f"{words(part)} ({part})" for part in parts] or ["not given"],
         quantity(row.get("seconds"), "s"),
+        _odds(row.get("odds")),
     ]
+
+
+def _odds(odds: float | None) -> str:
+    if odds is None:
+        return "not told"
+    return (
+        "beyond a million to 1" if odds >= 1e6 else f"{odds:,.3g} to 1" if odds < 1e3 else f"{odds:,.0f} to 1"
+    )
 
 
 # ---- pictures ----

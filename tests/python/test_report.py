@@ -137,9 +137,10 @@ INVENTED: dict[str, Any] = {
         {
             "motion": "high_throw",
             "parts": ["air_drag_linear", "air_drag_quadratic"],
+            "odds": 23.4,
             "seconds": 12.0,
         },
-        {"motion": "two_spin_directions", "parts": ["magnus_lift"], "seconds": 20.0},
+        {"motion": "two_spin_directions", "parts": ["magnus_lift"], "odds": None, "seconds": 20.0},
     ],
     "model": "model.json",
     "seconds": 12.3,
@@ -451,3 +452,13 @@ def test_without_its_libraries_a_sentence_says_so(monkeypatch: pytest.MonkeyPatc
 )
 def test_numbers_are_in_readable_units(value: Any, unit: str, interval: Any, text: str) -> None:
     assert quantity(value, unit, interval) == text
+
+
+def test_odds_of_the_next_experiment_are_told() -> None:
+    rows = [
+        {"motion": "high_throws", "parts": ["wind"], "odds": odds, "seconds": 20.0}
+        for odds in (1.93, 4321.0, 1e6, None)
+    ]
+    text = Page(report_html(invented(next_experiment=rows))).text
+    for told in ("1.93 to 1", "4,321 to 1", "beyond a million to 1", "not told"):
+        assert told in text

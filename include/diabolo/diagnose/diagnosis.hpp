@@ -19,6 +19,7 @@
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/unnamed_law.hpp"
 #include "diabolo/recording/odd_tracking.hpp"
@@ -224,6 +225,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
         compare_rules<D>(fit, options.base, physics, options.threads, step("comparing rules", 0.95));
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
+  result.proposals = next_experiments<D>(result, fit, physics, set, options.threads,
+                                         step("looking for what to record next", 0.97));
   conclude(result);
   return result;
 }

@@ -12,6 +12,7 @@
 
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
+#include "diabolo/diagnose/experiments.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/open_law.hpp"
 #include "diabolo/diagnose/select.hpp"
@@ -58,6 +59,13 @@ struct WindowFinding {
   std::array<double, 7> z;                 ///< of the latent accelerations before; NaN where they say nothing
 };
 
+/// What to record next, and the odds that it would give against the wrong one of what it parts.
+struct Proposal {
+  const Experiment* experiment;
+  std::vector<std::string> parts;  ///< names
+  std::optional<double> odds;      ///< not told of faults of measurement
+};
+
 enum class Headline {
   kInsufficientData,
   kTie,
@@ -82,6 +90,7 @@ struct Diagnosis {
   UnknownVector deviation = UnknownVector::Zero();
   Model model;
   HeldOut heldout;
+  std::vector<Proposal> proposals;
   double unexplained = 0.0;         ///< share of the windows that are far off after all
   bool withdrawn = false;           ///< physics that stands out, but does not help on what was left out
   std::optional<double> numerical;  ///< share of the base's error that its numerical rules make

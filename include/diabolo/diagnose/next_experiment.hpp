@@ -2,81 +2,96 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/alternatives.hpp"
+#include "diabolo/diagnose/corrected.hpp"
+#include "diabolo/diagnose/experiments.hpp"
 
 namespace diabolo {
 
-/// A motion to record next, and what it would tell.
-struct Experiment {
-  std::string_view motion, plain;
-  double seconds;
-  std::vector<std::string> parts;  ///< names that it tells apart, or tells at all
-};
+/// Odds beyond which nobody asks further.
+inline constexpr double kLongOdds = 1e6;
 
 namespace detail {
 
-/// A motion of the menu and the names that it makes visible.
-struct MenuEntry {
-  std::string_view motion, plain;
-  double seconds;
-  std::vector<std::string_view> shows;
-};
+/// What is left of a motion that a perfect camera sees where `truth` holds, once an explanation is fitted to
+/// it alone, in units of twice the logarithm of odds. The noise is that of the camera which saw the tie.
+template <class D>
+double left_of(const Experiment& experiment, const Model& truth, const Alternative& explanation,
+               const Fit& seen, const Model& physics, int threads, const Watch& watch) {
+  Fit fit;
+  Recording like = seen.stages.front().recording;
+  like.string_length += seen.at[index_of(Unknown::kStringLength)];
+  for (const MotionPart& part : experiment.parts) {
+    fit.stages.push_back(make_stage(imagined(part, truth, like)));
+    fit.noise.push_back(seen.noise.front());
+  }
+  fit.centre = fit.at = seen.centre;
+  for (int u = 0; u < kUnknowns; ++u) {
+    const bool of_measurement = u >= index_of(Unknown::kLengthScale) && u <= index_of(Unknown::kStringLength);
+    if (explanation.set[u] && !of_measurement) fit.at[u] = explanation.at[u];
+  }
+  fit.noise_is_known = true;
+  constexpr int kIterations = 4;
+  refine<D>(fit, physics, explanation.set, kIterations, threads, watch);
+  return fit.cost / std::max(seen.dispersion, fit.dispersion);
+}
 
-inline const std::vector<MenuEntry>& experiment_menu() {
-  static const std::vector<MenuEntry> menu{
-      {"high_throws",
-       "four throws or more, at two heights, the highest as high as can be caught",
-       20.0,
-       {"air_drag_linear", "air_drag_quadratic", "wind", "length_scale", "gravity_tilt", "frame_rate"}},
-      {"two_spin_directions",
-       "the same throws with the spin forwards and backwards",
-       30.0,
-       {"magnus_lift", "spin_drag", "axle_drag", "body_swap"}},
-      {"stick_sweep",
-       "hold the diabolo and turn the sticks by 40 degrees each way, beat in each position",
-       20.0,
-       {"stick_flex", "string_elasticity", "stick_tip_offset", "string_length"}},
-      {"wide_hold",
-       "hold it still with the hands wide apart, spinning, then let it spin the other way",
-       20.0,
-       {"string_friction", "gravity_tilt", "spin_coupling", "axle_drag"}},
-      {"fast_beats",
-       "short quick beats of both hands, changing direction",
-       10.0,
-       {"time_offset", "filter_lag", "robot_servo_lag", "string_elasticity", "marker_offset"}},
-      {"loose_string", "small hops with a long loose string", 15.0, {"string_mass"}}};
-  return menu;
+/// What is tied with a claim, as something to fit.
+inline Alternative alternative_of(std::string_view claim, std::string_view other, const Fit& fit,
+                                  const ActiveSet& set) {
+  std::vector<Alternative> known = alternatives_to(claim, fit, set);
+  const auto own = std::ranges::find(known, other, &Alternative::name);
+  if (own != known.end()) return *own;
+  Alternative result{other, fit.delay, with(with(set, candidate_of(claim), false), candidate_of(other)), {}};
+  result.at = within_bounds(Evidence(fit).solve(result.set), fit);
+  return result;
+}
+
+/// Delays, scales and rates are of the measurement, which a perfect camera does not have.
+inline std::string_view motion_for_measurement(std::string_view name) {
+  if (name == "length_scale" || name == "frame_rate") return "high_throws";
+  return name == "time_offset" || name == "filter_lag" || name == "robot_servo_lag" ? "fast_beats" : "";
 }
 
 }  // namespace detail
 
-/// What to record for each tie: the motions of the menu that show what is tied, most of it first. Which
-/// motion shows what is by the laws: drag by its growth with speed, lift by its change of sign with the spin,
-/// bending by the angle of stick and string, friction by its lean on a wide string, delays by fast changes.
-inline std::vector<Experiment> next_experiments(const Diagnosis& d) {
-  std::vector<Experiment> result;
+/// For each tie the motion that parts it best, and the odds against the wrong explanation that it would give
+/// by itself: the motion is simulated with the claim and fitted with what is tied with it. Of delays, scales
+/// and rates without odds.
+template <class D = detail::FitDual>
+std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const Model& physics,
+                                       const ActiveSet& set, int threads, const Watch& watch = {}) {
+  std::vector<Proposal> result;
   for (const Finding& f : d.findings) {
     if (!f.claimed || f.tied_with.empty()) continue;
-    std::vector<std::string> tied = f.tied_with;
-    tied.insert(tied.begin(), std::string(f.candidate->name));
-    const detail::MenuEntry* best = nullptr;
-    std::ptrdiff_t most = 0;
-    for (const detail::MenuEntry& entry : detail::experiment_menu()) {
-      const std::ptrdiff_t shown = std::ranges::count_if(
-          tied, [&](const std::string& name) { return std::ranges::count(entry.shows, name) > 0; });
-      if (shown > most) most = shown, best = &entry;
+    Proposal best{nullptr, f.tied_with, std::nullopt};
+    best.parts.insert(best.parts.begin(), std::string(f.candidate->name));
+    const std::string_view fixed = detail::motion_for_measurement(f.candidate->name);
+    if (!fixed.empty()) {
+      best.experiment = &*std::ranges::find(experiments(), fixed, &Experiment::motion);
+    } else {
+      const Model truth = augmented_model(physics, fit.at, "truth");
+      const Alternative claim{f.candidate->name, fit.delay, set, fit.at};
+      for (const Experiment& experiment : experiments()) {
+        const double own = detail::left_of<D>(experiment, truth, claim, fit, physics, threads, watch);
+        double odds = kLongOdds;
+        for (const std::string& other : f.tied_with) {
+          const Alternative alternative = detail::alternative_of(f.candidate->name, other, fit, set);
+          const double more =
+              detail::left_of<D>(experiment, truth, alternative, fit, physics, threads, watch) - own;
+          odds = std::min(odds, std::exp(std::max(0.5 * more, 0.0)));
+        }
+        if (!best.odds || odds > *best.odds) best.experiment = &experiment, best.odds = odds;
+      }
     }
-    if (best == nullptr) continue;
-    const auto same = std::ranges::find(result, best->motion, &Experiment::motion);
-    if (same == result.end())
-      result.push_back({best->motion, best->plain, best->seconds, tied});
-    else
-      for (const std::string& name : tied)
-        if (std::ranges::count(same->parts, name) == 0) same->parts.push_back(name);
+    result.push_back(std::move(best));
   }
   return result;
 }

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "diabolo/diagnose/diagnosis.hpp"
-#include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/interop/json/fields.hpp"
 #include "diabolo/interop/json/finding.hpp"
 #include "diabolo/version.hpp"
@@ -252,12 +251,12 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
                        {"residual_after_m", w.residual_after},
                        {"z", z}});
   }
-  for (const Experiment& e : next_experiments(d))
-    experiments.push_back({{"motion", e.motion},
-                           {"what", e.plain},
-                           {"parts", e.parts},
-                           {"odds", nullptr},
-                           {"seconds", e.seconds}});
+  for (const Proposal& p : d.proposals)
+    experiments.push_back({{"motion", p.experiment->motion},
+                           {"what", p.experiment->plain},
+                           {"parts", p.parts},
+                           {"odds", detail::number_or_null(p.odds)},
+                           {"seconds", p.experiment->seconds}});
   for (const auto& [name, n] : d.noise)
     noise.push_back({{"recording", name}, {"position_m", n.position}, {"spin_rad_s", n.spin}});
   return {{"schema", kDiagnosisSchema},
