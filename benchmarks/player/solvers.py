@@ -2,8 +2,10 @@
 """The search along derivatives, the paper's random walk and scipy's differential evolution on drawn problems.
 
     .venv/bin/python benchmarks/player/solvers.py    # evolution is left out where there is no scipy
+    .venv/bin/python benchmarks/player/solvers.py --effects
 
-Each problem is an action with drawn goals, from its seed; limits and model are the defaults. Cost is the
+Each problem is an action with drawn goals, from its seed; limits and model are the defaults, or a model with
+what a diagnosis finds. Cost is the
 paper's residual of what each found, at the reported step of 1 ms; time is the processor's, on one core.
 """
 
@@ -20,10 +22,24 @@ from diabolo import Model, Parameters, StickSpline, TipLimits, _core
 NAMES = ("throw", "side_throw", "swing", "hop", "circular_acceleration")
 
 
+def diagnosed() -> Model:
+    """A model with every effect that a diagnosis of the authors' recordings or of the plant adds."""
+    return Model(
+        Parameters(spin_coupling=0.0),
+        string_friction=diabolo.StringFriction(coefficient=0.25, spin_gain=4.0),
+        string_elasticity=diabolo.StringElasticity.of_stiffness(1400.0, 10.0),
+        stick_flex=diabolo.StickFlex(compliance=1.0 / 350.0, damping=3.0, tip_mass=0.011),
+        finite_axle=diabolo.FiniteAxle(radius=0.0072),
+        air=diabolo.Air(quadratic_drag=0.03),
+        magnus_lift=diabolo.MagnusLift(coefficient=1e-3),
+        spin_loss=diabolo.SpinLoss(air=1e-4),
+    )
+
+
 class Problem:
-    def __init__(self, index: int, rng: np.random.Generator) -> None:
+    def __init__(self, index: int, rng: np.random.Generator, model: Model) -> None:
         self.name = NAMES[index % len(NAMES)]
-        self.model = Model(Parameters())
+        self.model = model
         length = self.model.parameters.string_length
         left, right = _core.home_pose(self.name, length)
         self.start = _core.hanging_state(left, right, length, 100.0)
@@ -104,6 +120,7 @@ def main() -> None:
         "--longer", type=float, default=50.0, help="times that the walk gets in its second run"
     )
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--effects", action="store_true", help="on a model with all that a diagnosis finds")
     given = parser.parse_args()
     try:
         import scipy
@@ -114,8 +131,9 @@ def main() -> None:
         "problem                 time [ms]  per s of motion  gradient  walk, same time  walk, 50 x   evolved"
     )
     rows = []
+    model = diagnosed() if given.effects else Model(Parameters())
     for index in range(given.problems):
-        problem = Problem(index, rng)
+        problem = Problem(index, rng, model)
         best, took, duration = problem.plan("gradient")
         same, longer = problem.walk(took), problem.walk(given.longer * took)
         evolved = np.nan if scipy is None else problem.evolve(given.longer * took)

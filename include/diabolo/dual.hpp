@@ -116,7 +116,8 @@ struct Dual {
     return finite;
   }
   friend bool is_constant_zero(const Dual& x) {
-    bool zero = is_constant_zero(x.value);
+    if (!is_constant_zero(x.value)) return false;
+    bool zero = true;
     for (int i = 0; i < N; ++i) zero = zero && is_constant_zero(x.gradient[i]);
     return zero;
   }

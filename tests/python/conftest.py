@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -20,6 +21,9 @@ from numpy.typing import NDArray
 # Without a deadline, since the machine may be busy; a failure prints how to repeat it.
 hypothesis.settings.register_profile("diabolo", deadline=None, max_examples=50, print_blob=True)
 hypothesis.settings.load_profile("diabolo")
+
+# A shell that runs the tests in the background has them ignore Ctrl-C, which some of them are about.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 RATE = 120.0
 

@@ -26,27 +26,34 @@ struct GradientSearch {
   template <template <class> class... Effects>
   Plan operator()(const PlanProblem<Effects...>& problem, const Budget& budget) const {
     problem.validate();
-    std::vector<Predictor<D, Effects...>> duals;
-    for (const auto& model : problem.models) duals.push_back(predictor_in<D>(model));
+    const std::size_t size = MotionUnknowns(problem.seed, problem.freedom).size();
+    return size <= kFew ? search<kFew>(problem, budget) : search<kChunk>(problem, budget);
+  }
+
+ private:
+  static constexpr int kFew = 20, kChunk = 28;  ///< derivatives carried along at once
+  template <int N>
+  using D = Dual<double, N, float>;
+
+  template <int N, template <class> class... Effects>
+  Plan search(const PlanProblem<Effects...>& problem, const Budget& budget) const {
+    std::vector<Predictor<D<N>, Effects...>> duals;
+    for (const auto& model : problem.models) duals.push_back(predictor_in<D<N>>(model));
     int evaluations = 0;
-    Plan best = from(problem, duals, problem.seed, budget, evaluations);
+    Plan best = from<N>(problem, duals, problem.seed, budget, evaluations);
     for (const double pace : other_paces) {
       if (best.reached || budget.spent(evaluations)) break;
       StickSpline<double> seed = problem.seed;
       for (double& duration : seed.durations) duration /= pace;
-      Plan other = from(problem, duals, seed, budget, evaluations);
+      Plan other = from<N>(problem, duals, seed, budget, evaluations);
       if (other.reached || other.cost < best.cost) best = std::move(other);
     }
     best.evaluations = evaluations;
     return best;
   }
 
- private:
-  static constexpr int kChunk = 28;  ///< derivatives carried along at once
-  using D = Dual<double, kChunk, float>;
-
-  template <template <class> class... Effects>
-  Plan from(const PlanProblem<Effects...>& problem, const std::vector<Predictor<D, Effects...>>& duals,
+  template <int N, template <class> class... Effects>
+  Plan from(const PlanProblem<Effects...>& problem, const std::vector<Predictor<D<N>, Effects...>>& duals,
             const StickSpline<double>& wanted_seed, const Budget& budget, int& evaluations) const {
     const double length = problem.string_length();
     const StickSpline<double> seed = kept_seed(wanted_seed, problem.limits, length);
@@ -64,7 +71,7 @@ struct GradientSearch {
     };
     const auto linearize = [&](const std::vector<double>& at) {
       ++evaluations;
-      return linearization(residuals, duals, at);
+      return linearization<N>(residuals, duals, at);
     };
     const auto stop = [&] { return budget.spent(evaluations) || sum < good_enough; };
     residuals.dt = problem.dt;
@@ -86,16 +93,17 @@ struct GradientSearch {
     return stayed.cost < plan.cost ? stayed : plan;
   }
 
-  template <template <class> class... Effects>
+  template <int N, template <class> class... Effects>
   static Linearization linearization(const PlanResiduals<Effects...>& residuals,
-                                     const std::vector<Predictor<D, Effects...>>& models,
+                                     const std::vector<Predictor<D<N>, Effects...>>& models,
                                      const std::vector<double>& x) {
     Linearization result;
-    for (std::size_t first = 0; first < x.size(); first += kChunk) {
-      const std::size_t count = std::min<std::size_t>(kChunk, x.size() - first);
-      std::vector<D> at(x.begin(), x.end());
-      for (std::size_t i = 0; i < count; ++i) at[first + i] = D::variable(x[first + i], static_cast<int>(i));
-      const std::vector<D> parts = residuals(models, at);
+    for (std::size_t first = 0; first < x.size(); first += N) {
+      const std::size_t count = std::min<std::size_t>(N, x.size() - first);
+      std::vector<D<N>> at(x.begin(), x.end());
+      for (std::size_t i = 0; i < count; ++i)
+        at[first + i] = D<N>::variable(x[first + i], static_cast<int>(i));
+      const std::vector<D<N>> parts = residuals(models, at);
       const Eigen::Index rows = static_cast<Eigen::Index>(parts.size()),
                          columns = static_cast<Eigen::Index>(x.size());
       if (first == 0) {
@@ -103,7 +111,7 @@ struct GradientSearch {
         result.jacobian.resize(rows, columns);
       }
       for (Eigen::Index r = 0; r < rows; ++r) {
-        const D& part = parts[static_cast<std::size_t>(r)];
+        const D<N>& part = parts[static_cast<std::size_t>(r)];
         result.residuals[r] = part.value;
         for (std::size_t i = 0; i < count; ++i)
           result.jacobian(r, static_cast<Eigen::Index>(first + i)) =

@@ -70,12 +70,21 @@ struct PlanProblem {
     return play(model, start_of(m), path, {.dt = longest_step, .flight = goals.throws() ? kFlight : 0.0});
   }
 
+  /// As much of it as the goals look at: up to the apex, or down to where it is to land.
+  template <class Scalar>
+  Play<Scalar> judged_part(std::size_t m, const Predictor<Scalar, Effects...>& model,
+                           const TipPath<Scalar>& path, double longest_step) const {
+    PlayOptions options{.dt = longest_step, .flight = goals.throws() ? kFlight : 0.0};
+    options.down_to = goals.landing ? goals.landing->position.z() : INFINITY;
+    return play(model, start_of(m), path, options);
+  }
+
   /// The paper's residual of a motion, the mean over all models.
   double cost(const TipPath<double>& path, double longest_step, bool smooth) const {
     double sum = 0.0;
     for (std::size_t m = 0; m < models.size(); ++m)
       sum += total_cost(
-          goal_errors(played(m, models[m], path, longest_step), goals, models[m].parameters(), smooth));
+          goal_errors(judged_part(m, models[m], path, longest_step), goals, models[m].parameters(), smooth));
     return sum / static_cast<double>(models.size());
   }
 };
@@ -144,7 +153,7 @@ class PlanResiduals {
     const double share = 1.0 / std::sqrt(static_cast<double>(models.size()));
     std::vector<Scalar> parts;
     for (std::size_t m = 0; m < models.size(); ++m) {
-      const Play<Scalar> play = problem_.played(m, models[m], path, dt);
+      const Play<Scalar> play = problem_.judged_part(m, models[m], path, dt);
       const std::vector<GoalError<Scalar>> errors =
           goal_errors(play, problem_.goals, problem_.models[m].parameters(), true);
       for (const GoalError<Scalar>& error : errors)

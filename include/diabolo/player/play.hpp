@@ -34,7 +34,8 @@ struct Play {
 /// How a play is predicted.
 struct PlayOptions {
   double dt = 4e-3;     ///< longest step [s]
-  double flight = 0.0;  ///< of a diabolo that flies at the end of the path, so much more is predicted [s]
+  double flight = 0.0;  ///< of a diabolo that flies at the end of the path, so much more is predicted [s],
+  double down_to = -INFINITY;  ///< but no more once it falls below this height [m]
 };
 
 /// Predicts what a path leads to from `start`, the state at its begin; the sticks' tips then rest. A flight
@@ -64,9 +65,12 @@ Play<Scalar> play(const Predictor<Scalar, Effects...>& predictor, const State<do
   for (std::size_t i = 1; i <= count; ++i) step(i);
   result.planned = result.instants.size();
   const auto more = static_cast<std::size_t>(options.flight / number(dt));
-  for (std::size_t i = 1; i <= more && is(result.instants.back().state.string_state, StringState::kFlying);
-       ++i)
-    step(count + i);
+  const auto flies_on = [&] {
+    const State<Scalar>& state = result.instants.back().state;
+    const bool below = number(state.velocity.z()) <= 0.0 && number(state.position.z()) <= options.down_to;
+    return is(state.string_state, StringState::kFlying) && !below;
+  };
+  for (std::size_t i = 1; i <= more && flies_on(); ++i) step(count + i);
   return result;
 }
 
