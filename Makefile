@@ -103,7 +103,7 @@ $(ur_rtde)/.installed: $(ur_rtde)/source/.fetched .ci/ur_rtde.cmake
 	@cmake --install $(ur_rtde)/build >/dev/null
 	@touch $@
 
-ur-rtde: # The program for two UR5e on stand-in controllers, through ur_rtde's client where that can be fetched.
+ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtde's client where that can be fetched.
 	@$(packages) build test ur-rtde
 	@if $(MAKE) --no-print-directory $(ur_rtde)/source/.fetched; then \
 	  $(MAKE) --no-print-directory $(ur_rtde)/.installed; \
@@ -135,11 +135,11 @@ test-python: $(VENV)/.package-with-tests
 
 test-all: test mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
 
-browser: $(VENV)/.package-with-tests # The report and the view as a person sees them.
+browser: $(VENV)/.package-with-tests ## Look at the report and the view as a person sees them
 	@$(packages) browser
 	@$(VENV)/bin/python -m pytest -m browser tests/heavy
 
-mujoco: $(VENV)/.package-with-tests
+mujoco: $(VENV)/.package-with-tests ## Put the string into MuJoCo, and compare with its own tendon
 	@$(packages) mujoco
 	@$(install_package) '.[mujoco,plot,test]'
 	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy

@@ -278,10 +278,18 @@ def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:
         {**_named(effect), "notes": notes},
         parameters or ["none"],
         _where(effect.get("where") or {}),
-        [*_sizes(effect.get("size") or {}), *_without(effect, horizons)] or ["not known"],
+        _effect_sizes(effect, horizons) or ["not known"],
         probability(effect.get("p_value")),
         percent(effect.get("confidence")),
     ]
+
+
+def _effect_sizes(effect: dict[str, Any], horizons: list[float]) -> list[str]:
+    """What was measured without it; else how far it would move a free diabolo."""
+    without, size = _without(effect, horizons), dict(effect.get("size") or {})
+    if without:
+        size["position_1s_m"] = None
+    return [*_sizes(size), *without]
 
 
 def _without(effect: dict[str, Any], horizons: list[float]) -> list[str]:

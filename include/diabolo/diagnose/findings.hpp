@@ -180,7 +180,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     Finding f;
     f.candidate = member;
     const Standing own = is_in(set, candidate) ? final_standing : standing(evidence, with(set, candidate));
-    f.estimate = own.estimate;
+    f.estimate = is_in(set, candidate) ? fit.at : own.estimate;  // what the model holds, within its bounds
     for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = own.deviation(u);
     f.z = significance(candidate, own);
     f.p_value = family_wise(f.z);

@@ -50,7 +50,7 @@ def add_parser(commands: Any) -> None:
         "written all the same), 2 for bad input.",
         example="  diabolo plan throw_and_catch --goal height=0.6 --out throw.csv --html throw.html\n"
         "  diabolo plan throw --model d/model.json --diagnosis d/diagnosis.json --recording TAKE.csv\n"
-        "  diabolo plan hop --robots",
+        "  diabolo plan swing --robots",
     )
     parser.add_argument("action", metavar="ACTION", choices=ACTIONS, help=", ".join(ACTIONS))
     parser.add_argument(
