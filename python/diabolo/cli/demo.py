@@ -66,7 +66,7 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.json != files.STDOUT:
         together = [row for row in horizons.horizons if row.recording == ALL_RECORDINGS]
         print(evaluate.text_of(table), evaluate.text_of(Evaluation([], together)), sep="\n\n")
-        print(f"\npictures: {trajectory} ({SHOWN}, measured and predicted), {errors} (error against time)")
         print(
-            "What the models leave out, so that they lose to the baseline, `diabolo diagnose TAKE.csv` finds."
+            "\nWhat the models leave out, so that they lose to the baseline, `diabolo diagnose TAKE.csv` finds."
         )
+        print(f"pictures: {trajectory} ({SHOWN}, measured and predicted), {errors} (error against time)")
