@@ -66,7 +66,5 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.json != files.STDOUT:
         together = [row for row in horizons.horizons if row.recording == ALL_RECORDINGS]
         print(evaluate.text_of(table), evaluate.text_of(Evaluation([], together)), sep="\n\n")
-        print(
-            "\nWhat the models leave out, so that they lose to the baseline, `diabolo diagnose TAKE.csv` finds."
-        )
+        print("\nWhat the models leave out, `diabolo diagnose TAKE.csv` finds.")
         print(f"pictures: {trajectory} ({SHOWN}, measured and predicted), {errors} (error against time)")
