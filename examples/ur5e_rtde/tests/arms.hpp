@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,9 +20,6 @@ inline const StickPlanner& planner() {
   static const StickPlanner plans = ur5e::paper_planner();
   return plans;
 }
-
-/// How often something is done again: a few times, or `asked` where the environment says DIABOLO_LONG_TESTS.
-inline int repeats(int usual, int asked) { return std::getenv("DIABOLO_LONG_TESTS") ? asked : usual; }
 
 /// Both tips on circles in the upright plane: radius [m] times rate [rad/s] is their speed.
 inline TipMotion<double> circles(double seconds, double rate, double radius = 0.3, double start = 0) {

@@ -98,8 +98,8 @@ TEST_CASE("motions that are replaced midway join smoothly") {
     return static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24);
   };
   int joined = 0;
-  const int motions = repeats(12, 100);
-  for (int i = 0; i < motions; ++i) {
+  constexpr int kMotions = 100;
+  for (int i = 0; i < kMotions; ++i) {
     bench.cell.wait(0.2 + 0.3 * random());
     const auto tick = static_cast<std::size_t>(bench.cell.control.plan_ticks()) + 300;
     const TipMotion<double> motion =
@@ -120,8 +120,8 @@ TEST_CASE("motions that are replaced midway join smoothly") {
       bench.cell.tick();
     running = plan;
   }
-  std::printf("%d of %d motions were taken up midway\n", joined, motions);
-  CHECK(joined >= motions / 2);
+  std::printf("%d of %d motions were taken up midway\n", joined, kMotions);
+  CHECK(joined >= kMotions / 2);
   bench.play_out(running);
   bench.cell.wait(0.1);
   for (const Side side : {Side::kLeft, Side::kRight}) {
