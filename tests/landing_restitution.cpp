@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diabolo/dual.hpp"
+#include "diabolo/pack.hpp"
 #include "effect_scene.hpp"
 
 using namespace effect_scene;
@@ -78,6 +79,49 @@ TEST_CASE("a diabolo that bounces on resting tips gains no energy and comes to r
     before = std::min(before, energy());
   }
   CHECK(scene.state.string_state == StringState::kOnString);
+}
+
+TEST_CASE("a catch bounces as it does beside a taut lane, where hands that give way leave the string slack") {
+  using Lanes = Pack<double, 2>;
+  const unsigned seed = 1022;
+  CAPTURE(seed);
+  Random random(seed);
+  EffectSet<double, LandingRestitution> set;
+  set.get<LandingRestitution>().coefficient = 0.5;
+  EffectSet<Lanes, LandingRestitution> lanes_set;
+  lanes_set.get<LandingRestitution>().coefficient = Lanes(0.5);
+  const Predictor<double, LandingRestitution> model(Numbers(), set);
+  const Predictor<Lanes, LandingRestitution> lanes_model(Parameters<Lanes>(), lanes_set);
+  constexpr double kStep = 1e-3;
+  int bounced = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Drop scene = drop_from(random.uniform(0.0, 1e-3));
+    const double speed = random.uniform(-2.0, 2.0), acceleration = random.uniform(-40.0, 40.0);
+    for (Vector* velocity : {&scene.tips.left_velocity, &scene.tips.right_velocity}) velocity->z() = speed;
+    Tips<double> end = scene.tips;
+    for (Vector* tip : {&end.left, &end.right})
+      tip->z() += speed * kStep + 0.5 * acceleration * kStep * kStep;
+    for (Vector* velocity : {&end.left_velocity, &end.right_velocity}) velocity->z() += acceleration * kStep;
+    scene.state.velocity = Vector(0.0, 0.0, random.uniform(-2.0, 0.0));
+    // Beside it one that hangs on the string that the hands pull up.
+    State<Lanes> lanes;
+    for (int k = 0; k < 3; ++k) lanes.position[k] = Lanes(scene.state.position[k]);
+    lanes.position[2].set(1, scene.lowest);
+    lanes.velocity[2].set(0, scene.state.velocity.z());
+    lanes.velocity[2].set(1, speed - 1.0);
+    lanes.string_state.code.set(0, static_cast<double>(StringState::kLoose));
+    lanes.string_state.code.set(1, static_cast<double>(StringState::kOnString));
+    const auto both = [](const Tips<double>& tips) {
+      return Tips<Lanes>{tips.left.cast<Lanes>(), tips.right.cast<Lanes>(), tips.left_velocity.cast<Lanes>(),
+                         tips.right_velocity.cast<Lanes>()};
+    };
+    const bool snapped = model.step(scene.state, scene.tips, end, kStep).snapped_taut;
+    lanes_model.step(lanes, both(scene.tips), both(end), Lanes(kStep));
+    bounced += snapped;
+    REQUIRE(lanes.velocity[2][0] == scene.state.velocity.z());
+    REQUIRE(lanes.position[2][0] == scene.state.position.z());
+  }
+  CHECK(bounced > 500);
 }
 
 TEST_CASE("a taut string feels no restitution") {

@@ -144,8 +144,8 @@ class Predictor {
     Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
     Vector3<Scalar> velocity = result.velocity;
     Vector3<Scalar> position = result.position;
-    const bool pulled = any(result.taut);
-    if (pulled) {
+    const Mask<Scalar> pulled = result.taut || result.snapped_taut;
+    if (any(pulled)) {
       const Scalar pull_difference = effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
       if constexpr (Set::kTurnsAxle)
         effects_.turn_axis(state.axis, state, step.end, result, pull_difference, dt);
@@ -153,10 +153,10 @@ class Predictor {
     velocity = step.plane(velocity);
     // The change of velocity happens over the step: the mean of what it was before and after counts.
     if constexpr (Set::kTouches)
-      if (pulled && effects_.touches()) {
+      if (any(pulled) && effects_.touches()) {
         const Vector3<Scalar> slid = slide_along_string<Scalar>(
             step, position, (velocity - result.velocity) * Scalar(Scalar(0.5) * dt));
-        position = select<Scalar>(result.taut, slid, position);
+        position = select<Scalar>(pulled, slid, position);
       }
     state.position = step.plane.on(step.position, position);
     state.velocity = velocity * dissipation(parameters_, dt, result.taut);

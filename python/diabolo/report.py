@@ -25,6 +25,8 @@ THRESHOLDS = {"physics": SIGNIFICANCE, "measurement": 5.0}
 """By kind of candidate; the other is kSignificanceOfFault."""
 LONGEST_BAR = 3.0 * SIGNIFICANCE
 CLIPPED = 6.0
+WORTHWHILE_ODDS = 3.0
+"""A motion that gives less parts nothing."""
 FIRST_RECORDINGS = 4
 """So many are shown at once; the others unfold."""
 
@@ -383,6 +385,7 @@ def _ties(result: dict[str, Any]) -> list[str]:
             words(row.get("motion"))
             for row in _rows(result, "next_experiment")
             if len(names & set(row.get("parts") or [])) > 1
+            and (row.get("odds") or math.inf) >= WORTHWHILE_ODDS
         ]
         would = f" What would: {_joined(parting)}." if parting else ""
         sentences.append(f"{listed} predict the same here; this data cannot tell them apart.{would}")

@@ -167,7 +167,7 @@ double least_of(int k, double usual) {
 }
 
 /// Acts while the string is loose, or as it comes taut, only: a millimetre's fall does not show it. See
-/// string_mass.cpp, landing_restitution.cpp and unnamed_force.cpp.
+/// string_mass.cpp and landing_restitution.cpp. What acts in flight is looked at in flight.
 bool of_loose_string(int k) {
   const std::string name = field_names()[static_cast<std::size_t>(k)];
   return name.starts_with("string_mass") || name.starts_with("landing_restitution") ||

@@ -141,7 +141,9 @@ inline std::string left_plainly(const Diagnosis& d) {
   const Leftover& leftover = d.leftovers.front();
   return " force that has no name is left: " + plainly(leftover.unknown) +
          (leftover.in_model ? "; with its law the simulator predicts better what was left out."
-                            : "; no law of it was found that helps on data that were left out.");
+          : leftover.worsening_ci95.empty()
+              ? "."
+              : "; no law of it was found that helps on data that were left out.");
 }
 
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
@@ -183,7 +185,8 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kTie;
     d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
                  names(leading) + " would explain it, and so would " + tied_plainly(**tied) +
-                 " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell.";
+                 " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
+                 (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
     d.sentence = "The simulator leaves out " + names(physics) +
@@ -193,7 +196,7 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kMeasurementFault;
     d.sentence = "The measurement is off by " + names(faults) +
                  (has_law ? "; and a" + left_plainly(d) : "; no physics that has a name is missing.");
-  } else if (d.numerical && *d.numerical > 0.1) {
+  } else if (d.numerical && *d.numerical > 0.1 && !has_law) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
   } else if (has_law) {

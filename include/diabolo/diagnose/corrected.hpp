@@ -11,9 +11,6 @@
 
 namespace diabolo {
 
-/// Of a force without a name, as UnnamedForce takes it.
-inline constexpr double kLargestPower = 4.0;
-
 /// The base with the physics of a fit.
 inline Model augmented_model(const Model& base, const UnknownVector& at, const std::string& name) {
   const auto x = [&](Unknown u) { return at[index_of(u)]; };

@@ -82,8 +82,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
     physics.effects = options.base.effects;
   }
   auto& unnamed = physics.effects.get<UnnamedForce>();
-  const bool has_unnamed = !unnamed.neutral();
-  if (!has_unnamed) unnamed = {};  // constant, as what is looked for
+  if (unnamed.neutral()) unnamed = {};  // constant, as what is looked for
   Bank bank = bank_for(physics.parameters, options.bank);
   const auto step = [&](const std::string& name, double done) {
     if (watch.progress) watch.progress(name, done);
@@ -155,21 +154,19 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
         set = with(set, *candidate);
     if (std::ranges::none_of(fit.stages, &Stage::has_spin)) without_spin(bank, set);
   }
-  const auto emitted = [&](const Model& from, const UnknownVector& at) {
-    Model model = augmented_model(from, at, "diagnosed");
-    if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
-      model.parameters.gravity = from.parameters.gravity;
-    return model;
-  };
   std::vector<const Candidate*> denied;
   const auto settle = [&] {
     for (;;) {
       const Evidence evidence(fit);
       result.at = fit.at;
-      result.model = emitted(physics, fit.at);
+      result.model = augmented_model(physics, fit.at, "diagnosed");
+      if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())  // gravity is as it was
+        result.model.parameters.gravity = physics.parameters.gravity;
       result.findings.clear();
       result.leftovers.clear();
       find(result, fit, evidence, bank, set);
+      if (!physics.effects.get<UnnamedForce>().neutral() || set[index_of(Unknown::kPower)])
+        result.leftovers.clear();  // they are told in units of the law that is there
       if (options.bank.empty() || std::ranges::count(options.bank, "gyroscopic_tilt") > 0)
         result.findings.push_back(find_axle_motion(fit, result.model));
       withdraw_what_cannot_be(result);
@@ -203,30 +200,36 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   };
   settle();
   bool withdrawn = withdraw_what_does_not_help(result);
-  if (!withdrawn && !has_unnamed && !result.leftovers.empty() && elapsed() < options.budget) {
-    Leftover& strongest = *std::ranges::max_element(
-        result.leftovers, {}, [](const Leftover& leftover) { return std::abs(leftover.z); });
+  if (!withdrawn && !result.leftovers.empty() && elapsed() < options.budget) {
+    std::ranges::stable_sort(result.leftovers, std::greater<>(),
+                             [](const Leftover& l) { return std::abs(l.z); });
+    Leftover strongest = result.leftovers.front();
     UnnamedTrial trial = try_unnamed<D>(strongest, fit, options.base, physics, set, bank, options.holdout,
                                         options.seed, options.threads, step("fitting what has no name", 0.9));
-    strongest.worsening_ci95 = trial.leftover.worsening_ci95;
-    if (trial.leftover.in_model) {
+    strongest.worsening_ci95 = result.leftovers.front().worsening_ci95 = trial.worsening_ci95;
+    if (trial.helps) {
       physics = std::move(trial.physics);
       fit = std::move(trial.fit);
       set = trial.set;
       settle();
       withdrawn = withdraw_what_does_not_help(result);
-      result.leftovers.insert(result.leftovers.begin(), trial.leftover);
+      result.leftovers.insert(result.leftovers.begin(),
+                              as_fitted(strongest, strongest.law.exponent, fit, set));
+      result.leftovers.front().in_model = !withdrawn;
     }
   }
   if (withdrawn) result.model = options.base;
   result.heldout.whole_recordings = !options.holdout.empty() || recordings.size() > 1;
-  if (numerical)
-    result.numerical =
-        compare_rules<D>(fit, options.base, physics, options.threads, step("comparing rules", 0.95));
+  if (numerical) {
+    Model rules = options.base;
+    rules.effects.get<UnnamedForce>() = physics.effects.get<UnnamedForce>();
+    result.numerical = compare_rules<D>(fit, rules, physics, options.threads, step("comparing rules", 0.95));
+  }
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
-  result.proposals = next_experiments<D>(result, fit, physics, set, options.threads,
-                                         step("looking for what to record next", 0.97));
+  if (elapsed() < options.budget)
+    result.proposals = next_experiments<D>(result, fit, physics, set, options.threads,
+                                           step("looking for what to record next", 0.97));
   conclude(result);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +14,8 @@
 
 namespace diabolo {
 
-/// A part of a motion: tips by the time [s], and a start; on the string it hangs at rest.
+/// A part of a motion, as for a string of 1.45 m: tips by the time [s], and a start; on the string it hangs
+/// at rest.
 struct MotionPart {
   double seconds;
   std::function<Tips<double>(double)> tips;  ///< positions and directions of the sticks
@@ -103,19 +105,22 @@ inline Recording imagined(const MotionPart& part, const Model& model, const Reco
   for (Track* track : {&r.left, &r.right, &r.diabolo}) track->valid.setConstant(true);
   for (OrientationTrack* track : {&r.diabolo_orientation, &r.left_orientation, &r.right_orientation})
     track->valid.setConstant(true);
+  const FullPredictor<double> predictor(parameters_for(model, r), model.effects);
+  const double length = predictor.parameters().string_length, scale = length / 1.45;
   const auto tips_at = [&](double t) {
     Tips<double> tips = part.tips(t);
     const Tips<double> before = part.tips(t - h), after = part.tips(t + h);
-    tips.left_velocity = (after.left - before.left) / (2.0 * h);
-    tips.right_velocity = (after.right - before.right) / (2.0 * h);
+    tips.left *= scale;
+    tips.right *= scale;
+    tips.left_velocity = (after.left - before.left) * (scale / (2.0 * h));
+    tips.right_velocity = (after.right - before.right) * (scale / (2.0 * h));
     return tips;
   };
-  const FullPredictor<double> predictor(parameters_for(model, r), model.effects);
   State<double> state;
   const Tips<double> begin = tips_at(0.0);
   const bool thrown = !part.velocity.isZero();
   const Vector3<double> middle = 0.5 * (begin.left + begin.right);
-  const double length = predictor.parameters().string_length, apart = (begin.left - begin.right).norm();
+  const double apart = (begin.left - begin.right).norm();
   state.position =
       middle + Vector3<double>(0.0, 0.0, thrown ? 0.2 : -0.5 * std::sqrt(length * length - apart * apart));
   state.velocity = part.velocity;

@@ -106,7 +106,8 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   unnamed.flight_vertical += x(Unknown::kFlightVertical);
   unnamed.flight_lift += x(Unknown::kFlightLift);
   for (D* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
-    if (!is_constant_zero(*exponent)) *exponent += x(Unknown::kPower);
+    if (!is_constant_zero(*exponent))
+      *exponent = maximum(minimum(D(*exponent + x(Unknown::kPower)), D(kLargestPower)), D(-kLargestPower));
   auto& latent = effects.get<LatentForce>();
   latent.spin_string = x(Unknown::kSpinString);
   latent.spin_free = x(Unknown::kSpinFree);

@@ -29,26 +29,32 @@ double left_of(const Experiment& experiment, const Model& truth, const Alternati
   Recording like = seen.stages.front().recording;
   like.string_length += seen.at[index_of(Unknown::kStringLength)];
   for (const MotionPart& part : experiment.parts) {
-    fit.stages.push_back(make_stage(imagined(part, truth, like)));
+    const Recording recording = imagined(part, truth, like);
+    if (!recording.diabolo.position.allFinite()) return kNaN;
+    fit.stages.push_back(make_stage(recording));
     fit.noise.push_back(seen.noise.front());
   }
   fit.centre = fit.at = seen.centre;
   for (int u = 0; u < kUnknowns; ++u) {
-    const bool of_measurement = u >= index_of(Unknown::kLengthScale) && u <= index_of(Unknown::kStringLength);
+    const bool of_measurement = u >= index_of(Unknown::kLengthScale) && u < index_of(Unknown::kStringLength);
     if (explanation.set[u] && !of_measurement) fit.at[u] = explanation.at[u];
   }
+  fit.at[index_of(Unknown::kStringLength)] -= seen.at[index_of(Unknown::kStringLength)];
+  const int wraps = index_of(Unknown::kWraps);  // tried and never free
+  fit.centre[wraps] = fit.at[wraps] = explanation.at[wraps];
   fit.noise_is_known = true;
   constexpr int kIterations = 4;
   refine<D>(fit, physics, explanation.set, kIterations, threads, watch);
   return fit.cost / std::max(seen.dispersion, fit.dispersion);
 }
 
-/// What is tied with a claim, as something to fit.
-inline Alternative alternative_of(std::string_view claim, std::string_view other, const Fit& fit,
-                                  const ActiveSet& set) {
-  std::vector<Alternative> known = alternatives_to(claim, fit, set);
+/// What is tied with a claim, as something to fit; nothing where that cannot be told.
+inline std::optional<Alternative> alternative_of(std::string_view claim, std::string_view other,
+                                                 const Fit& fit, const ActiveSet& set) {
+  const std::vector<Alternative> known = alternatives_to(claim, fit, set);
   const auto own = std::ranges::find(known, other, &Alternative::name);
   if (own != known.end()) return *own;
+  if (other == "string_wrap") return std::nullopt;
   Alternative result{other, fit.delay, with(with(set, candidate_of(claim), false), candidate_of(other)), {}};
   result.at = within_bounds(Evidence(fit).solve(result.set), fit);
   return result;
@@ -79,14 +85,18 @@ std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const
     } else {
       const Model truth = augmented_model(physics, fit.at, "truth");
       const Alternative claim{f.candidate->name, fit.delay, set, fit.at};
+      std::vector<Alternative> others;
+      for (const std::string& name : f.tied_with)
+        if (const auto other = detail::alternative_of(f.candidate->name, name, fit, set))
+          others.push_back(*other);
+      if (others.empty()) continue;
       for (const Experiment& experiment : experiments()) {
         const double own = detail::left_of<D>(experiment, truth, claim, fit, physics, threads, watch);
         double odds = kLongOdds;
-        for (const std::string& other : f.tied_with) {
-          const Alternative alternative = detail::alternative_of(f.candidate->name, other, fit, set);
+        for (const Alternative& other : others) {
           const double more =
-              detail::left_of<D>(experiment, truth, alternative, fit, physics, threads, watch) - own;
-          odds = std::min(odds, std::exp(std::max(0.5 * more, 0.0)));
+              detail::left_of<D>(experiment, truth, other, fit, physics, threads, watch) - own;
+          odds = std::min(odds, std::isfinite(more) ? std::exp(std::max(0.5 * more, 0.0)) : 1.0);
         }
         if (!best.odds || odds > *best.odds) best.experiment = &experiment, best.odds = odds;
       }

@@ -86,6 +86,9 @@ struct UnknownInfo {
   double minimum, maximum;  ///< search bounds
 };
 
+/// Of the power by which a force without a name grows, as UnnamedForce takes it.
+inline constexpr double kLargestPower = 4.0;
+
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
@@ -125,11 +128,11 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"spin_axle", "rad/s^2", 1.0, 20.0, 0.0, 60.0},
     {"gyroscopic_gain", "1/m", 1.0, 0.0, 0.0, 100.0},
     {"lag", "s", 0.01, 0.0, 0.0, 0.1},
-    {"string_tangent", "m/s^2", 0.1, 0.0, -10.0, 10.0},
-    {"string_binormal", "m/s^2", 0.1, 0.0, -10.0, 10.0},
-    {"flight_against_v", "m/s^2", 0.1, 0.0, -10.0, 10.0},
-    {"flight_vertical", "m/s^2", 0.1, 0.0, -10.0, 10.0},
-    {"flight_axis_x_v", "m/s^2", 0.1, 0.0, -10.0, 10.0},
+    {"string_tangent", "m/s^2", 0.1, 0.0, -100.0, 100.0},
+    {"string_binormal", "m/s^2", 0.1, 0.0, -100.0, 100.0},
+    {"flight_against_v", "m/s^2", 0.1, 0.0, -100.0, 100.0},
+    {"flight_vertical", "m/s^2", 0.1, 0.0, -100.0, 100.0},
+    {"flight_axis_x_v", "m/s^2", 0.1, 0.0, -100.0, 100.0},
     {"spin_on_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"spin_off_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"placebo", "1/s", 0.1, 0.0, -10.0, 10.0},

@@ -8,8 +8,8 @@
 namespace diabolo {
 
 /// A force that nobody has a name for, as a diagnosis sees it: accelerations in the directions that tell
-/// physics apart, by the string's state, times powers of speed and spin. No law of nature: it may do work,
-/// and tells nothing of speeds and spins that were not seen, so that it stops growing beyond its bounds.
+/// physics apart, by the string's state, times powers of speed and spin. No law of nature: it may do work.
+/// Beyond the bounds below of speed and spin it stays what it is there.
 template <class Scalar>
 struct UnnamedForce : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "unnamed_force";
