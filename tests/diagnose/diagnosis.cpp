@@ -225,6 +225,26 @@ TEST_CASE("a force that has no name is left, and its law predicts what was left 
   CHECK(d.heldout.augmented_error.back().value() < 0.5 * d.heldout.base_error.back().value());
 }
 
+TEST_CASE("a force that grows is found where a constant one, or a tilt, would stand for its mean") {
+  AllEffects<double> effects;
+  effects.get<UnnamedForce>().string_tangent = 1.0;
+  effects.get<UnnamedForce>().spin_exponent = 2.0;
+  const Diagnosis d = diagnose({played(effects, 14.0, 9)});
+  CAPTURE(d.sentence);
+  CHECK(d.headline == Headline::kUnnamedStructure);
+  for (const Finding& f : d.findings) {
+    CAPTURE(f.candidate->name, f.z);
+    CHECK_FALSE(f.claimed);
+  }
+  REQUIRE_FALSE(d.leftovers.empty());
+  const Leftover& left = d.leftovers.front();
+  CAPTURE(left.law.scalar, left.law.exponent, left.law.deviation, left.value, left.deviation);
+  CHECK(left.unknown == Unknown::kStringTangent);
+  CHECK(left.in_model);
+  CHECK(left.law.scalar == "spin");
+  CHECK(std::abs(left.value - std::pow(left.law.at / 100.0, 2.0)) < 4.0 * left.deviation);
+}
+
 TEST_CASE("one thread and two come to the same, bit for bit") {
   const std::vector<Recording> takes{played({}, 6.0, 4)};
   DiagnosisOptions one, two;

@@ -200,22 +200,22 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   };
   settle();
   bool withdrawn = withdraw_what_does_not_help(result);
-  if (!withdrawn && !result.leftovers.empty() && elapsed() < options.budget) {
-    std::ranges::stable_sort(result.leftovers, std::greater<>(),
-                             [](const Leftover& l) { return std::abs(l.z); });
-    Leftover strongest = result.leftovers.front();
-    UnnamedTrial trial = try_unnamed<D>(strongest, fit, options.base, physics, set, bank, options.holdout,
-                                        options.seed, options.threads, step("fitting what has no name", 0.9));
-    strongest.worsening_ci95 = result.leftovers.front().worsening_ci95 = trial.worsening_ci95;
-    if (trial.helps) {
+  if (!withdrawn && physics.effects.get<UnnamedForce>().neutral() && elapsed() < options.budget) {
+    const Watch looking = step("fitting what has no name", 0.9);
+    for (Leftover& leftover : laws_to_try<D>(result.leftovers, fit, physics, set, options.threads, looking)) {
+      UnnamedTrial trial = try_unnamed<D>(leftover, fit, options.base, physics, set, bank, options.holdout,
+                                          options.seed, options.threads, looking);
+      leftover.worsening_ci95 = trial.worsening_ci95;
+      if (!result.leftovers.empty()) result.leftovers.front().worsening_ci95 = trial.worsening_ci95;
+      if (!trial.helps) continue;
       physics = std::move(trial.physics);
       fit = std::move(trial.fit);
       set = trial.set;
       settle();
       withdrawn = withdraw_what_does_not_help(result);
-      result.leftovers.insert(result.leftovers.begin(),
-                              as_fitted(strongest, strongest.law.exponent, fit, set));
+      result.leftovers.insert(result.leftovers.begin(), as_fitted(leftover, leftover.law.exponent, fit, set));
       result.leftovers.front().in_model = !withdrawn;
+      break;
     }
   }
   if (withdrawn) result.model = options.base;

@@ -96,7 +96,7 @@ struct Diagnosis {
   std::optional<double> numerical;  ///< share of the base's error that its numerical rules make
 };
 
-inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7;
+inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7, kLatentForces = 5;
 
 /// Takes down how the base alone does, window by window.
 inline void remember_before(Diagnosis& result, const Fit& fit) {
@@ -166,6 +166,9 @@ inline bool is_possible(const Candidate& candidate, const Standing& standing) {
   });
 }
 
+/// Whether a force without a name is told.
+inline bool stands_out(double z, double size) { return std::abs(z) > 5.0 && size > 2.0 * kSmallestReach; }
+
 /// Judges every candidate at the final fit.
 inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const Bank& bank,
                  const ActiveSet& set) {
@@ -213,8 +216,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     if (!(deviation > 0.0)) continue;
     const Candidate latent{"", "", CandidateKind::kPhysics, {static_cast<Unknown>(u)}, 0.0, false};
     const double z = own.estimate[u] / deviation, size = size_of(latent, own.estimate, fit.systems);
-    const bool of_spin = k >= 5;
-    if (std::abs(z) > 5.0 && !of_spin && size > 2.0 * kSmallestReach)
+    if (k < kLatentForces && stands_out(z, size))
       result.leftovers.push_back({static_cast<Unknown>(u), own.estimate[u], deviation, z, size,
                                   open_law(fit, static_cast<Unknown>(u))});
   }

@@ -106,8 +106,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   unnamed.flight_vertical += x(Unknown::kFlightVertical);
   unnamed.flight_lift += x(Unknown::kFlightLift);
   for (D* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
-    if (!is_constant_zero(*exponent))
-      *exponent = maximum(minimum(D(*exponent + x(Unknown::kPower)), D(kLargestPower)), D(-kLargestPower));
+    if (!is_constant_zero(*exponent)) *exponent += x(Unknown::kPower);
   auto& latent = effects.get<LatentForce>();
   latent.spin_string = x(Unknown::kSpinString);
   latent.spin_free = x(Unknown::kSpinFree);

@@ -117,12 +117,18 @@ inline PowerLaw power_law(const std::vector<WindowSays>& windows, std::string_vi
   return law;
 }
 
+/// What the windows say, in the order of their speed, or spin.
+inline std::vector<WindowSays> windows_by(std::string_view scalar, const Fit& fit, Unknown unknown) {
+  const auto of_spin = [](const Stage&, const FitWindow& window) { return std::abs(window.start.spin); };
+  return scalar == "spin" ? detail::windows_say(fit, unknown, of_spin)
+                          : detail::windows_say(fit, unknown, detail::mean_speed);
+}
+
 /// How the force behind a latent acceleration grows: with the speed or with the spin, whichever explains
 /// more.
 inline PowerLaw open_law(const Fit& fit, Unknown unknown) {
-  const auto of_spin = [](const Stage&, const FitWindow& window) { return std::abs(window.start.spin); };
-  PowerLaw speed = power_law(detail::windows_say(fit, unknown, detail::mean_speed), "speed", "m/s"),
-           spin = power_law(detail::windows_say(fit, unknown, of_spin), "spin", "rad/s");
+  PowerLaw speed = power_law(windows_by("speed", fit, unknown), "speed", "m/s"),
+           spin = power_law(windows_by("spin", fit, unknown), "spin", "rad/s");
   return spin.explained > speed.explained ? spin : speed;
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,6 +28,50 @@ inline double usual_of(const PowerLaw& law) {
   return law.scalar == "spin" ? UnnamedForce<double>::kSpin : 1.0;
 }
 
+/// The strongest force without a name that grows with speed or spin, or with its square, whether or not a
+/// constant one stands out; nothing where none does.
+template <class D>
+std::optional<Leftover> growing_leftover(const Fit& fit, const Model& physics, const ActiveSet& set,
+                                         int threads, const Watch& watch) {
+  std::optional<Leftover> strongest;
+  for (const std::string_view scalar : {"speed", "spin"})
+    for (const double exponent : {1.0, 2.0}) {
+      PowerLaw law;
+      law.scalar = scalar;
+      law.unit = scalar == "spin" ? "rad/s" : "m/s";
+      law.exponent = exponent;
+      law.at = usual_of(law);
+      Fit grown = fit;
+      look<D>(grown, with_growth(physics, law), threads, watch);
+      const Evidence evidence(grown);
+      for (int u = kLatentFirst; u < kLatentFirst + kLatentForces; ++u) {
+        if (set[u]) continue;
+        ActiveSet with_force = set;
+        with_force[u] = true;
+        const Standing own = standing(evidence, with_force);
+        const double deviation = own.deviation(u), z = deviation > 0.0 ? own.estimate[u] / deviation : 0.0;
+        const Candidate latent{"", "", CandidateKind::kPhysics, {static_cast<Unknown>(u)}, 0.0, false};
+        const double size = size_of(latent, own.estimate, grown.systems);
+        if (!stands_out(z, size) || (strongest && std::abs(z) <= std::abs(strongest->z))) continue;
+        law.value = own.estimate[u];
+        strongest = Leftover{static_cast<Unknown>(u), law.value, deviation, z, size, law};
+      }
+    }
+  return strongest;
+}
+
+/// What a fit may be tried with: the strongest that grows, and the strongest of `leftovers`, which comes
+/// first.
+template <class D>
+std::vector<Leftover> laws_to_try(std::vector<Leftover>& leftovers, const Fit& fit, const Model& physics,
+                                  const ActiveSet& set, int threads, const Watch& watch) {
+  std::ranges::stable_sort(leftovers, std::greater<>(), [](const Leftover& l) { return std::abs(l.z); });
+  std::vector<Leftover> result;
+  if (const auto growing = growing_leftover<D>(fit, physics, set, threads, watch)) result.push_back(*growing);
+  if (!leftovers.empty()) result.push_back(leftovers.front());
+  return result;
+}
+
 /// A leftover's law as a fit has it, whose base grows by `first`, the power that was begun with.
 inline Leftover as_fitted(Leftover leftover, double first, const Fit& fit, const ActiveSet& set) {
   PowerLaw& law = leftover.law;
@@ -34,6 +80,14 @@ inline Leftover as_fitted(Leftover leftover, double first, const Fit& fit, const
   if (set[power]) {
     law.exponent = std::clamp(first + fit.at[power], -kLargestPower, kLargestPower);
     law.deviation = now.deviation(power);
+  }
+  const std::vector<WindowSays> windows = windows_by(law.scalar, fit, leftover.unknown);
+  if (!windows.empty()) law.at = windows[windows.size() / 2].x;
+  const auto grown = [&](double x) { return fit.at[u] * std::pow(x / usual_of(law), law.exponent); };
+  law.curve.clear();
+  for (std::size_t k = 0; k <= 5 && !windows.empty(); ++k) {
+    const double x = windows[(windows.size() - 1) * k / 5].x;
+    law.curve.emplace_back(x, grown(x));
   }
   const double there = std::pow(std::max(law.at, 1e-3) / usual_of(law), law.exponent);
   leftover.value = law.value = fit.at[u] * there;
@@ -82,7 +136,8 @@ UnnamedTrial try_unnamed(const Leftover& leftover, const Fit& fit, const Model& 
     better = better || (interval && interval->low > 0.0);
     worse = worse || (interval && interval->high < 0.0);
   }
-  trial.helps = better && !worse;
+  const double exponent = law.exponent + trial.fit.at[power];
+  trial.helps = better && !worse && std::abs(exponent) <= kLargestPower;
   return trial;
 }
 

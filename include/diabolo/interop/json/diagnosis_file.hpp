@@ -170,7 +170,7 @@ inline Json unnamed_of(const Leftover& l) {
           {"exponent", law.exponent},
           {"exponent_deviation", law.deviation},
           {"curve", law.curve},
-          {"explained", law.explained},
+          {"explained", l.in_model ? Json(nullptr) : Json(law.explained)},
           {"in_model", l.in_model},
           {"worse_without_ci95_m", intervals_of(l.worsening_ci95)}};
 }
