@@ -172,6 +172,7 @@ inline void conclude(Diagnosis& d) {
   const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
   const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
   const bool has_law = !d.leftovers.empty() && d.leftovers.front().in_model;
+  const bool only_leftover = !d.leftovers.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -199,7 +200,7 @@ inline void conclude(Diagnosis& d) {
   } else if (d.numerical && *d.numerical > 0.1 && !has_law) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
-  } else if (has_law) {
+  } else if (has_law || only_leftover) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "A" + left_plainly(d);
   } else if (d.withdrawn) {
@@ -209,9 +210,6 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something without a name is left: " + std::to_string(std::lround(100.0 * d.unexplained)) +
                  " % of the windows are off by more than five times what the others are.";
-  } else if (!d.leftovers.empty()) {
-    d.headline = Headline::kUnnamedStructure;
-    d.sentence = "A" + left_plainly(d);
   } else {
     d.headline = Headline::kNothingMissing;
     d.sentence = "Nothing is missing that this recording could show.";

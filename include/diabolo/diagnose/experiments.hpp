@@ -56,7 +56,7 @@ inline std::vector<MotionPart> throws(std::initializer_list<double> speeds,
 }
 
 inline std::vector<MotionPart> on_string(double seconds, std::initializer_list<double> spins,
-                                         std::function<Tips<double>(double)> tips) {
+                                         const std::function<Tips<double>(double)>& tips) {
   std::vector<MotionPart> parts;
   for (const double spin : spins) parts.push_back({seconds, tips, spin, Vector3<double>::Zero()});
   return parts;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -75,7 +76,7 @@ struct PlanProblem {
   Play<Scalar> judged_part(std::size_t m, const Predictor<Scalar, Effects...>& model,
                            const TipPath<Scalar>& path, double longest_step) const {
     PlayOptions options{.dt = longest_step, .flight = goals.throws() ? kFlight : 0.0};
-    options.down_to = goals.landing ? goals.landing->position.z() : INFINITY;
+    options.down_to = goals.landing ? goals.landing->position.z() : std::numeric_limits<double>::infinity();
     return play(model, start_of(m), path, options);
   }
 

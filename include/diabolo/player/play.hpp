@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "diabolo/player/tip_path.hpp"
@@ -35,7 +36,8 @@ struct Play {
 struct PlayOptions {
   double dt = 4e-3;     ///< longest step [s]
   double flight = 0.0;  ///< of a diabolo that flies at the end of the path, so much more is predicted [s],
-  double down_to = -INFINITY;  ///< but no more once it falls below this height [m]
+  double down_to =
+      -std::numeric_limits<double>::infinity();  ///< but no more once it falls below this height [m]
 };
 
 /// Predicts what a path leads to from `start`, the state at its begin; the sticks' tips then rest. A flight
