@@ -95,6 +95,25 @@ TEST_CASE("against the velocity with the power two it is the drag of the air") {
   CHECK(apart(a, b) < 1e-6);  // the direction's smoothing
 }
 
+TEST_CASE("no step takes more than the velocity, however a force against it grows") {
+  const Force force = [] {
+    Force f;
+    f.flight_against = 20.0;
+    f.speed_exponent = -2.0;
+    return f;
+  }();
+  State<double> state;
+  state.string_state = StringState::kFlying;
+  for (const double speed : {0.01, 0.1, 1.0, 3.0})
+    for (const double dt : {1e-4, 1e-2, 0.1, 1.0}) {
+      CAPTURE(speed, dt);
+      state.velocity = Vector(0.0, speed, 0.0);
+      const Vector after = state.velocity + force.acceleration(state, {}, dt, Numbers()) * dt;
+      CHECK(after.y() >= 0.0);
+      CHECK(after.y() < speed);
+    }
+}
+
 TEST_CASE("mirrored and turned, a force without a name acts as before") {
   const unsigned seed = 782;
   CAPTURE(seed);

@@ -113,7 +113,7 @@ def _tie(content: Content, generator: np.random.Generator) -> None:
 
 
 def _outside(content: Content, generator: np.random.Generator) -> None:
-    content.outside = str(generator.choice(["stribeck", "stiffening", "bearing", "flank"]))
+    content.outside = str(generator.choice(["stribeck", "stiffening", "bearing", "flank", "lay"]))
     if content.outside == "stribeck":
         rise = {"friction_rise": generator.uniform(0.15, 0.4), "stribeck_speed": generator.uniform(0.2, 0.6)}
         content.add(
@@ -129,6 +129,10 @@ def _outside(content: Content, generator: np.random.Generator) -> None:
         content.add(
             ["string_friction"], {"string": {"friction": friction}, "diabolo": {"bearing_torque": torque}}
         )
+    elif content.outside == "lay":
+        twist = generator.uniform(0.2, 0.6) * generator.choice([-1.0, 1.0])
+        friction = sizes.log_uniform(generator, 0.05, 0.15)
+        content.add(["string_friction"], {"string": {"friction": friction, "lay": twist}})
     else:
         groove = {"groove_radius": 0.005, "groove_half_width": generator.uniform(0.0015, 0.004)}
         rub = {"flank_friction": generator.uniform(0.2, 0.6), "flank_radius": generator.uniform(0.009, 0.015)}

@@ -84,7 +84,13 @@ def run_batch(places: Places, name: str, tool: str, minutes: float, jobs: int) -
     batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report, but=done)
     seal.check_recordings(sealed, store, but=done)
     cases = [entry["case"] for entry in sealed["sealed"]]
-    left = run.resume(cases, results, lambda case: chosen(store.recording(case)), places.report, minutes)
+    own = run.answers(answers_path(places, name, "diagnose")) if tool == "bic" else {}
+
+    def ask(case: str) -> answer.Answer:
+        recording = store.recording(case)
+        return tools.by_bic(own[case], recording) if case in own else chosen(recording)
+
+    left = run.resume(cases, results, ask, places.report, minutes)
     ending = f"{left} cases are left; run again" if left else f"all done; diabolo prove score {name}"
     print(f"{results}: {len(cases) - left} of {len(cases)} cases; {ending}")
     return 0

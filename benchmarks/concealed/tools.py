@@ -68,22 +68,31 @@ def parameter_fit(path: Path) -> dict[str, Any]:
 
 
 def bic(path: Path) -> dict[str, Any]:
-    """The bank with Schwarz's criterion alone: whatever lowers chi^2 by more than the logarithm of the number
-    of data is claimed, however small, and whether or not left-out data is predicted better."""
-    result = full(path)
+    """The bank with Schwarz's criterion alone, see `by_bic`."""
+    return by_bic(full(path), path)
+
+
+def _kind_of(name: str) -> str:
+    return "measurement" if name in MEASUREMENT else "physics"
+
+
+def by_bic(result: dict[str, Any], path: Path) -> dict[str, Any]:
+    """What the ladder of the diagnosis' own answer leads to by Schwarz's criterion: whatever lowers chi^2 by
+    more than the logarithm of the number of data is claimed, however small, and whether or not left-out data
+    is predicted better."""
     if result["headline"] == "INSUFFICIENT_DATA":
         return result
     least = math.sqrt(math.log(3.0 * len(load_recording(path))))
     claimed = [rung for rung in result["ladder"] if rung["z"] is not None and abs(rung["z"]) > least]
-    kinds = {rung["kind"] for rung in claimed}
+    kinds = {_kind_of(rung["name"]) for rung in claimed}
     headline = "NAMED" if "physics" in kinds else "MEASUREMENT_FAULT" if kinds else "NOTHING_MISSING"
     effects = [
         {
             "name": rung["name"],
-            "kind": rung["kind"],
+            "kind": _kind_of(rung["name"]),
             "material": True,
             "tied_with": [],
-            "p_value": rung["p_value"],
+            "p_value": None,
             "confidence": None,
             "parameters": [],
         }

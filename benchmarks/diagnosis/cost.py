@@ -14,6 +14,8 @@ from pathlib import Path
 
 from diabolo import diagnose, load_recording
 
+LOCATING = ("reading the motion", "fitting starts")
+BANK = "fitting everything"
 SHIPPED = sorted((Path(__file__).parents[2] / "data" / "recordings").glob("*.csv"))
 
 
@@ -42,16 +44,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("recording", nargs="*", default=[str(path) for path in SHIPPED])
     files = parser.parse_args().recording
-    print("| recordings | length | seconds | per minute of recording | memory | longest steps |")
-    print("|---|---|---|---|---|---|")
+    print("| recordings | length | seconds | per minute | of it locating | bank | memory | longest steps |")
+    print("|---|---|---|---|---|---|---|---|")
     counts = sorted({1, 2, 4, len(files)} & set(range(1, len(files) + 1)))
     with multiprocessing.get_context("spawn").Pool(1, maxtasksperchild=1) as pool:
         for count in counts:
             length, steps, seconds, memory = pool.apply(cost, (files[:count],))
             longest = sorted(steps.items(), key=lambda step: -step[1])[:4]
+            locating, bank = sum(steps.get(step, 0.0) for step in LOCATING), steps.get(BANK, 0.0)
             shown = ", ".join(f"{name} {took:.1f} s" for name, took in longest)
             print(
                 f"| {count} | {length:.1f} s | {seconds:.1f} | {60.0 * seconds / length:.1f} s "
+                f"| {60.0 * locating / length:.1f} s | {60.0 * bank / length:.1f} s "
                 f"| {memory:.0f} MB | {shown} |",
                 flush=True,
             )

@@ -344,7 +344,7 @@ def _unnamed(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
     return {
         "law": item.get("law") or "no law found",
         "facts": "; ".join(facts),
-        "picture": _picture(_curve_figure(curve)) if curve else None,
+        "picture": _picture(_curve_figure(item, curve)) if curve else None,
     }
 
 
@@ -448,11 +448,14 @@ def _error_figure(rows: list[Any]) -> Figure:
     return figure
 
 
-def _curve_figure(curve: list[Any]) -> Figure:
+def _curve_figure(item: dict[str, Any], curve: list[Any]) -> Figure:
+    units = [(item.get(name) or "SI unit").replace("^2", "²") for name in ("scalar_unit", "unit")]
     figure = _figure(5.6, 3.0)
     axes = figure.add_subplot()
     axes.plot([x for x, _ in curve], [y for _, y in curve], color=AFTER, lw=2.4)
-    axes.set(xlabel="argument of the law [SI unit]", ylabel="what is missing [SI unit]")
+    axes.set(
+        xlabel=f"{item.get('scalar') or 'argument of the law'} [{units[0]}]", ylabel=f"missing [{units[1]}]"
+    )
     axes.grid(alpha=0.25)
     return figure
 

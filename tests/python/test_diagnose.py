@@ -237,6 +237,13 @@ def test_bad_input_is_named(played: Recording) -> None:
         diagnose(played, budget=0.0)
 
 
+def test_a_spent_budget_is_told(played: Recording) -> None:
+    hurried = diagnose(played, budget=1e-6)
+    assert "proposing what to record next (no time left)" in hurried.to_dict()["not_done"]
+    assert "Not done: " in hurried.sentence
+    assert diagnose(played).to_dict()["not_done"] == []
+
+
 def test_rules_that_are_numerical_are_told_from_physics() -> None:
     swing = next(path for path in packaged_recordings() if path.stem == "swing")
     take = load_recording(str(swing))

@@ -387,6 +387,12 @@ def test_an_unnamed_law_is_shown_with_its_curve() -> None:
     assert f"Curve of the unnamed law: {law}" in [image["alt"] for image in page.images()]
 
 
+def test_the_curve_of_an_unnamed_law_names_its_axes() -> None:
+    item = {"law": "x", "curve": [[0, 1], [1, 2]], "unit": "m/s^2", "scalar": "speed", "scalar_unit": "m/s"}
+    axes = report._curve_figure(item, item["curve"]).axes[0]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("speed [m/s]", "missing [m/s²]")
+
+
 def test_an_unnamed_force_is_shown_with_its_size() -> None:
     where = {"direction": "flight_against_v"}
     item = {"where": where, "value": 0.11, "deviation": 0.01, "unit": "m/s^2", "size_m": 0.004}

@@ -68,15 +68,18 @@ inline void add_drags(const DiaboloParameters& diabolo, const AirParameters& air
   rate.col(kAngularMomentum) += axle_torque(diabolo.axle_drag, diabolo.axial_inertia, spin) * axis;
 }
 
-/// Adds the string's pull to a rate of state.
+/// Adds the string's pull to a rate of state; `twisted` is the part of its friction that goes along `axis`.
 inline void add_string_pull(const DiaboloParameters& diabolo, const StringShape& shape,
-                            const Tensions& tensions, const State& state, State& rate) {
+                            const Tensions& tensions, double twisted, const State& state, State& rate) {
   const Vec3 axis = state.col(kAxis);
   const Vec3 left = tensions.left * shape.strands[0].direction;
   const Vec3 right = tensions.right * shape.strands[1].direction;
   const Vec3 force = left + right;
   rate.col(kVelocity) += force / diabolo.mass;
   rate.col(kAngularMomentum) += shape.strands[0].arm.cross(left) + shape.strands[1].arm.cross(right);
+  const Vec3 along = twisted * (tensions.right - tensions.left) * axis;
+  rate.col(kVelocity) += along / diabolo.mass;
+  rate.col(kAngularMomentum) += 0.5 * (shape.strands[0].arm + shape.strands[1].arm).cross(along);
   if (shape.at_flank) {
     const double brake = diabolo.flank_friction * std::abs(force.dot(axis)) * diabolo.flank_radius;
     rate.col(kAngularMomentum) -= std::copysign(brake, spin_about_axis(diabolo, state)) * axis;

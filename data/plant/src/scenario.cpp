@@ -38,7 +38,8 @@ DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo, Structu
 
 StringParameters read_string(Fields fields, StringParameters string, Structure structure) {
   const bool is_chain = structure == Structure::kChain;
-  refuse_in_chain(fields, structure, {"stiffening_stretch", "friction_rise", "stribeck_speed", "wraps"});
+  refuse_in_chain(fields, structure,
+                  {"stiffening_stretch", "friction_rise", "stribeck_speed", "lay", "wraps"});
   fields.read("length", string.length, {0.2, 5.0});
   fields.read("radius", string.radius, {0.0, 0.01});
   fields.read("stiffness", string.stiffness, {10.0, 1e6});
@@ -47,6 +48,7 @@ StringParameters read_string(Fields fields, StringParameters string, Structure s
   fields.read("friction", string.friction, {0.0, is_chain ? 0.9 : 1.0});
   fields.read("friction_rise", string.friction_rise, {0.0, 1.0});
   fields.read("stribeck_speed", string.stribeck_speed, {1e-4, 10.0});
+  fields.read("lay", string.lay, {-1.0, 1.0});
   fields.read("slip_scale", string.slip_scale, {1e-4, 1.0});
   fields.read("linear_density", string.linear_density, {is_chain ? 1e-4 : 0.0, 0.05});
   if (is_chain) {

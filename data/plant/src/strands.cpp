@@ -34,7 +34,7 @@ State StrandsPlant::rate(const Moment& moment, const State& state, const Pair<St
     const StringShape taut = shape(moment, state, sticks);
     const Tensions tensions = bearing_limited(diabolo, string, moment.chirality,
                                               spin_about_axis(diabolo, state), string_tensions(string, taut));
-    add_string_pull(diabolo, taut, tensions, state, rate);
+    add_string_pull(diabolo, taut, tensions, moment.chirality * string.lay, state, rate);
     pulls = {-tensions.left * taut.strands[0].direction, -tensions.right * taut.strands[1].direction};
   } else if (moment.mode == Mode::kLoose) {
     rate.col(kVelocity) += 0.5 * string.linear_density * string.length / diabolo.mass * parameters_.gravity;

@@ -20,7 +20,8 @@ struct StringParameters {
   double friction = 0.3;                        ///< capstan coefficient of fast slip; of a chain, Coulomb's
   double friction_rise = 0.0;                   ///< added to the coefficient as slip goes to zero (Stribeck)
   double stribeck_speed = 0.1;                  ///< slip speed over which that rise fades [m/s]
-  double slip_scale = 0.01;                     ///< slip speed that regularises the sign of friction [m/s]
+  double lay = 0.0;               ///< part of its friction that the string's twist turns along the axle
+  double slip_scale = 0.01;       ///< slip speed that regularises the sign of friction [m/s]
   double linear_density = 0.0;    ///< of a chain; else only the slack string's weight on the axle [kg/m]
   int segments = 41;              ///< of a chain
   double bending_damping = 4e-7;  ///< of a chain: moment per rate of curvature [N m^2 s]

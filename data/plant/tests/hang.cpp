@@ -62,6 +62,25 @@ TEST_CASE("friction slows the spin by the torque of the two tensions") {
   CHECK(change < -10.0);
 }
 
+TEST_CASE("a twisted string leans the hang along the axle by a part of its friction, with the slip's sign") {
+  PlantParameters parameters = airless();
+  const double lay = GENERATE(0.4, -0.4), spin = GENERATE(150.0, -150.0);
+  parameters.string.lay = lay;
+  const StrandsPlant plant(parameters, still_hands({0.0, 0.35, 1.25}, {0.0, -0.35, 1.25}));
+  Start start;
+  start.spin = spin;
+  const Moment moment = simulate(plant, start, {0.0}).front();
+  const Tensions tensions = plant.read(moment).tensions;
+  // The axle points forwards; about it the string runs from the left tip to the right one with the sense -1.
+  const double push = -lay * (tensions.right - tensions.left);
+  CHECK(push * lay * spin > 0.0);
+  CHECK(std::abs(push) > 0.3);
+  const Vec3 position = moment.state.col(kPosition);
+  // The strands leave a thick axle, 7 mm under its centre.
+  CHECK(position.x() / (1.25 - position.z()) ==
+        Approx(push / (parameters.diabolo.mass * 9.80665)).epsilon(0.015));
+}
+
 TEST_CASE("a one-way bearing leaves its own drag in one sense and the whole friction in the other") {
   PlantParameters parameters = airless();
   parameters.diabolo.bearing_torque = 5e-4;

@@ -214,6 +214,8 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kNothingMissing;
     d.sentence = "Nothing is missing that this recording could show.";
   }
+  for (std::size_t i = 0; i < d.not_done.size(); ++i)
+    d.sentence += (i == 0 ? " Not done: " : "; ") + d.not_done[i] + (i + 1 == d.not_done.size() ? "." : "");
 }
 
 }  // namespace diabolo

@@ -21,6 +21,7 @@
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/select.hpp"
+#include "diabolo/diagnose/sufficient.hpp"
 #include "diabolo/diagnose/unnamed_law.hpp"
 #include "diabolo/recording/odd_tracking.hpp"
 #include "diabolo/recording/swapped_bodies.hpp"
@@ -43,32 +44,7 @@ struct DiagnosisWatch {
   std::function<bool()> cancelled;
 };
 
-/// Fewest windows from which anything is concluded.
-inline constexpr std::size_t kFewestWindows = 8;
-
 namespace detail {
-
-/// Why nothing can be concluded; empty where something can.
-inline std::string insufficient(const std::vector<Stage>& stages) {
-  std::size_t windows = 0, taut = 0;
-  bool length_known = false;
-  std::string odd;
-  for (const Stage& stage : stages) {
-    windows += stage.windows.size();
-    for (const FitWindow& window : stage.windows)
-      taut += window.start.string_state == StringState::kOnString ? 1 : 0;
-    length_known = length_known || usual_path_length(stage.recording);
-    if (!odd.empty()) continue;
-    odd = odd_path_length(stage.recording);
-    if (!odd.empty() && stages.size() > 1) odd += " (in " + stage.recording.name + ")";
-  }
-  if (windows < kFewestWindows)
-    return "only " + std::to_string(windows) + " windows of half a second can be compared; " +
-           std::to_string(kFewestWindows) + " are needed";
-  if (!odd.empty()) return odd;
-  if (!length_known || taut * 10 < windows) return "the string is never seen taut for long";
-  return {};
-}
 
 /// With every body under its name, unless friction would have to give energy: then `backwards`.
 template <class D>
@@ -89,10 +65,13 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
     return Watch{{}, watch.cancelled};
   };
   const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
   Diagnosis result;
+  const auto time_left = [&](const char* what) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    const bool left = elapsed.count() < options.budget;
+    if (!left) result.not_done.push_back(std::string(what) + " (no time left)");
+    return left;
+  };
   result.base = options.base.name;
   result.base_gravity = physics.parameters.gravity;
   result.base_string_length = parameters_for(physics, recordings.front()).string_length;
@@ -133,7 +112,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
       ActiveSet next = eliminate(evidence, bank, set);
       if (const Candidate* candidate = strongest_left_out(evidence, bank, next))
         next = with(next, *candidate);
-      if ((next == set).all() || round == 2 || elapsed() > options.budget) break;  // judged at its own fit
+      if ((next == set).all() || round == 2 || !time_left("asking again what is sure"))
+        break;  // at its own fit
       set = next;
     }
     Diagnosis draft = result;
@@ -143,7 +123,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
                                          step("trying other explanations", again ? 0.8 : 0.5)),
                       std::back_inserter(exchanged));
     const bool soft = !fit.bounces && detail::is_bouncy(fit.at);
-    if ((fit.delay == before && !soft) || elapsed() > options.budget) break;
+    if ((fit.delay == before && !soft) || !time_left("asking all again with what was found")) break;
     fit.noise_is_known = false;
     fit.bounces = fit.bounces || soft;
     std::erase_if(exchanged, [](const Exchange& e) {  // what is asked again
@@ -200,7 +180,9 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   };
   settle();
   bool withdrawn = withdraw_what_does_not_help(result);
-  if (!withdrawn && physics.effects.get<UnnamedForce>().neutral() && elapsed() < options.budget) {
+  if (!physics.effects.get<UnnamedForce>().neutral()) {
+    result.not_done.push_back("looking for forces without a name beside the base's own");
+  } else if (!withdrawn && time_left("looking for forces without a name")) {
     const Watch looking = step("fitting what has no name", 0.9);
     for (Leftover& leftover : laws_to_try<D>(result.leftovers, fit, physics, set, options.threads, looking)) {
       UnnamedTrial trial = try_unnamed<D>(leftover, fit, options.base, physics, set, bank, options.holdout,
@@ -227,7 +209,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   }
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
-  if (elapsed() < options.budget)
+  if (time_left("proposing what to record next"))
     result.proposals = next_experiments<D>(result, fit, physics, set, options.threads,
                                            step("looking for what to record next", 0.97));
   conclude(result);

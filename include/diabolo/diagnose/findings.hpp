@@ -91,9 +91,10 @@ struct Diagnosis {
   Model model;
   HeldOut heldout;
   std::vector<Proposal> proposals;
-  double unexplained = 0.0;         ///< share of the windows that are far off after all
-  bool withdrawn = false;           ///< physics that stands out, but does not help on what was left out
-  std::optional<double> numerical;  ///< share of the base's error that its numerical rules make
+  double unexplained = 0.0;           ///< share of the windows that are far off after all
+  bool withdrawn = false;             ///< physics that stands out, but does not help on what was left out
+  std::optional<double> numerical;    ///< share of the base's error that its numerical rules make
+  std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
 };
 
 inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7, kLatentForces = 5;

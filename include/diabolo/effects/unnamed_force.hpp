@@ -29,16 +29,21 @@ struct UnnamedForce : NeutralEffect<Scalar> {
            is_constant_zero(flight_lift);
   }
 
-  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips, const Scalar&,
+  Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
                                const Parameters<Scalar>&) const {
     const Vector3<Scalar> left = unit(tips.left - state.position), right = unit(tips.right - state.position);
     const Vector3<Scalar> taut =
         unit(right - left) * string_tangent + unit(cross(left, right)) * string_binormal;
     const Scalar sign = select(state.spin > Scalar(0), Scalar(-1), Scalar(1));
-    const Vector3<Scalar> free = unit(cross(state.axis, state.velocity)) * Scalar(flight_lift * sign) -
-                                 unit(state.velocity) * flight_against +
-                                 Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical);
-    return select<Scalar>(is(state.string_state, StringState::kOnString), taut, free) * growth(state);
+    const Scalar grown = growth(state);
+    // No step takes more than all of the velocity.
+    const Scalar against = minimum(Scalar(flight_against * grown), Scalar(norm(state.velocity) / dt));
+    const Vector3<Scalar> free = (unit(cross(state.axis, state.velocity)) * Scalar(flight_lift * sign) +
+                                  Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical)) *
+                                     grown -
+                                 unit(state.velocity) * against;
+    return select<Scalar>(is(state.string_state, StringState::kOnString), Vector3<Scalar>(taut * grown),
+                          free);
   }
 
   /// Calls `visit(info, field)` for every field.
