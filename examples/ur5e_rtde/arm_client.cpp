@@ -204,7 +204,9 @@ class Client {
         const double called_at = called_at_;
         if (called_at > 0 && now() - called_at > settings_.slow_call)
           reporter_.leave(host_ + ": the client took too long over a setpoint; it had lost its connection");
-        if (!receive_->isConnected()) reporter_.leave(host_ + ": the connection broke");
+        // (Both: a setpoint that a broken connection did not take is not one that the controller refused.)
+        if (!receive_->isConnected() || !control_->isConnected())
+          reporter_.leave(host_ + ": the connection broke");
         const bool fresh = receive_->getTimestamp() != told;
         if (!fresh && now() - last < 0.005) continue;
         told = report(fresh);

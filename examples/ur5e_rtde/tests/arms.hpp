@@ -111,6 +111,15 @@ struct Bench {
   ur5e::Cell cell;
 };
 
+/// The longest that a controller waited for its next setpoint [s].
+inline double longest_wait(const stand_in::Server& server) {
+  double longest = 0;
+  const std::vector<stand_in::Arrival> arrivals = server.arrivals();
+  for (std::size_t i = 1; i < arrivals.size(); ++i)
+    longest = std::max(longest, arrivals[i].time - arrivals[i - 1].time);
+  return longest;
+}
+
 /// How much the setpoints of an arm go beyond the limits: 1 is at them.
 inline double largest_excess(const std::vector<Joints<double>>& setpoints, std::size_t from = 0) {
   double largest = 0;

@@ -192,6 +192,7 @@ TEST_CASE(
     }
     REQUIRE(bench.cell.until(ControlState::kFaulted, 2,
                              [&] { return bench.cell.control.state() == ControlState::kFaulted; }));
+    if (cycle > 1) CHECK(bench.cell.control.fault().kind == ControlFaultKind::kLost);
     recover(bench);
     // Its own numbers, once there has been one cycle.
     if (cycle == 0) {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "../circular_motion.hpp"
@@ -126,12 +127,27 @@ double root_mean_square(const std::vector<double>& values) {
 TEST_CASE("twenty seconds of circular acceleration, planned by the player, are played and recorded") {
   const StickPlan& plan = circular_plan();
   REQUIRE(plan.ok());
-  Controllers controllers(plan.setpoints.front());
-  Program program(controllers.arguments({"--motion", "circular", "--seconds", "20", "--speed", "1"}));
-  const int status = program.wait(90);
-  std::printf("%s", program.output().c_str());
-  REQUIRE(status == 0);
-  CHECK(program.output().find("times slower on the whole") != std::string::npos);
+  // A machine that takes the processor away in the midst of it makes a controller stop for safety, as it
+  // should; then it is played once more.
+  constexpr int kTries = 3;
+  constexpr double kTakenAway = 0.01;  // [s] for ticks of 0.002
+  std::optional<Controllers> cell;
+  for (int tries = 1;; ++tries) {
+    cell.emplace(plan.setpoints.front());
+    Program program(cell->arguments({"--motion", "circular", "--seconds", "20", "--speed", "1"}));
+    const int status = program.wait(90);
+    std::printf("%s", program.output().c_str());
+    const double waited = std::max(longest_wait(cell->left), longest_wait(cell->right));
+    INFO("waited " << waited << " s; left: " << cell->left.reason() << "; right: " << cell->right.reason());
+    if (status != 0 && tries < kTries && waited > kTakenAway) {
+      std::printf("A controller waited %.0f ms for a setpoint: once more.\n", 1e3 * waited);
+      continue;
+    }
+    REQUIRE(status == 0);
+    CHECK(program.output().find("times slower on the whole") != std::string::npos);
+    break;
+  }
+  const Controllers& controllers = *cell;
   for (const stand_in::Server* server : {&controllers.left, &controllers.right}) {
     CHECK(server->reason() == "its client stopped it");
     for (const stand_in::Tick& tick : server->ticks()) REQUIRE(tick.safety == stand_in::Controller::kNormal);
