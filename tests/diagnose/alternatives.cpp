@@ -72,6 +72,22 @@ TEST_CASE("a delay may be a low pass or a lag once, and no lead is either") {
   CHECK(alternatives_to("time_offset", fit, nuisances()).empty());
 }
 
+TEST_CASE("what gives may be the string, the sticks or both: each alone is an alternative to both") {
+  Fit fit;
+  fit.at[index_of(Unknown::kCompliance)] = 4e-3;
+  fit.at[index_of(Unknown::kStickCompliance)] = 1e-3;
+  const ActiveSet both =
+      with(with(nuisances(), candidate_of("string_elasticity")), candidate_of("stick_flex"));
+  const std::vector<Alternative> to_string = alternatives_to("string_elasticity", fit, both),
+                                 to_sticks = alternatives_to("stick_flex", fit, both);
+  REQUIRE(to_string.size() == 1);
+  CHECK_FALSE(is_in(to_string[0].set, candidate_of("string_elasticity")));
+  CHECK(to_string[0].at[index_of(Unknown::kStickCompliance)] == Approx(3e-3));  // as soft on the whole
+  REQUIRE(to_sticks.size() == 1);
+  CHECK_FALSE(is_in(to_sticks[0].set, candidate_of("stick_flex")));
+  CHECK(to_sticks[0].at[index_of(Unknown::kCompliance)] == Approx(6e-3));
+}
+
 TEST_CASE("a wrong rate begins where it moves as the wrong scale did") {
   Fit fit;
   fit.stages.emplace_back().recording.string_length = 1.4;

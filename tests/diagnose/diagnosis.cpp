@@ -245,6 +245,36 @@ TEST_CASE("a force that grows is found where a constant one, or a tilt, would st
   CHECK(std::abs(left.value - std::pow(left.law.at / 100.0, 2.0)) < 4.0 * left.deviation);
 }
 
+TEST_CASE("by the unknowns that are carried, derivatives are as by all; by the others they are zero") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.1;
+  Fit fit = detail::prepared({played(effects, 3.0, 9)}, consistent_model());
+  for (const auto& [u, value] : {std::pair{Unknown::kFriction, 0.1},
+                                 {Unknown::kLinearDrag, 0.05},
+                                 {Unknown::kCompliance, 1e-3},
+                                 {Unknown::kLeftY, 0.004}})
+    fit.at[index_of(u)] = value;
+  Fit few = fit;
+  ActiveSet carried = nuisances();
+  for (const Unknown u : {Unknown::kFriction, Unknown::kCompliance, Unknown::kDamping, Unknown::kLag})
+    carried[index_of(u)] = true;
+  look(fit, consistent_model(), 2);
+  look_by<detail::Shortened<detail::FitDual, 32>>(few, consistent_model(), carried, 2, {});
+  REQUIRE(few.systems.size() >= 4);
+  CHECK(few.cost == Approx(fit.cost).epsilon(1e-12));
+  for (std::size_t w = 0; w < few.systems.size(); ++w) {
+    const WindowSystem &a = few.systems[w], &b = fit.systems[w];
+    for (int u = 0; u < kUnknowns; ++u) {
+      CAPTURE(w, u);
+      const auto own = [&](const WindowMatrix& m) { return m(kStartUnknowns + u, kWindowColumns - 1); };
+      CHECK(own(a.positions) ==
+            (carried[u] ? Approx(own(b.positions)).epsilon(1e-5).margin(1e-12) : Approx(0.0)));
+      CHECK(own(a.spins) == (carried[u] ? Approx(own(b.spins)).epsilon(1e-5).margin(1e-9) : Approx(0.0)));
+      CHECK(a.reach[u] == (carried[u] ? Approx(b.reach[u]).epsilon(1e-5).margin(1e-12) : Approx(0.0)));
+    }
+  }
+}
+
 TEST_CASE("one thread and two come to the same, bit for bit") {
   const std::vector<Recording> takes{played({}, 6.0, 4)};
   DiagnosisOptions one, two;

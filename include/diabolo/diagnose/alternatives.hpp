@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/refine.hpp"
 
 namespace diabolo {
 
@@ -37,13 +38,14 @@ struct Exchange {
   double z = 0.0;  ///< by how much the claim that it replaced is worse [standard deviations]
 };
 
-/// `fit` with one unknown's part taken by another.
+/// `fit` with one unknown's part taken by another, beside what the other has of its own.
 inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_view from, std::string_view to,
                              double share) {
   const Candidate &old = candidate_of(from), &young = candidate_of(to);
   Alternative result{to, fit.delay, with(with(set, old, false), young), fit.at};
-  result.at[index_of(first_of(young))] =
-      std::min(info_of(first_of(young)).maximum, share * fit.at[index_of(first_of(old))]);
+  double& taken = result.at[index_of(first_of(young))];
+  taken = std::min(info_of(first_of(young)).maximum,
+                   (is_in(set, young) ? taken : 0.0) + share * fit.at[index_of(first_of(old))]);
   // Two sticks are two springs in a row with their dashpots.
   if (to == "stick_flex")
     result.at[index_of(Unknown::kStickDamping)] = 2.0 * fit.at[index_of(Unknown::kDamping)];
@@ -125,14 +127,14 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   } else if ((name == "axle_drag" || name == "spin_drag") && absent("string_friction")) {
     others.push_back(exchanged(fit, set, name, "string_friction", 0.0));
     others.back().at[index_of(Unknown::kFriction)] = 0.1;
-  } else if (name == "string_elasticity" && absent("stick_flex")) {
+  } else if (name == "string_elasticity") {
     others.push_back(exchanged(fit, set, name, "stick_flex", 0.5));
-  } else if (name == "stick_flex" && absent("string_elasticity")) {
+  } else if (name == "stick_flex") {
     others.push_back(exchanged(fit, set, name, "string_elasticity", 2.0));
-  } else if (name == "air_drag_linear" && absent("air_drag_quadratic")) {
+  } else if (name == "air_drag_linear") {
     others.push_back(exchanged(fit, set, name, "air_drag_quadratic", 1.0 / kUsualSpeed));
     if (absent("wind")) others.push_back(drag_in_wind(fit, set, name));
-  } else if (name == "air_drag_quadratic" && absent("air_drag_linear")) {
+  } else if (name == "air_drag_quadratic") {
     others.push_back(exchanged(fit, set, name, "air_drag_linear", kUsualSpeed));
     if (absent("wind")) others.push_back(drag_in_wind(fit, set, name));
   }
@@ -177,10 +179,9 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
   const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
     return f.claimed && !alternatives_to(f.candidate->name, fit, set).empty();
   });
-  constexpr int kIterations = 8;  // as many for the claim as for what may replace it
-  fit.noise_is_known = true;      // from here on, so that costs can be compared
+  fit.noise_is_known = true;  // from here on, so that costs can be compared
   Fit before = fit;
-  if (any) refine<D>(fit, base, set, kIterations, threads, watch);
+  if (any) refine<D>(fit, base, set, kMostIterations, threads, watch);
   for (const Finding& finding : draft.findings) {
     if (!finding.claimed) continue;
     const std::string_view name = finding.candidate->name;
@@ -198,7 +199,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       trial.centre[index_of(Unknown::kWraps)] = other.at[index_of(Unknown::kWraps)];
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
-      refine<D>(trial, base, other.set, kIterations, threads, watch);
+      refine<D>(trial, base, other.set, kMostIterations, threads, watch);
       // A wrap is there to explain why the string is short: with one, its length must be right.
       if (other.name == "string_wrap" &&
           std::abs(trial.at[index_of(Unknown::kStringLength)]) > kWrappedLength)

@@ -20,6 +20,7 @@
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
+#include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/sufficient.hpp"
 #include "diabolo/diagnose/unnamed_law.hpp"
@@ -96,6 +97,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   std::vector<Exchange> exchanged;
   for (bool again = false;; again = true) {
     const Watch everything = step("fitting everything", again ? 0.6 : 0.15);
+    if (again)  // starts that bounce, or are late, are others
+      refine<D>(fit, physics, ActiveSet::Constant(false), 3, options.threads, everything);
     if (std::ranges::any_of(fit.stages, &Stage::has_spin) || again)
       fit_everything<D>(fit, physics, set, options.threads, everything);
     else
@@ -106,7 +109,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
     for (int round = 0;; ++round) {
       for (int u = 0; u < kUnknowns; ++u)
         if (!set[u]) fit.at[u] = fit.centre[u];
-      refine<D>(fit, physics, set, 6, options.threads,
+      refine<D>(fit, physics, set, kMostIterations, options.threads,
                 step("refitting what is sure", (again ? 0.7 : 0.4) + 0.03 * round));
       const Evidence evidence(fit);
       ActiveSet next = eliminate(evidence, bank, set);
@@ -175,7 +178,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
       set = with(set, *physics_denied, false);
       for (int u = 0; u < kUnknowns; ++u)
         if (!set[u]) fit.at[u] = fit.centre[u];
-      refine<D>(fit, physics, set, 6, options.threads, step("refitting what is left", 0.85));
+      refine<D>(fit, physics, set, kMostIterations, options.threads, step("refitting what is left", 0.85));
     }
   };
   settle();

@@ -15,6 +15,7 @@
 #include "diabolo/diagnose/experiments.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/open_law.hpp"
+#include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
 
 namespace diabolo {

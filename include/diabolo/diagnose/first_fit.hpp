@@ -7,6 +7,7 @@
 
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/refine.hpp"
 
 namespace diabolo {
 
@@ -42,15 +43,15 @@ template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
   fit.far_window = kFarWindowAtFirst;
   Fit soft = fit;
-  refine<D>(fit, physics, set, 5, threads, watch);
+  refine<D>(fit, physics, set, kMostIterations, threads, watch);
   const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
   if (set[index_of(give)]) {
     soft.at[index_of(give)] = kSoftStart;
-    refine<D>(soft, physics, set, 5, threads, watch);
+    refine<D>(soft, physics, set, kMostIterations, threads, watch);
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   fit.far_window = kFarWindow;
-  refine<D>(fit, physics, set, 6, threads, watch);
+  refine<D>(fit, physics, set, kMostIterations, threads, watch);
 }
 
 /// Leaves out what acts on the spin, or by it in a direction that nobody saw.

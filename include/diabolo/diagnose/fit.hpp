@@ -19,12 +19,6 @@ namespace diabolo {
 /// well and the others not at all.
 inline constexpr double kFarWindow = 1.5, kFarWindowAtFirst = 10.0;
 
-/// Tries at a step, each shorter than the one before.
-inline constexpr int kMostAttempts = 5;
-
-/// Which unknowns are free.
-using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
-
 /// What a window says of the unknowns once its start has been fitted, in the scales of kUnknownInfos.
 struct WindowScore {
   UnknownVector score = UnknownVector::Zero();                            ///< half the slope of -chi^2
@@ -62,7 +56,7 @@ struct Fit {
   ActiveSet active = ActiveSet::Constant(false);
   Delay delay = Delay::kClock;
   double far_window = kFarWindow;
-  bool noise_is_known = false;        ///< else it is estimated again in the first iterations
+  bool noise_is_known = false;        ///< else it is estimated again as a fit goes on
   double usual = 1.0;                 ///< what the middle window leaves [noise]; settled with the noise
   bool bounces = false;               ///< windows may begin in the middle of a bounce on soft springs
   std::vector<Stage> stages;          ///< with the fitted starts
@@ -128,24 +122,32 @@ inline void weigh(Fit& fit) {
   fit.cost += fit.dispersion * scaled.dot(prior.cwiseProduct(scaled));
 }
 
-/// Predicts all windows at `fit.at`: systems and scores.
-template <class D = detail::FitDual>
-void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
+/// Predicts all windows at `fit.at`: systems and scores, with derivatives by the unknowns of `carried`.
+template <class D>
+void look_by(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
+  const detail::Carried<D> x(fit.at, carried);
   std::vector<std::pair<std::size_t, std::size_t>> jobs;
   std::vector<std::vector<StageTips>> grids;
-  std::vector<detail::FitModel> models;
+  std::vector<detail::FitModel<D>> models;
   for (std::size_t s = 0; s < fit.stages.size(); ++s) {
     grids.push_back(stage_tips(fit.stages[s], fit.at, fit.delay));
-    models.push_back(detail::fit_model(base, fit.stages[s].recording, fit.at));
+    models.push_back(detail::fit_model(base, fit.stages[s].recording, x));
     for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
   }
   fit.systems.resize(jobs.size());
   for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
     const auto [stage, w] = jobs[i];
-    fit.systems[i] = window_system<D>(fit.stages[stage], grids[stage], fit.stages[stage].windows[w],
-                                      models[stage], fit.at, fit.delay, fit.bounces);
+    fit.systems[i] = window_system(fit.stages[stage], grids[stage], fit.stages[stage].windows[w],
+                                   models[stage], x, fit.delay, fit.bounces);
   });
   weigh(fit);
+}
+
+/// The same with derivatives by all unknowns. (A template, as is all that calls it, lest every program that
+/// includes it compile the simulation on long duals.)
+template <class D = detail::FitDual>
+void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
+  look_by<D>(fit, base, ActiveSet::Constant(true), threads, watch);
 }
 
 /// Noise of each recording from what the windows leave, once their starts are fitted.
@@ -225,57 +227,6 @@ inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& a
     std::erase(moving, worst);
   }
   return step;
-}
-
-/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is, damped where a step
-/// leads uphill.
-template <class D = detail::FitDual>
-void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
-            const Watch& watch = {}) {
-  fit.active = active;
-  look<D>(fit, base, threads, watch);
-  double damping = 0.0;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    ++fit.iterations;
-    const Normal normal = normal_equations(fit, active);
-    Fit best = fit;
-    double largest = 0.0;
-    for (int attempt = 0; attempt < kMostAttempts; ++attempt, damping = std::max(0.1, 10.0 * damping)) {
-      const Eigen::VectorXd step = bounded_step(normal, best.at, damping);
-      UnknownVector scaled_step = UnknownVector::Zero();
-      scaled_step(normal.free) = step;
-      fit.at = best.at + scaled_step.cwiseProduct(scales());
-      largest = step.cwiseProduct(normal.information.diagonal().cwiseSqrt()).lpNorm<Eigen::Infinity>();
-      std::size_t i = 0;
-      for (std::size_t s = 0; s < fit.stages.size(); ++s)
-        for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
-          const WindowScore& score = best.scores[i];
-          const Eigen::Matrix<double, kStartUnknowns, 1> move =
-              score.start_step / (1.0 + damping) - score.start_by_unknowns * scaled_step;
-          State<double> start = best.stages[s].windows[w].start;
-          for (int c = 0; c < 3; ++c) {
-            start.position[c] += kStartScales[c] * std::clamp(move[c], -10.0, 10.0);
-            start.velocity[c] += kStartScales[3 + c] * std::clamp(move[3 + c], -30.0, 30.0);
-          }
-          start.spin += kStartScales[6] * move[6];
-          fit.stages[s].windows[w].start = start;
-        }
-      look<D>(fit, base, threads, watch);
-      if (fit.cost <= best.cost * (1.0 + 1e-9)) break;
-      if (attempt + 1 == kMostAttempts) {
-        fit = best;
-        return;
-      }
-    }
-    damping = damping > 0.01 ? 0.1 * damping : 0.0;
-    const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
-    if (iteration < 3 && !fit.noise_is_known) {
-      update_noise(fit);
-      weigh(fit);
-    } else if (settled) {
-      return;
-    }
-  }
 }
 
 }  // namespace diabolo

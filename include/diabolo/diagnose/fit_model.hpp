@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -27,12 +28,42 @@ namespace detail {
 
 /// Derivatives only show the way of a fit and its spread: seven digits are enough.
 using FitDual = Dual<double, kStartUnknowns + kUnknowns, float>;
+/// A dual with fewer.
+template <class D, int N>
+using Shortened = Dual<decltype(D::value), N, typename D::Gradient::Scalar>;
 
-inline FitDual unknown(Unknown u, const UnknownVector& at) {
-  FitDual result(at[index_of(u)]);
-  result.gradient[kStartUnknowns + index_of(u)] = static_cast<float>(info_of(u).scale);
-  return result;
-}
+/// The unknowns as numbers with derivatives: by a window's start first, then by those that are carried, in
+/// their order. By the others there are none.
+template <class D>
+struct Carried {
+  UnknownVector at;          ///< SI units
+  std::vector<int> columns;  ///< of the derivatives of a D, in the order of a window's system
+
+  /// Those of `set`, as many as a D has room for.
+  Carried(const UnknownVector& values, const ActiveSet& set) : at(values) {
+    column_.fill(-1);
+    for (int c = 0; c < kStartUnknowns; ++c) columns.push_back(c);
+    for (int u = 0; u < kUnknowns; ++u) {
+      if (!set[u]) continue;
+      column_[static_cast<std::size_t>(u)] = static_cast<int>(columns.size());
+      columns.push_back(kStartUnknowns + u);
+    }
+  }
+
+  D operator()(Unknown u) const {
+    D result(at[index_of(u)]);
+    set_slope(result, u, 1.0);
+    return result;
+  }
+  /// The derivative of `number` by an unknown.
+  void set_slope(D& number, Unknown u, double slope) const {
+    const int column = column_[static_cast<std::size_t>(index_of(u))];
+    if (column >= 0) number.gradient[column] = static_cast<float>(slope * info_of(u).scale);
+  }
+
+ private:
+  std::array<int, kUnknowns> column_;
+};
 
 /// Softer than this [m/N] the string's own oscillation is slow enough for the step of a diagnosis; a stiffer
 /// one follows its tension at once (see string_shift), and only its mean stretch can be seen.
@@ -47,19 +78,20 @@ inline bool dynamic_spring(const UnknownVector& at) { return compliance_of(at) >
 inline constexpr double kBouncyString = 0.012;
 inline bool is_bouncy(const UnknownVector& at) { return compliance_of(at) > kBouncyString; }
 
+template <class D>
 using FitPredictor =
-    Predictor<FitDual, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
+    Predictor<D, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
               StickFlex, StringMass, LandingRestitution, UnnamedForce, LatentForce>;
 
 /// The base with everything that may be missing, which carries its derivatives.
+template <class D>
 struct FitModel {
-  Parameters<FitDual> parameters;
-  FitPredictor::Set effects;
+  Parameters<D> parameters;
+  typename FitPredictor<D>::Set effects;
 };
 
-inline FitModel fit_model(const Model& base, const Recording& recording, const UnknownVector& at) {
-  using D = FitDual;
-  const auto x = [&](Unknown u) { return unknown(u, at); };
+template <class D>
+FitModel<D> fit_model(const Model& base, const Recording& recording, const Carried<D>& x) {
   const Parameters<double> given = parameters_for(base, recording);
   Parameters<D> p;
   p.copy_rules(given);
@@ -68,38 +100,38 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   p.string_length = (p.string_length + x(Unknown::kStringLength)) * scale;
   p.gravity = (p.gravity + x(Unknown::kGravity)) * scale;
   p.spin_coupling = p.spin_coupling + x(Unknown::kSpinCoupling);
-  p.wraps = p.wraps + D(at[index_of(Unknown::kWraps)]);
-  FitPredictor::Set effects;
+  p.wraps = p.wraps + D(x.at[index_of(Unknown::kWraps)]);
+  typename FitPredictor<D>::Set effects;
   copy_effects(base.effects, effects);
-  auto& tilt = effects.get<GravityTilt>();
+  auto& tilt = effects.template get<GravityTilt>();
   tilt.x += x(Unknown::kTiltX);
   tilt.y += x(Unknown::kTiltY);
-  if (dynamic_spring(at)) {
-    auto& elasticity = effects.get<StringElasticity>();
+  if (dynamic_spring(x.at)) {
+    auto& elasticity = effects.template get<StringElasticity>();
     elasticity.compliance_per_newton += x(Unknown::kCompliance) * scale;
     elasticity.damping += x(Unknown::kDamping);
-    auto& flex = effects.get<StickFlex>();
+    auto& flex = effects.template get<StickFlex>();
     flex.compliance += x(Unknown::kStickCompliance) * scale;
     flex.damping += x(Unknown::kStickDamping);
     flex.tip_mass += x(Unknown::kTipMass);
   }
-  auto& friction = effects.get<StringFriction>();
+  auto& friction = effects.template get<StringFriction>();
   friction.coefficient += x(Unknown::kFriction);
   friction.spin_gain += x(Unknown::kSpinGain);
-  auto& air = effects.get<Air>();
+  auto& air = effects.template get<Air>();
   air.linear_drag += x(Unknown::kLinearDrag);
   air.quadratic_drag += x(Unknown::kQuadraticDrag);
   air.wind_x += x(Unknown::kWindX);
   air.wind_y += x(Unknown::kWindY);
-  effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
-  effects.get<StringMass>().linear_density += x(Unknown::kStringMass);
-  effects.get<LandingRestitution>().coefficient += x(Unknown::kRestitution);
-  auto& loss = effects.get<SpinLoss>();
+  effects.template get<MagnusLift>().coefficient += x(Unknown::kLift);
+  effects.template get<StringMass>().linear_density += x(Unknown::kStringMass);
+  effects.template get<LandingRestitution>().coefficient += x(Unknown::kRestitution);
+  auto& loss = effects.template get<SpinLoss>();
   loss.air += x(Unknown::kSpinAir);
   loss.axle += x(Unknown::kSpinAxle);
-  effects.get<FiniteAxle>().radius = x(Unknown::kAxleRadius) * scale;
-  p.axle_radius = effects.get<FiniteAxle>().radius;
-  auto& unnamed = effects.get<UnnamedForce>();
+  effects.template get<FiniteAxle>().radius = x(Unknown::kAxleRadius) * scale;
+  p.axle_radius = effects.template get<FiniteAxle>().radius;
+  auto& unnamed = effects.template get<UnnamedForce>();
   unnamed.string_tangent += x(Unknown::kStringTangent);
   unnamed.string_binormal += x(Unknown::kStringBinormal);
   unnamed.flight_against += x(Unknown::kFlightAgainst);
@@ -107,7 +139,7 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
   unnamed.flight_lift += x(Unknown::kFlightLift);
   for (D* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
     if (!is_constant_zero(*exponent)) *exponent += x(Unknown::kPower);
-  auto& latent = effects.get<LatentForce>();
+  auto& latent = effects.template get<LatentForce>();
   latent.spin_string = x(Unknown::kSpinString);
   latent.spin_free = x(Unknown::kSpinFree);
   latent.placebo = x(Unknown::kPlacebo);
@@ -115,28 +147,25 @@ inline FitModel fit_model(const Model& base, const Recording& recording, const U
 }
 
 /// The tips with their derivatives by time offset, lag and tip offsets.
-inline Tips<FitDual> fit_tips(const StageTips& s) {
-  const auto with = [](const Vector3<double>& value, const Vector3<double>& by_time,
-                       const Vector3<double>& by_lag, const Eigen::Matrix3d& by_offset, Unknown first) {
-    Vector3<FitDual> result;
+template <class D>
+Tips<D> fit_tips(const StageTips& s, const Carried<D>& x) {
+  const auto with = [&x](const Vector3<double>& value, const Vector3<double>& by_time,
+                         const Vector3<double>& by_lag, const Eigen::Matrix3d& by_offset, Unknown first) {
+    Vector3<D> result;
     for (int k = 0; k < 3; ++k) {
-      result[k] = FitDual(value[k]);
-      auto& slope = result[k].gradient;
-      slope[kStartUnknowns + index_of(Unknown::kTimeOffset)] =
-          static_cast<float>(by_time[k] * info_of(Unknown::kTimeOffset).scale);
-      slope[kStartUnknowns + index_of(Unknown::kLag)] =
-          static_cast<float>(by_lag[k] * info_of(Unknown::kLag).scale);
+      result[k] = D(value[k]);
+      x.set_slope(result[k], Unknown::kTimeOffset, by_time[k]);
+      x.set_slope(result[k], Unknown::kLag, by_lag[k]);
       for (int j = 0; j < 3; ++j)
-        slope[kStartUnknowns + index_of(first) + j] =
-            static_cast<float>(-by_offset(k, j) * info_of(first).scale);
+        x.set_slope(result[k], static_cast<Unknown>(index_of(first) + j), -by_offset(k, j));
     }
     return result;
   };
-  Tips<FitDual> tips;
+  Tips<D> tips;
   tips.left = with(s.tips.left, s.tips.left_velocity, s.left_by_lag, s.left_frame, Unknown::kLeftX);
   tips.right = with(s.tips.right, s.tips.right_velocity, s.right_by_lag, s.right_frame, Unknown::kRightX);
-  tips.left_direction = s.tips.left_direction.cast<FitDual>();
-  tips.right_direction = s.tips.right_direction.cast<FitDual>();
+  tips.left_direction = s.tips.left_direction.template cast<D>();
+  tips.right_direction = s.tips.right_direction.template cast<D>();
   tips.left_velocity = with(s.tips.left_velocity, s.left_acceleration, s.left_velocity_by_lag,
                             s.left_frame_rate, Unknown::kLeftX);
   tips.right_velocity = with(s.tips.right_velocity, s.right_acceleration, s.right_velocity_by_lag,
@@ -162,9 +191,9 @@ inline double usual_pull(const Recording& r, const FitWindow& window) {
 }
 
 /// How far a string with a stiff spring leaves the diabolo from where a rigid one of its usual length would.
-inline Vector3<FitDual> string_shift(const State<FitDual>& state, const Tips<FitDual>& tips,
-                                     const FitDual& stretch_per_acceleration, double usual) {
-  using D = FitDual;
+template <class D>
+Vector3<D> string_shift(const State<D>& state, const Tips<D>& tips, const D& stretch_per_acceleration,
+                        double usual) {
   const StringPath<D> path(state.position, tips);
   const Vector3<D> gradient = path.gradient();
   const D square = squared_norm(gradient) + D(1e-3);
@@ -175,7 +204,7 @@ inline Vector3<FitDual> string_shift(const State<FitDual>& state, const Tips<Fit
 /// Moves a start ON_STRING to where the taut string allows it under the pull tension/mass [m/s^2]: path
 /// length and its rate.
 template <class D>
-void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPredictor& predictor) {
+void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPredictor<D>& predictor) {
   const TipShift<D> shift = predictor.effects().tip_shift(state, tips, predictor.parameters());
   tips.left += shift.left;
   tips.right += shift.right;
@@ -198,7 +227,7 @@ void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPred
 /// one's, if what gives in its place is soft. Whether it is.
 template <class D>
 bool bounce(State<D>& state, const State<D>& seen, Tips<D> tips, const D& rigid,
-            const FitPredictor& predictor) {
+            const FitPredictor<D>& predictor) {
   const TipShift<D> shift = predictor.effects().tip_shift(state, tips, predictor.parameters());
   tips.left += shift.left;
   tips.right += shift.right;
@@ -214,9 +243,9 @@ bool bounce(State<D>& state, const State<D>& seen, Tips<D> tips, const D& rigid,
   return true;
 }
 
-template <class D = FitDual>
-State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const Tips<FitDual>& tips,
-                   const Tips<FitDual>& next, const FitDual& dt, bool bounces) {
+template <class D>
+State<D> fit_start(const FitWindow& window, const FitPredictor<D>& predictor, const Tips<D>& tips,
+                   const Tips<D>& next, const D& dt, bool bounces) {
   State<D> state;
   for (int k = 0; k < 3; ++k) {
     state.position[k] = D(window.start.position[k]);
@@ -239,11 +268,12 @@ State<D> fit_start(const FitWindow& window, const FitPredictor& predictor, const
   if (rigid || predictor.parameters().string_law != StringLaw::kInextensible) return state;
   // At rest relative to its springs, where it does not bounce on them: longer by what the tension of a rigid
   // string's first step stretches them.
-  FitPredictor::Set stiff = effects;
+  typename FitPredictor<D>::Set stiff = effects;
   stiff.template get<StringElasticity>() = {};
   stiff.template get<StickFlex>() = {};
   State<D> trial = state;
-  FitPredictor(predictor.parameters(), stiff, FitPredictor::AlreadyValid{}).step(trial, tips, next, dt);
+  FitPredictor<D>(predictor.parameters(), stiff, typename FitPredictor<D>::AlreadyValid{})
+      .step(trial, tips, next, dt);
   const D pull =
       norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
   state.string_acceleration = trial.string_acceleration;

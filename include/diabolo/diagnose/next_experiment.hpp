@@ -12,6 +12,7 @@
 #include "diabolo/diagnose/alternatives.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/experiments.hpp"
+#include "diabolo/diagnose/refine.hpp"
 
 namespace diabolo {
 

@@ -78,6 +78,9 @@ enum class Delay {
 using UnknownVector = Eigen::Matrix<double, kUnknowns, 1, Eigen::ColMajor | Eigen::DontAlign>;
 using UnknownMatrix = Eigen::MatrixXd;  ///< kUnknowns x kUnknowns
 
+/// Which unknowns are free.
+using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
+
 /// What is known of an unknown before a recording is looked at.
 struct UnknownInfo {
   std::string_view name, unit;

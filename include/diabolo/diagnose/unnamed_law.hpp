@@ -12,6 +12,7 @@
 
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/refine.hpp"
 
 namespace diabolo {
 

@@ -41,10 +41,9 @@ inline Eigen::Matrix3d first_frame(const Stage& stage, const FitWindow& window) 
 
 /// Moves a centre to where the markers say that it is, in a body that lies as `frame`.
 template <class D>
-void move_to_marker(Vector3<D>& centre, const Eigen::Matrix3d& frame, const UnknownVector& at) {
+void move_to_marker(Vector3<D>& centre, const Eigen::Matrix3d& frame, const Carried<D>& x) {
   for (int j = 0; j < 3; ++j) {
-    const Unknown marker = static_cast<Unknown>(index_of(Unknown::kMarkerX) + j);
-    const D offset = unknown(marker, at);
+    const D offset = x(static_cast<Unknown>(index_of(Unknown::kMarkerX) + j));
     for (int c = 0; c < 3; ++c) centre[c] = centre[c] + offset * D(frame(c, j));
   }
 }
@@ -79,41 +78,42 @@ struct WindowSystem {
   double position_residual() const { return std::sqrt(position_square / std::max(1, position_numbers)); }
 };
 
-/// Predicts a window and compares it with the recording, with derivatives by its start and all unknowns. (A
-/// template, as is all that calls it, lest every program that includes it compile the simulation on long
-/// duals.)
-template <class D = detail::FitDual>
+/// Predicts a window and compares it with the recording, with derivatives by its start and the unknowns that
+/// are carried; by the others they are told to be zero.
+template <class D>
 WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid, const FitWindow& window,
-                           const detail::FitModel& model, const UnknownVector& at,
+                           const detail::FitModel<D>& model, const detail::Carried<D>& x,
                            Delay delay = Delay::kClock, bool bounces = false) {
-  constexpr int n = kStartUnknowns + kUnknowns;
+  const Eigen::Index n = static_cast<Eigen::Index>(x.columns.size());
   const Recording& r = stage.recording;
   WindowSystem system;
   const double usual = detail::usual_pull(r, window);
-  const D stretch = detail::dynamic_spring(at) ? D(0.0)
-                                               : D((detail::unknown(Unknown::kCompliance, at) +
-                                                    detail::unknown(Unknown::kStickCompliance, at) * D(2.0)) *
-                                                   model.parameters.mass);
+  const D stretch =
+      detail::dynamic_spring(x.at)
+          ? D(0.0)
+          : D((x(Unknown::kCompliance) + x(Unknown::kStickCompliance) * D(2.0)) * model.parameters.mass);
   Parameters<D> parameters = model.parameters;
   parameters.string_length = parameters.string_length + stretch * D(usual);
-  const detail::FitPredictor predictor(parameters, model.effects, detail::FitPredictor::AlreadyValid{});
+  using FitPredictor = detail::FitPredictor<D>;
+  const FitPredictor predictor(parameters, model.effects, typename FitPredictor::AlreadyValid{});
   FitWindow begun = window;
   begun.start.axis = stage.axis.col(window.first);
-  const auto tips_at = [&](Eigen::Index k) { return detail::fit_tips(grid[static_cast<std::size_t>(k)]); };
+  const auto tips_at = [&](Eigen::Index k) { return detail::fit_tips(grid[static_cast<std::size_t>(k)], x); };
   Eigen::Index k = window.first * stage.substeps;
   Tips<D> now = tips_at(k), next = tips_at(k + 1);
   const auto step_of = [&](Eigen::Index row) {
     return D((stage.times[row + 1] - stage.times[row]) / stage.substeps);
   };
-  State<D> state = detail::fit_start<D>(begun, predictor, now, next, step_of(window.first), bounces);
+  State<D> state = detail::fit_start(begun, predictor, now, next, step_of(window.first), bounces);
   const double half = stage.times[window.first] + 0.5;
   bool measured_reach = false;
   // A low pass of the diabolo's track: y' = (x - y) / tau, begun with what was recorded.
   const bool filtered = delay == Delay::kFilter;
-  const D lag = D(lag_of(at)) + (detail::unknown(Unknown::kLag, at) - D(at[index_of(Unknown::kLag)]));
+  const D lag = D(lag_of(x.at)) + (x(Unknown::kLag) - D(x.at[index_of(Unknown::kLag)]));
   Vector3<D> centre_before, trail = r.diabolo.position.col(window.first).template cast<D>();
   Eigen::Matrix3d frame = detail::first_frame(stage, window);  ///< body to world, as last seen
   Eigen::VectorXd line(n + 1);
+  Eigen::MatrixXd positions = Eigen::MatrixXd::Zero(n + 1, n + 1), spins = positions;  // of what is carried
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
     const bool turned = stage.has_orientation && r.diabolo_orientation.valid[row];
@@ -122,7 +122,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     const double pull = value_of(squared_norm(state.string_acceleration));
     if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
       centre = centre + detail::string_shift(state, now, stretch, usual);
-    detail::move_to_marker(centre, frame, at);
+    detail::move_to_marker(centre, frame, x);
     if (filtered) {
       if (row > window.first)
         trail =
@@ -144,9 +144,9 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       const bool known = (!stage.has_orientation || turned) && row > window.first;
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = seen[c] - centre[c].value;
-        line.head(n) = centre[c].gradient.matrix().template cast<double>();
+        line.head(n) = centre[c].gradient.head(n).matrix().template cast<double>();
         line[n] = residual;
-        system.positions.selfadjointView<Eigen::Lower>().rankUpdate(line);
+        positions.selfadjointView<Eigen::Lower>().rankUpdate(line);
         system.position_square += residual * residual;
         ++system.position_numbers;
       }
@@ -154,23 +154,23 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     if (row > window.first && stage.spin.valid[row - 1]) {
       const D mean = (spin_before + state.spin) * D(0.5);
       double residual = stage.spin.value[row - 1] - mean.value;
-      line.head(n) = mean.gradient.matrix().template cast<double>();
+      line.head(n) = mean.gradient.head(n).matrix().template cast<double>();
       line[n] = residual;
-      system.spins.selfadjointView<Eigen::Lower>().rankUpdate(line);
+      spins.selfadjointView<Eigen::Lower>().rankUpdate(line);
       system.spin_square += residual * residual;
       ++system.spin_numbers;
     }
     if (!measured_reach && (row == window.last || stage.times[row] >= half)) {
       measured_reach = true;
       const double seconds = std::max(stage.times[row] - stage.times[window.first], 1e-3);
-      for (int u = 0; u < kUnknowns; ++u) {
+      for (Eigen::Index i = kStartUnknowns; i < n; ++i) {
+        const int u = x.columns[static_cast<std::size_t>(i)] - kStartUnknowns;
         double square = 0.0;
-        for (int c = 0; c < 3; ++c) square += std::pow(state.position[c].gradient[kStartUnknowns + u], 2);
+        for (int c = 0; c < 3; ++c) square += std::pow(state.position[c].gradient[i], 2);
         // To the half second that sizes are stated for, as under a constant acceleration.
         const double growth = std::min(1.5, std::pow(0.5 / seconds, 2));
         system.reach[u] = std::sqrt(square) * growth;
-        system.spin_reach[u] =
-            std::abs(state.spin.gradient[kStartUnknowns + u]) * std::min(1.5, 0.5 / seconds);
+        system.spin_reach[u] = std::abs(state.spin.gradient[i]) * std::min(1.5, 0.5 / seconds);
       }
     }
     if (row == window.last) break;
@@ -184,9 +184,11 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
   }
   system.numbers = system.position_numbers + system.spin_numbers;
   system.spin = std::abs(state.spin.value);
-  system.failed = !system.positions.allFinite() || !system.spins.allFinite();
-  system.positions = WindowMatrix(system.positions.selfadjointView<Eigen::Lower>());
-  system.spins = WindowMatrix(system.spins.selfadjointView<Eigen::Lower>());
+  system.failed = !positions.allFinite() || !spins.allFinite();
+  std::vector<int> columns = x.columns;
+  columns.push_back(kWindowColumns - 1);
+  system.positions(columns, columns) = Eigen::MatrixXd(positions.selfadjointView<Eigen::Lower>());
+  system.spins(columns, columns) = Eigen::MatrixXd(spins.selfadjointView<Eigen::Lower>());
   return system;
 }
 

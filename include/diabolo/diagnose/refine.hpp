@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "diabolo/diagnose/fit.hpp"
+
+namespace diabolo {
+
+/// Tries at a step, each shorter than the one before.
+inline constexpr int kMostAttempts = 5;
+
+/// Of a fit, which ends sooner where it has settled.
+inline constexpr int kMostIterations = 8;
+
+/// The noise is estimated again in the first three iterations, and on until it is what the middle window
+/// leaves within this share: a fit that is still far off makes it too large.
+inline constexpr double kNoiseSettled = 0.2;
+
+/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is, damped where a step
+/// leads uphill.
+template <class D>
+void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
+             const Watch& watch) {
+  fit.active = active;
+  look_by<D>(fit, base, active, threads, watch);
+  double damping = 0.0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    ++fit.iterations;
+    const Normal normal = normal_equations(fit, active);
+    const Fit best = fit;
+    const bool noise_is_known =
+        fit.noise_is_known || (iteration >= 3 && std::abs(fit.usual - 1.0) < kNoiseSettled);
+    bool found = false;
+    double largest = 0.0;
+    for (int attempt = 0; attempt < kMostAttempts && !found; ++attempt) {
+      if (attempt > 0) damping = std::max(0.1, 10.0 * damping);
+      const Eigen::VectorXd step = bounded_step(normal, best.at, damping);
+      UnknownVector scaled_step = UnknownVector::Zero();
+      scaled_step(normal.free) = step;
+      fit.at = best.at + scaled_step.cwiseProduct(scales());
+      largest = step.cwiseProduct(normal.information.diagonal().cwiseSqrt()).lpNorm<Eigen::Infinity>();
+      std::size_t i = 0;
+      for (std::size_t s = 0; s < fit.stages.size(); ++s)
+        for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
+          const WindowScore& score = best.scores[i];
+          const Eigen::Matrix<double, kStartUnknowns, 1> move =
+              score.start_step / (1.0 + damping) - score.start_by_unknowns * scaled_step;
+          State<double> start = best.stages[s].windows[w].start;
+          for (int c = 0; c < 3; ++c) {
+            start.position[c] += kStartScales[c] * std::clamp(move[c], -10.0, 10.0);
+            start.velocity[c] += kStartScales[3 + c] * std::clamp(move[3 + c], -30.0, 30.0);
+          }
+          start.spin += kStartScales[6] * move[6];
+          fit.stages[s].windows[w].start = start;
+        }
+      look_by<D>(fit, base, active, threads, watch);
+      found = fit.cost <= best.cost * (1.0 + 1e-9);
+    }
+    if (!found) fit = best;
+    damping = damping > 0.01 && found ? 0.1 * damping : 0.0;
+    const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
+    if (!noise_is_known) {  // what stands in the way may be that it is wrong
+      update_noise(fit);
+      weigh(fit);
+    } else if (settled) {
+      return;
+    }
+  }
+}
+
+/// The same, and a last look with derivatives by all unknowns. On the way there as few are carried as these
+/// lengths allow: a step costs about as much as it has derivatives.
+template <class D = detail::FitDual>
+void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
+            const Watch& watch = {}) {
+  constexpr int kShort = 32, kMedium = 40;
+  const auto columns = kStartUnknowns + active.count();
+  if (columns <= kShort)
+    descend<detail::Shortened<D, kShort>>(fit, base, active, most_iterations, threads, watch);
+  else if (columns <= kMedium)
+    descend<detail::Shortened<D, kMedium>>(fit, base, active, most_iterations, threads, watch);
+  else
+    descend<D>(fit, base, active, most_iterations, threads, watch);
+  look<D>(fit, base, threads, watch);
+}
+
+}  // namespace diabolo
