@@ -79,8 +79,8 @@ def _kind_of(name: str) -> str:
 def by_bic(result: dict[str, Any], path: Path) -> dict[str, Any]:
     """What the ladder of the diagnosis' own answer leads to by Schwarz's criterion: whatever lowers chi^2 by
     more than the logarithm of the number of data is claimed, however small, and whether or not left-out data
-    is predicted better."""
-    if result["headline"] == "INSUFFICIENT_DATA":
+    is predicted better. It fits no model of its own, so that nothing is said of held-out errors."""
+    if result["headline"] in ("INSUFFICIENT_DATA", "ERROR"):
         return result
     least = math.sqrt(math.log(3.0 * len(load_recording(path))))
     claimed = [rung for rung in result["ladder"] if rung["z"] is not None and abs(rung["z"]) > least]
@@ -98,7 +98,7 @@ def by_bic(result: dict[str, Any], path: Path) -> dict[str, Any]:
         }
         for rung in sorted(claimed, key=lambda rung: -abs(rung["z"]))
     ]
-    return {**result, "headline": headline, "effects": effects}
+    return {**result, "headline": headline, "effects": effects, "fit": dict.fromkeys(result["fit"])}
 
 
 TOOLS: dict[str, Tool] = {
