@@ -88,6 +88,22 @@ TEST_CASE("what gives may be the string, the sticks or both: each alone is an al
   CHECK(to_sticks[0].at[index_of(Unknown::kCompliance)] == Approx(6e-3));
 }
 
+TEST_CASE("each law of drag alone is an alternative to both") {
+  Fit fit;
+  fit.at[index_of(Unknown::kLinearDrag)] = 0.1;
+  fit.at[index_of(Unknown::kQuadraticDrag)] = 0.02;
+  const ActiveSet both =
+      with(with(nuisances(), candidate_of("air_drag_linear")), candidate_of("air_drag_quadratic"));
+  const Alternative square = alternatives_to("air_drag_linear", fit, both).front(),
+                    linear = alternatives_to("air_drag_quadratic", fit, both).front();
+  CHECK(square.name == "air_drag_quadratic");
+  CHECK_FALSE(is_in(square.set, candidate_of("air_drag_linear")));
+  CHECK(square.at[index_of(Unknown::kQuadraticDrag)] == Approx(0.07));  // the same at a usual speed
+  CHECK(linear.name == "air_drag_linear");
+  CHECK_FALSE(is_in(linear.set, candidate_of("air_drag_quadratic")));
+  CHECK(linear.at[index_of(Unknown::kLinearDrag)] == Approx(0.14));
+}
+
 TEST_CASE("a wrong rate begins where it moves as the wrong scale did") {
   Fit fit;
   fit.stages.emplace_back().recording.string_length = 1.4;

@@ -75,3 +75,14 @@ TEST_CASE("a wrap is claimed beside friction that is") {
   CHECK(stands(with, "string_wrap"));
   CHECK_FALSE(stands(without, "string_wrap"));
 }
+
+TEST_CASE("what was not done ends the sentence") {
+  Diagnosis d;
+  d.not_done = {"this"};
+  conclude(d);
+  CHECK(d.sentence == "Nothing is missing that this recording could show. Not done: this.");
+  d.not_done.push_back("that (no time left)");
+  conclude(d);
+  CHECK(d.sentence ==
+        "Nothing is missing that this recording could show. Not done: this; that (no time left).");
+}

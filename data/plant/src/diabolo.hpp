@@ -68,7 +68,7 @@ inline void add_drags(const DiaboloParameters& diabolo, const AirParameters& air
   rate.col(kAngularMomentum) += axle_torque(diabolo.axle_drag, diabolo.axial_inertia, spin) * axis;
 }
 
-/// Adds the string's pull to a rate of state; `twisted` is the part of its friction that goes along `axis`.
+/// Adds the string's pull to a rate of state; `twisted` times its friction pushes along `axis` beside.
 inline void add_string_pull(const DiaboloParameters& diabolo, const StringShape& shape,
                             const Tensions& tensions, double twisted, const State& state, State& rate) {
   const Vec3 axis = state.col(kAxis);

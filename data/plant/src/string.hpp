@@ -20,7 +20,7 @@ struct StringParameters {
   double friction = 0.3;                        ///< capstan coefficient of fast slip; of a chain, Coulomb's
   double friction_rise = 0.0;                   ///< added to the coefficient as slip goes to zero (Stribeck)
   double stribeck_speed = 0.1;                  ///< slip speed over which that rise fades [m/s]
-  double lay = 0.0;               ///< part of its friction that the string's twist turns along the axle
+  double lay = 0.0;               ///< force along the axle by the string's twist, as a share of its friction
   double slip_scale = 0.01;       ///< slip speed that regularises the sign of friction [m/s]
   double linear_density = 0.0;    ///< of a chain; else only the slack string's weight on the axle [kg/m]
   int segments = 41;              ///< of a chain

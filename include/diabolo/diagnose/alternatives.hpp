@@ -38,7 +38,8 @@ struct Exchange {
   double z = 0.0;  ///< by how much the claim that it replaced is worse [standard deviations]
 };
 
-/// `fit` with one unknown's part taken by another, beside what the other has of its own.
+/// `fit` with one unknown's part taken by another, beside what the other has of its own; the damping is that
+/// of what was replaced.
 inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_view from, std::string_view to,
                              double share) {
   const Candidate &old = candidate_of(from), &young = candidate_of(to);

@@ -67,7 +67,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   };
   const auto begin = std::chrono::steady_clock::now();
   Diagnosis result;
-  const auto time_left = [&](const char* what) {
+  // What there is no time for is told.
+  const auto may_still_do = [&](const char* what) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     const bool left = elapsed.count() < options.budget;
     if (!left) result.not_done.push_back(std::string(what) + " (no time left)");
@@ -115,8 +116,8 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
       ActiveSet next = eliminate(evidence, bank, set);
       if (const Candidate* candidate = strongest_left_out(evidence, bank, next))
         next = with(next, *candidate);
-      if ((next == set).all() || round == 2 || !time_left("asking again what is sure"))
-        break;  // at its own fit
+      if ((next == set).all() || round == 2 || !may_still_do("asking again what is sure"))
+        break;  // judged at its own fit
       set = next;
     }
     Diagnosis draft = result;
@@ -126,7 +127,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
                                          step("trying other explanations", again ? 0.8 : 0.5)),
                       std::back_inserter(exchanged));
     const bool soft = !fit.bounces && detail::is_bouncy(fit.at);
-    if ((fit.delay == before && !soft) || !time_left("asking all again with what was found")) break;
+    if ((fit.delay == before && !soft) || !may_still_do("asking all again with what was found")) break;
     fit.noise_is_known = false;
     fit.bounces = fit.bounces || soft;
     std::erase_if(exchanged, [](const Exchange& e) {  // what is asked again
@@ -185,7 +186,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   bool withdrawn = withdraw_what_does_not_help(result);
   if (!physics.effects.get<UnnamedForce>().neutral()) {
     result.not_done.push_back("looking for forces without a name beside the base's own");
-  } else if (!withdrawn && time_left("looking for forces without a name")) {
+  } else if (!withdrawn && may_still_do("looking for forces without a name")) {
     const Watch looking = step("fitting what has no name", 0.9);
     for (Leftover& leftover : laws_to_try<D>(result.leftovers, fit, physics, set, options.threads, looking)) {
       UnnamedTrial trial = try_unnamed<D>(leftover, fit, options.base, physics, set, bank, options.holdout,
@@ -212,7 +213,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   }
   for (std::size_t s = 0; s < fit.stages.size(); ++s)
     result.noise.push_back({fit.stages[s].recording.name, fit.noise[s]});
-  if (time_left("proposing what to record next"))
+  if (may_still_do("proposing what to record next"))
     result.proposals = next_experiments<D>(result, fit, physics, set, options.threads,
                                            step("looking for what to record next", 0.97));
   conclude(result);

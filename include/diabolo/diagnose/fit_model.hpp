@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -36,10 +37,11 @@ using Shortened = Dual<decltype(D::value), N, typename D::Gradient::Scalar>;
 /// their order. By the others there are none.
 template <class D>
 struct Carried {
+  using Slope = typename D::Gradient::Scalar;
   UnknownVector at;          ///< SI units
   std::vector<int> columns;  ///< of the derivatives of a D, in the order of a window's system
 
-  /// Those of `set`, as many as a D has room for.
+  /// Those of `set`; a D must have room for them.
   Carried(const UnknownVector& values, const ActiveSet& set) : at(values) {
     column_.fill(-1);
     for (int c = 0; c < kStartUnknowns; ++c) columns.push_back(c);
@@ -48,6 +50,7 @@ struct Carried {
       column_[static_cast<std::size_t>(u)] = static_cast<int>(columns.size());
       columns.push_back(kStartUnknowns + u);
     }
+    assert(columns.size() <= static_cast<std::size_t>(D::Gradient::SizeAtCompileTime));
   }
 
   D operator()(Unknown u) const {
@@ -58,7 +61,7 @@ struct Carried {
   /// The derivative of `number` by an unknown.
   void set_slope(D& number, Unknown u, double slope) const {
     const int column = column_[static_cast<std::size_t>(index_of(u))];
-    if (column >= 0) number.gradient[column] = static_cast<float>(slope * info_of(u).scale);
+    if (column >= 0) number.gradient[column] = static_cast<Slope>(slope * info_of(u).scale);
   }
 
  private:
@@ -249,13 +252,13 @@ State<D> fit_start(const FitWindow& window, const FitPredictor<D>& predictor, co
   State<D> state;
   for (int k = 0; k < 3; ++k) {
     state.position[k] = D(window.start.position[k]);
-    state.position[k].gradient[k] = static_cast<float>(kStartScales[k]);
+    state.position[k].gradient[k] = static_cast<typename D::Gradient::Scalar>(kStartScales[k]);
     state.velocity[k] = D(window.start.velocity[k]);
-    state.velocity[k].gradient[3 + k] = static_cast<float>(kStartScales[3 + k]);
+    state.velocity[k].gradient[3 + k] = static_cast<typename D::Gradient::Scalar>(kStartScales[3 + k]);
     state.axis[k] = D(window.start.axis[k]);
   }
   state.spin = D(window.start.spin);
-  state.spin.gradient[6] = static_cast<float>(kStartScales[6]);
+  state.spin.gradient[6] = static_cast<typename D::Gradient::Scalar>(kStartScales[6]);
   state.string_state = window.start.string_state;
   const D& length = predictor.parameters().string_length;
   const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);

@@ -63,12 +63,9 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
     if (!found) fit = best;
     damping = damping > 0.01 && found ? 0.1 * damping : 0.0;
     const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
-    if (!noise_is_known) {  // what stands in the way may be that it is wrong
-      update_noise(fit);
-      weigh(fit);
-    } else if (settled) {
-      return;
-    }
+    if (!noise_is_known) update_noise(fit);  // what stands in the way may be that it is wrong
+    if (settled && (noise_is_known || fit.noise == best.noise)) return;
+    if (!noise_is_known) weigh(fit);
   }
 }
 

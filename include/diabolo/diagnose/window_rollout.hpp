@@ -58,6 +58,8 @@ using WindowMatrix = Eigen::MatrixXd;  ///< kWindowColumns x kWindowColumns
 struct CameraNoise {
   double position = 1e-3;  ///< one coordinate [m]
   double spin = 3.0;       ///< [rad/s]
+
+  bool operator==(const CameraNoise&) const = default;
 };
 
 /// What one window says, in the scales of kUnknownInfos and kStartScales.
