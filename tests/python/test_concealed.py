@@ -219,12 +219,14 @@ def test_a_criterion_alone_claims_whatever_lowers_chi_square(monkeypatch: pytest
         ("body_swap", "measurement", None),
     ]
     ladder = [{"name": name, "kind": kind, "z": z, "p_value": 0.1} for name, kind, z in rungs]
-    found = {"headline": "NOTHING_MISSING", "effects": [], "ladder": ladder}
+    fit = {"horizons_s": [1.0], "base_error_m": [0.1], "augmented_error_m": [0.02]}
+    found = {"headline": "NOTHING_MISSING", "effects": [], "ladder": ladder, "fit": fit}
     monkeypatch.setattr(tools, "full", lambda path: found)
     monkeypatch.setattr(tools, "load_recording", lambda path: range(1000))  # sqrt(ln 3000) = 2.8
     answer = tools.bic(Path("take.csv"))
     assert [effect["name"] for effect in answer["effects"]] == ["wind"]
     assert answer["headline"] == "NAMED"
+    assert set(answer["fit"].values()) == {None}  # it has no model whose errors could be told
 
 
 def test_a_resumed_run_equals_an_unbroken_one(tmp_path: Path) -> None:
