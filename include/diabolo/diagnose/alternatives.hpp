@@ -182,7 +182,10 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
   });
   fit.noise_is_known = true;  // from here on, so that costs can be compared
   Fit before = fit;
-  if (any) refine<D>(fit, base, set, kMostIterations, threads, watch);
+  if (any) {
+    descend<D>(fit, base, set, kMostIterations, threads, watch);
+    look<D>(fit, base, threads, watch);
+  }
   for (const Finding& finding : draft.findings) {
     if (!finding.claimed) continue;
     const std::string_view name = finding.candidate->name;

@@ -43,15 +43,21 @@ template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
   fit.far_window = kFarWindowAtFirst;
   Fit soft = fit;
-  refine<D>(fit, physics, set, kMostIterations, threads, watch);
+  const auto descend_from = [&](Fit& begun) {
+    look<D>(begun, physics, set, threads, watch);
+    descend<D>(begun, physics, set, kMostIterations, threads, watch);
+  };
+  descend_from(fit);
   const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
   if (set[index_of(give)]) {
     soft.at[index_of(give)] = kSoftStart;
-    refine<D>(soft, physics, set, kMostIterations, threads, watch);
+    descend_from(soft);
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   fit.far_window = kFarWindow;
-  refine<D>(fit, physics, set, kMostIterations, threads, watch);
+  weigh(fit);
+  descend<D>(fit, physics, set, kMostIterations, threads, watch);
+  look<D>(fit, physics, threads, watch);
 }
 
 /// Leaves out what acts on the spin, or by it in a direction that nobody saw.

@@ -25,6 +25,7 @@ struct WindowScore {
   UnknownMatrix information = UnknownMatrix::Zero(kUnknowns, kUnknowns);  ///< half its curvature
   double chi_square = 0.0;                                                ///< with the best start
   double weight = 1.0;  ///< less than 1 where the window lies far off all others
+  double start_gain = 0.0;  ///< of chi^2 by the best start
   int numbers = 0;
   /// To the best start.
   Eigen::Matrix<double, kStartUnknowns, 1> start_step = Eigen::Matrix<double, kStartUnknowns, 1>::Zero();
@@ -44,7 +45,8 @@ inline WindowScore without_start(const WindowSystem& system, const CameraNoise& 
   result.start_step = solve_symmetric(start, slope);
   result.information = m.block(s, s, n, n) - cross.transpose() * result.start_by_unknowns;
   result.score = m.block(s, s + n, n, 1) - cross.transpose() * result.start_step;
-  result.chi_square = std::max(0.0, m(s + n, s + n) - slope.col(0).dot(result.start_step));
+  result.start_gain = slope.col(0).dot(result.start_step);
+  result.chi_square = std::max(0.0, m(s + n, s + n) - result.start_gain);
   result.numbers = system.numbers;
   return result;
 }
@@ -143,11 +145,26 @@ void look_by(Fit& fit, const Model& base, const ActiveSet& carried, int threads,
   weigh(fit);
 }
 
-/// The same with derivatives by all unknowns. (A template, as is all that calls it, lest every program that
-/// includes it compile the simulation on long duals.)
+/// The same with as few derivatives as these lengths allow: a step costs about as much as it has. (A template,
+/// as is all that calls it, lest every program that includes it compile the simulation on long duals.)
+template <class D = detail::FitDual>
+void look(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
+  constexpr int kStarts = 8, kShort = 32, kMedium = 40;
+  const auto columns = kStartUnknowns + carried.count();
+  if (columns <= kStarts)
+    look_by<detail::Shortened<D, kStarts>>(fit, base, carried, threads, watch);
+  else if (columns <= kShort)
+    look_by<detail::Shortened<D, kShort>>(fit, base, carried, threads, watch);
+  else if (columns <= kMedium)
+    look_by<detail::Shortened<D, kMedium>>(fit, base, carried, threads, watch);
+  else
+    look_by<D>(fit, base, carried, threads, watch);
+}
+
+/// The same with derivatives by all unknowns.
 template <class D = detail::FitDual>
 void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
-  look_by<D>(fit, base, ActiveSet::Constant(true), threads, watch);
+  look<D>(fit, base, ActiveSet::Constant(true), threads, watch);
 }
 
 /// Noise of each recording from what the windows leave, once their starts are fitted.

@@ -20,13 +20,42 @@ inline constexpr int kMostIterations = 8;
 /// leaves within this share: a fit that is still far off makes it too large.
 inline constexpr double kNoiseSettled = 0.2;
 
-/// Gauss and Newton's method on the active unknowns and all starts, from where `fit` is, damped where a step
-/// leads uphill.
+/// A step that promises less of the cost than this times the dispersion, and leads uphill all the same, is not
+/// tried any shorter: a deviation of a tenth would cost as much.
+inline constexpr double kNothingToGain = 0.01;
+
+/// What the model of the cost says that a step and the best starts take off it.
+inline double promise(const Fit& fit, const Normal& normal, const Eigen::VectorXd& step) {
+  double result = normal.score.dot(step);
+  for (const WindowScore& window : fit.scores) result += window.weight * window.start_gain;
+  return result;
+}
+
+/// Moves the windows' starts from where `from` has them along with a scaled step of the unknowns.
+inline void move_starts(Fit& fit, const Fit& from, const UnknownVector& scaled_step, double damping) {
+  std::size_t i = 0;
+  for (std::size_t s = 0; s < fit.stages.size(); ++s)
+    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
+      const WindowScore& score = from.scores[i];
+      const Eigen::Matrix<double, kStartUnknowns, 1> move =
+          score.start_step / (1.0 + damping) - score.start_by_unknowns * scaled_step;
+      State<double> start = from.stages[s].windows[w].start;
+      for (int c = 0; c < 3; ++c) {
+        start.position[c] += kStartScales[c] * std::clamp(move[c], -10.0, 10.0);
+        start.velocity[c] += kStartScales[3 + c] * std::clamp(move[3 + c], -30.0, 30.0);
+      }
+      start.spin += kStartScales[6] * move[6];
+      fit.stages[s].windows[w].start = start;
+    }
+}
+
+/// Gauss and Newton's method on the active unknowns and all starts, from a `fit` that was looked at with
+/// them, damped where a step leads uphill. Once one has, the next are looked at by their starts alone, which
+/// is enough for their cost.
 template <class D>
 void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
              const Watch& watch) {
   fit.active = active;
-  look_by<D>(fit, base, active, threads, watch);
   double damping = 0.0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     ++fit.iterations;
@@ -43,22 +72,14 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
       scaled_step(normal.free) = step;
       fit.at = best.at + scaled_step.cwiseProduct(scales());
       largest = step.cwiseProduct(normal.information.diagonal().cwiseSqrt()).lpNorm<Eigen::Infinity>();
-      std::size_t i = 0;
-      for (std::size_t s = 0; s < fit.stages.size(); ++s)
-        for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
-          const WindowScore& score = best.scores[i];
-          const Eigen::Matrix<double, kStartUnknowns, 1> move =
-              score.start_step / (1.0 + damping) - score.start_by_unknowns * scaled_step;
-          State<double> start = best.stages[s].windows[w].start;
-          for (int c = 0; c < 3; ++c) {
-            start.position[c] += kStartScales[c] * std::clamp(move[c], -10.0, 10.0);
-            start.velocity[c] += kStartScales[3 + c] * std::clamp(move[3 + c], -30.0, 30.0);
-          }
-          start.spin += kStartScales[6] * move[6];
-          fit.stages[s].windows[w].start = start;
-        }
-      look_by<D>(fit, base, active, threads, watch);
-      found = fit.cost <= best.cost * (1.0 + 1e-9);
+      move_starts(fit, best, scaled_step, damping);
+      const bool doubtful = attempt > 0 && active.any();
+      const auto downhill = [&](const ActiveSet& carried) {
+        look<D>(fit, base, carried, threads, watch);
+        return fit.cost <= best.cost * (1.0 + 1e-9);
+      };
+      found = (!doubtful || downhill(ActiveSet::Constant(false))) && downhill(active);
+      if (!found && promise(best, normal, step) < kNothingToGain * best.dispersion) break;
     }
     if (!found) fit = best;
     damping = damping > 0.01 && found ? 0.1 * damping : 0.0;
@@ -69,19 +90,12 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
   }
 }
 
-/// The same, and a last look with derivatives by all unknowns. On the way there as few are carried as these
-/// lengths allow: a step costs about as much as it has derivatives.
+/// The same from where `fit` is, and a last look with derivatives by all unknowns.
 template <class D = detail::FitDual>
 void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
             const Watch& watch = {}) {
-  constexpr int kShort = 32, kMedium = 40;
-  const auto columns = kStartUnknowns + active.count();
-  if (columns <= kShort)
-    descend<detail::Shortened<D, kShort>>(fit, base, active, most_iterations, threads, watch);
-  else if (columns <= kMedium)
-    descend<detail::Shortened<D, kMedium>>(fit, base, active, most_iterations, threads, watch);
-  else
-    descend<D>(fit, base, active, most_iterations, threads, watch);
+  look<D>(fit, base, active, threads, watch);
+  descend<D>(fit, base, active, most_iterations, threads, watch);
   look<D>(fit, base, threads, watch);
 }
 

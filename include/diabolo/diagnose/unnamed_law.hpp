@@ -35,6 +35,8 @@ template <class D>
 std::optional<Leftover> growing_leftover(const Fit& fit, const Model& physics, const ActiveSet& set,
                                          int threads, const Watch& watch) {
   std::optional<Leftover> strongest;
+  ActiveSet asked = set;
+  asked.segment<kLatentForces>(kLatentFirst).setConstant(true);
   for (const std::string_view scalar : {"speed", "spin"})
     for (const double exponent : {1.0, 2.0}) {
       PowerLaw law;
@@ -43,7 +45,7 @@ std::optional<Leftover> growing_leftover(const Fit& fit, const Model& physics, c
       law.exponent = exponent;
       law.at = usual_of(law);
       Fit grown = fit;
-      look<D>(grown, with_growth(physics, law), threads, watch);
+      look<D>(grown, with_growth(physics, law), asked, threads, watch);
       const Evidence evidence(grown);
       for (int u = kLatentFirst; u < kLatentFirst + kLatentForces; ++u) {
         if (set[u]) continue;
