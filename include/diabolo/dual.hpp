@@ -105,6 +105,7 @@ struct Dual {
   }
 
   friend Dual select(const Mask<Base>& condition, const Dual& a, const Dual& b) {
+    if constexpr (std::is_same_v<Mask<Base>, bool>) return condition ? a : b;
     Dual result;
     result.value = select(condition, a.value, b.value);
     for (int i = 0; i < N; ++i) result.gradient[i] = select(condition, a.gradient[i], b.gradient[i]);

@@ -99,7 +99,7 @@ Diagnosis diagnose_named(const std::vector<Recording>& recordings, const Diagnos
   for (bool again = false;; again = true) {
     const Watch everything = step("fitting everything", again ? 0.6 : 0.15);
     if (again)  // starts that bounce, or are late, are others
-      refine<D>(fit, physics, ActiveSet::Constant(false), 3, options.threads, everything);
+      approach<D>(fit, physics, ActiveSet::Constant(false), 3, options.threads, everything);
     if (std::ranges::any_of(fit.stages, &Stage::has_spin) || again)
       fit_everything<D>(fit, physics, set, options.threads, everything);
     else

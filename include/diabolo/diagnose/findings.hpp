@@ -242,7 +242,7 @@ template <class D = detail::FitDual>
 double compare_rules(const Fit& fit, const Model& base, const Model& physics, int threads,
                      const Watch& watch = {}) {
   const auto rest = [&](Fit trial, const Model& model) {
-    refine<D>(trial, model, ActiveSet::Constant(false), 3, threads, watch);
+    approach<D>(trial, model, ActiveSet::Constant(false), 3, threads, watch);
     return left_over(trial);
   };
   return 1.0 - rest(fit, physics) / std::max(rest(fit, base), 1e-9);

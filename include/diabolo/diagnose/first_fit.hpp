@@ -43,15 +43,11 @@ template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
   fit.far_window = kFarWindowAtFirst;
   Fit soft = fit;
-  const auto descend_from = [&](Fit& begun) {
-    look<D>(begun, physics, set, threads, watch);
-    descend<D>(begun, physics, set, kMostIterations, threads, watch);
-  };
-  descend_from(fit);
+  approach<D>(fit, physics, set, kMostIterations, threads, watch);
   const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
   if (set[index_of(give)]) {
     soft.at[index_of(give)] = kSoftStart;
-    descend_from(soft);
+    approach<D>(soft, physics, set, kMostIterations, threads, watch);
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   fit.far_window = kFarWindow;

@@ -45,7 +45,7 @@ double left_of(const Experiment& experiment, const Model& truth, const Alternati
   fit.centre[wraps] = fit.at[wraps] = explanation.at[wraps];
   fit.noise_is_known = true;
   constexpr int kIterations = 4;
-  refine<D>(fit, physics, explanation.set, kIterations, threads, watch);
+  approach<D>(fit, physics, explanation.set, kIterations, threads, watch);
   return fit.cost / std::max(seen.dispersion, fit.dispersion);
 }
 

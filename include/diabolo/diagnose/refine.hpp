@@ -90,12 +90,19 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
   }
 }
 
-/// The same from where `fit` is, and a last look with derivatives by all unknowns.
+/// The same from wherever `fit` is.
+template <class D>
+void approach(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
+              const Watch& watch = {}) {
+  look<D>(fit, base, active, threads, watch);
+  descend<D>(fit, base, active, most_iterations, threads, watch);
+}
+
+/// The same, and a last look with derivatives by all unknowns.
 template <class D = detail::FitDual>
 void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
             const Watch& watch = {}) {
-  look<D>(fit, base, active, threads, watch);
-  descend<D>(fit, base, active, most_iterations, threads, watch);
+  approach<D>(fit, base, active, most_iterations, threads, watch);
   look<D>(fit, base, threads, watch);
 }
 
