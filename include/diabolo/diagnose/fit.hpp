@@ -24,7 +24,7 @@ struct WindowScore {
   UnknownVector score = UnknownVector::Zero();                            ///< half the slope of -chi^2
   UnknownMatrix information = UnknownMatrix::Zero(kUnknowns, kUnknowns);  ///< half its curvature
   double chi_square = 0.0;                                                ///< with the best start
-  double weight = 1.0;  ///< less than 1 where the window lies far off all others
+  double weight = 1.0;      ///< less than 1 where the window lies far off all others
   double start_gain = 0.0;  ///< of chi^2 by the best start
   int numbers = 0;
   /// To the best start.
@@ -145,8 +145,9 @@ void look_by(Fit& fit, const Model& base, const ActiveSet& carried, int threads,
   weigh(fit);
 }
 
-/// The same with as few derivatives as these lengths allow: a step costs about as much as it has. (A template,
-/// as is all that calls it, lest every program that includes it compile the simulation on long duals.)
+/// The same with as few derivatives as these lengths allow: a step costs about as much as it has. (A
+/// template, as is all that calls it, lest every program that includes it compile the simulation on long
+/// duals.)
 template <class D = detail::FitDual>
 void look(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
   constexpr int kStarts = 8, kShort = 32, kMedium = 40;

@@ -20,8 +20,8 @@ inline constexpr int kMostIterations = 8;
 /// leaves within this share: a fit that is still far off makes it too large.
 inline constexpr double kNoiseSettled = 0.2;
 
-/// A step that promises less of the cost than this times the dispersion, and leads uphill all the same, is not
-/// tried any shorter: a deviation of a tenth would cost as much.
+/// A step that promises less of the cost than this times the dispersion, and leads uphill all the same, is
+/// not tried any shorter: a deviation of a tenth would cost as much.
 inline constexpr double kNothingToGain = 0.01;
 
 /// What the model of the cost says that a step and the best starts take off it.
