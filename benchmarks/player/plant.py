@@ -209,10 +209,14 @@ class Played:
         return State(np.nanmean(places, axis=0), np.zeros(3), float(self.spin[0]), StringState.ON_STRING)
 
     def seen(self, time: float) -> tuple[float, State]:
-        """When before `time` the camera saw the diabolo last, and its state then, from frames up to there."""
-        before = self.recording.time <= time + LEAD + 1e-9
-        row = int(np.flatnonzero(before & np.isfinite(np.asarray(self.recording.diabolo)[:, 0]))[-1])
-        return float(self.recording.time[row]) - LEAD, diabolo.start_state(self.recording, row)
+        """When before `time` a state was seen last, in frames up to there, at most half a second sooner."""
+        rows = np.flatnonzero(self.recording.time <= time + LEAD + 1e-9)
+        for row in rows[::-1][: int(0.5 * self.recording.rate)]:
+            try:
+                return float(self.recording.time[row]) - LEAD, diabolo.start_state(self.recording, int(row))
+            except ValueError:  # a dropout just before
+                continue
+        raise ValueError(f"the diabolo was not seen for half a second before {time:.2f} s")
 
     def flight(self, path: TipPath) -> tuple[float, float]:
         """True apex above the tips at the path's end, and the sideways place of landing there [m]."""
