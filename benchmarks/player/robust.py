@@ -5,13 +5,14 @@
 
 The spread is what a diagnosis leaves open (friction 0.015, string length 2 mm, stick stiffness 7 %), three
 times that, or all that may be with a string of known length (session.spread). One plan is made for the middle
-of it, one for five models at once; both are predicted with fresh draws.
+of it, one for five models at once, the middle and four corners two deviations out (every other one of a
+cube, so that no two parameters go together); both are predicted with fresh draws.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import diabolo
 import numpy as np
@@ -22,11 +23,16 @@ from session import spread
 SPIN = 150.0  # [rad/s]
 
 
-def diagnosed(rng: np.random.Generator, times: float) -> Model:
-    friction = 0.25 + times * rng.normal(0.0, 0.015)
-    stiffness = 450.0 * (1.0 + times * rng.normal(0.0, 0.07))
+CORNERS = ((2, 2, 2), (2, -2, -2), (-2, 2, -2), (-2, -2, 2))
+"""Of the models that are planned for [deviations]."""
+
+
+def diagnosed(off: Sequence[float], times: float) -> Model:
+    """So many deviations off in friction, stiffness and length."""
+    friction = 0.25 + times * 0.015 * off[0]
+    stiffness = 450.0 * (1.0 + times * 0.07 * off[1])
     return Model(
-        Parameters(string_length=1.45 + times * rng.normal(0.0, 0.002), spin_coupling=0.0),
+        Parameters(string_length=1.45 + times * 0.002 * off[2], spin_coupling=0.0),
         string_friction=diabolo.StringFriction(coefficient=max(0.0, friction), spin_gain=3.4),
         stick_flex=diabolo.StickFlex(compliance=1.0 / stiffness, damping=3.0),
     )
@@ -58,8 +64,8 @@ def main() -> None:
     spreads: dict[str, tuple[list[Model], Callable[[np.random.Generator], Model]]] = {}
     rng = np.random.default_rng(given.seed)
     for name, times in (("of a diagnosis", 1.0), ("three times that", 3.0)):
-        five = [diagnosed(rng, 0.0), *(diagnosed(rng, times) for _ in range(4))]
-        spreads[name] = five, lambda rng, times=times: diagnosed(rng, times)  # type: ignore[misc]
+        five = [diagnosed(off, times) for off in ((0, 0, 0), *CORNERS)]
+        spreads[name] = five, lambda rng, times=times: diagnosed(rng.normal(size=3), times)  # type: ignore[misc]
     spreads["all that may be"] = spread(1.45), anything
     for name, (five, fresh) in spreads.items():
         models = [fresh(rng) for _ in range(given.draws)]

@@ -25,6 +25,7 @@ void run_interruptibly(const Work& work, const Watching& watch) {
       if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
     } catch (...) {
       cancel = true;
+      const pybind11::gil_scoped_release working;  // the work may be waiting for the lock
       done.wait();
       throw;
     }

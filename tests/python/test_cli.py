@@ -458,6 +458,14 @@ def long_evaluation(tidy: Path) -> list[str | Path]:
     return [sys.executable, "-m", "diabolo", "evaluate", *[tidy] * 60, *options]
 
 
+def test_a_link_that_leads_to_itself_is_told(tmp_path: Path, command: Command) -> None:
+    loop = tmp_path / "loop.csv"
+    loop.symlink_to(loop)
+    done = command("view", str(loop), "--out", str(tmp_path / "v.html"))
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "loop.csv" in done.stderr
+
+
 def test_ctrl_c_stops_it_and_leaves_nothing(tidy: Path) -> None:
     process = subprocess.Popen(
         long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

@@ -4,6 +4,8 @@ from __future__ import annotations
 import json
 import math
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -203,6 +205,48 @@ def test_horizon_joins_pieces() -> None:
     assert horizon.join(seam, piece, 0.52, 0.02)
     assert not horizon.join(seam, piece, seam.time + 0.1, 0.02)
     assert horizon.path.end == pytest.approx(piece.path.end)
+    elsewhere = diabolo.plan(
+        start, StickSpline(seed.times, np.add(seed.left, [0.0, 0.0, 0.5]), seed.right), goals
+    )
+    with pytest.raises(ValueError, match="does not begin at the seam"):
+        horizon.join(seam, elsewhere, 0.52, 0.02)
+    with pytest.raises(ValueError, match="times of a join"):
+        horizon.join(seam, piece, math.nan, 0.02)
+    with pytest.raises(ValueError, match="more than 600 s"):
+        horizon.seam_at(1e6)
+    with pytest.raises(ValueError, match="at no time"):
+        horizon.observe(math.inf, start)
+    with pytest.raises(ValueError, match="tips and the time"):
+        diabolo.Horizon(Model(Parameters()), [math.nan] * 3, right, start)
+
+
+@pytest.mark.parametrize("weight", [math.nan, math.inf, -1.0])
+def test_weights_of_goals_are_numbers(weight: float) -> None:
+    for goals in (
+        lambda: Goals(taut=weight),
+        lambda: Goals(caught=weight),
+        lambda: Goals(spin=50.0, spin_weight=weight),
+        lambda: Goals(final_state=Waypoint([0.0, 0.0, 0.5], velocity_weight=weight)),
+    ):
+        with pytest.raises(ValueError, match="weight"):
+            goals()
+
+
+def test_ctrl_c_ends_a_plan_whose_limits_are_in_python() -> None:
+    code = (
+        "import diabolo, numpy as np, threading, os, signal\n"
+        "from diabolo import Goals, StickSpline, TipLimits, Waypoint, Model\n"
+        "left, right = [0.0, 0.5, 1.0], [0.0, -0.5, 1.0]\n"
+        "start = diabolo.hanging(Model.consistent(), left, right, 100.0)\n"
+        "goals = Goals(final_state=Waypoint([9.0, 0.0, 0.0]))\n"
+        "seed = StickSpline(np.linspace(0, 3, 13), [left] * 13, [right] * 13)\n"
+        "threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+        "limits = TipLimits(others=lambda path: [])\n"
+        "try:\n    diabolo.plan(start, seed, goals, limits=limits, solver='walk', seconds=600.0)\n"
+        "except KeyboardInterrupt:\n    print('ended')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "ended\n", done.stderr
 
 
 def test_bad_input_is_refused_in_a_sentence() -> None:
@@ -213,8 +257,17 @@ def test_bad_input_is_refused_in_a_sentence() -> None:
         diabolo.plan(start, seed, Goals(taut=1.0), solver="magic")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="somersault"):
         diabolo.plan_action("somersault")
-    with pytest.raises(ValueError, match="speed"):
+    with pytest.raises(ValueError, match=r"speed: -1\.000000; expected"):
         TipLimits(speed=-1.0)
+    with pytest.raises(ValueError, match=r"start is not finite"):
+        StickSpline(
+            [0.0, 1.0], [[0.0, 0.3, 1.0]] * 2, [[0.0, -0.3, 1.0]] * 2, start=([math.nan] * 6, [0.0] * 6)
+        )
+    with pytest.raises(ValueError, match="interval"):
+        seed.path().tips(1e-9)
+    nothing = diabolo.LimitUse("mine", math.nan, 1.0, "m", 0.0, math.nan)
+    with pytest.raises(ValueError, match="mine: its excess is not a number"):
+        diabolo.plan(start, seed, Goals(taut=1.0), limits=TipLimits(others=lambda path: [nothing]))
     with pytest.raises(ValueError, match="height"):
         diabolo.plan_action("throw", height=-0.5)
     with pytest.raises(ValueError, match="spin_gain: nothing that hop can aim at"):
@@ -298,6 +351,7 @@ def test_command_complains_in_one_sentence(command: Command, tmp_path: Path) -> 
         (["hop", "--goal", "spin=5"], "nothing that hop can aim at"),
         (["hop", "--limit", "joint_speed=2"], "with --robots only"),
         (["hop", "--diagnosis", __file__], "no JSON"),
+        (["hop", "--recording", ""], "an empty name"),
     ):
         done = command("plan", *arguments)
         assert done.returncode == 2

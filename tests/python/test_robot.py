@@ -177,7 +177,7 @@ def test_check_says_where_a_plan_cannot_be_played_and_why(command: Command, tmp_
     plan = tmp_path / "plan.csv"
     plan.write_text(excursion(0.3))
     result = command("robot", "check", str(plan), "--json", "-")
-    assert result.returncode == 0, result.stderr
+    assert result.returncode == 1, result.stderr
     found = json.loads(result.stdout)
     assert found["playable"] is False and found["as_played_s"] is None
     (trouble,) = found["troubles"]

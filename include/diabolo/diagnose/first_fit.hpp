@@ -38,7 +38,7 @@ inline Fit prepared(const std::vector<Recording>& recordings, const Model& physi
 
 /// From starts alone, with all of `set` free. A soft string rings, and from a stiff one the way there is long
 /// and uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone
-/// on with.
+/// on with. At the end it has been looked at with `set`.
 template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
   fit.far_window = kFarWindowAtFirst;
@@ -53,7 +53,6 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
   fit.far_window = kFarWindow;
   weigh(fit);
   descend<D>(fit, physics, set, kMostIterations, threads, watch);
-  look<D>(fit, physics, threads, watch);
 }
 
 /// Leaves out what acts on the spin, or by it in a direction that nobody saw.

@@ -25,7 +25,7 @@ struct WindowScore {
   UnknownMatrix information = UnknownMatrix::Zero(kUnknowns, kUnknowns);  ///< half its curvature
   double chi_square = 0.0;                                                ///< with the best start
   double weight = 1.0;      ///< less than 1 where the window lies far off all others
-  double start_gain = 0.0;  ///< of chi^2 by the best start
+  double start_gain = 0.0;  ///< what the best start took off chi_square
   int numbers = 0;
   /// To the best start.
   Eigen::Matrix<double, kStartUnknowns, 1> start_step = Eigen::Matrix<double, kStartUnknowns, 1>::Zero();

@@ -24,9 +24,10 @@ inline constexpr double kNoiseSettled = 0.2;
 /// not tried any shorter: a deviation of a tenth would cost as much.
 inline constexpr double kNothingToGain = 0.01;
 
-/// What the model of the cost says that a step and the best starts take off it.
+/// What a step takes off the cost by its quadratic model, and, while the starts still move, what that takes
+/// off chi^2.
 inline double promise(const Fit& fit, const Normal& normal, const Eigen::VectorXd& step) {
-  double result = normal.score.dot(step);
+  double result = 2.0 * normal.score.dot(step) - step.dot(normal.information * step);
   for (const WindowScore& window : fit.scores) result += window.weight * window.start_gain;
   return result;
 }
@@ -51,7 +52,7 @@ inline void move_starts(Fit& fit, const Fit& from, const UnknownVector& scaled_s
 
 /// Gauss and Newton's method on the active unknowns and all starts, from a `fit` that was looked at with
 /// them, damped where a step leads uphill. Once one has, the next are looked at by their starts alone, which
-/// is enough for their cost.
+/// is enough for their cost; the one that does not is looked at again.
 template <class D>
 void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
              const Watch& watch) {

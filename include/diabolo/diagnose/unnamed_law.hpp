@@ -123,7 +123,7 @@ UnnamedTrial try_unnamed(const Leftover& leftover, const Fit& fit, const Model& 
                                info_of(leftover.unknown).minimum, info_of(leftover.unknown).maximum);
   trial.set[u] = true;
   trial.set[power] = law.exponent != 0.0;
-  refine<D>(trial.fit, trial.physics, trial.set, 6, threads, watch);
+  approach<D>(trial.fit, trial.physics, trial.set, 6, threads, watch);
   trial.set = eliminate(Evidence(trial.fit), bank, trial.set);
   for (int i = 0; i < kUnknowns; ++i)
     if (!trial.set[i]) trial.fit.at[i] = trial.fit.centre[i];

@@ -59,18 +59,29 @@ struct Goals {
   /// Throws std::invalid_argument where a weight is negative, a number is not finite, or goals exclude each
   /// other.
   void validate() const {
-    const auto check = [](const std::string& name, const Waypoint& w) {
+    const auto weight = [](const std::string& name, double value) {
+      if (!(value >= 0.0) || !std::isfinite(value))
+        throw std::invalid_argument(name + ": a weight of " + std::to_string(value) +
+                                    "; expected a finite one that is not negative");
+    };
+    const auto check = [&weight](const std::string& name, const Waypoint& w) {
       if (!w.position.allFinite() || !w.velocity.allFinite())
         throw std::invalid_argument(name + ": position and velocity must be finite");
-      if (!(w.position_weight >= 0.0) || !(w.velocity_weight >= 0.0) || !(w.direction_weight >= 0.0))
-        throw std::invalid_argument(name + ": weights must not be negative");
+      for (const double value : {w.position_weight, w.velocity_weight, w.direction_weight})
+        weight(name, value);
     };
     for (std::size_t i = 0; i < waypoints.size(); ++i) check("waypoint " + std::to_string(i), waypoints[i]);
     if (final_state) check("final state", *final_state);
     if (spin && !std::isfinite(spin->value)) throw std::invalid_argument("spin goal: must be finite");
-    if (apex && !(apex->value > 0.0)) throw std::invalid_argument("apex goal: must lie above the tips");
+    if (apex && !(apex->value > 0.0 && std::isfinite(apex->value)))
+      throw std::invalid_argument("apex goal: must lie above the tips, and be finite");
     if (landing && !landing->position.allFinite())
       throw std::invalid_argument("landing goal: must be finite");
+    if (spin) weight("spin goal", spin->weight);
+    if (apex) weight("apex goal", apex->weight);
+    if (landing) weight("landing goal", landing->weight);
+    if (taut) weight("taut goal", *taut);
+    if (caught) weight("catch goal", *caught);
     if (throws() && taut) throw std::invalid_argument("goals: a throw cannot keep the string taut");
     if (waypoints.empty() && !final_state && !spin && !taut && !throws() && !caught)
       throw std::invalid_argument("goals: none; at least one expected");

@@ -27,13 +27,20 @@ template <template <class> class... Effects>
 class Horizon {
  public:
   using Model = Predictor<double, Effects...>;
-  static constexpr double kMargin = 1.3;  ///< planning may take so many times as long as the last time
+  static constexpr double kMargin = 1.3;     ///< planning may take so many times as long as the last time
+  static constexpr double kLongest = 600.0;  ///< from an observation to a seam [s]
 
   /// The tips rest at `tips` from `begin` [s] on, over `state`; `sticks` are their directions throughout.
+  /// Throws std::invalid_argument where one of them is not finite, or a direction is none.
   Horizon(Model model, const TipColumn<double>& tips, const State<double>& state, double begin,
           const TipColumn<double>& sticks = TipColumn<double>::Zero())
       : model_(std::move(model)), sticks_(sticks), observed_(state), observed_time_(begin) {
+    if (!tips.allFinite() || !std::isfinite(begin))
+      throw std::invalid_argument("horizon: the tips and the time of its begin must be finite");
+    if (!is_direction<double>(sticks.head<3>()) || !is_direction<double>(sticks.tail<3>()))
+      throw std::invalid_argument("horizon: a stick's direction is neither a unit vector nor zero");
     path_ = rest(begin, kRest, tips);
+    observe(begin, state);
   }
 
   /// What the tips do: the past, and what is planned. After its end they rest.
@@ -44,8 +51,8 @@ class Horizon {
   void observe(double time, const State<double>& state) {
     if (!state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
       throw std::invalid_argument("horizon: the observed state must be finite");
-    if (!(time >= observed_time_))
-      throw std::invalid_argument("horizon: a state that was observed before the last one");
+    if (!(time >= observed_time_ && std::isfinite(time)))
+      throw std::invalid_argument("horizon: a state that was observed before the last one, or at no time");
     observed_ = state;
     observed_time_ = time;
   }
@@ -56,6 +63,8 @@ class Horizon {
   /// The seam at a time [s] not before the last observation.
   Seam seam_at(double time) const {
     if (!(time >= observed_time_)) throw std::invalid_argument("horizon: a seam before the last observation");
+    if (!(time - observed_time_ <= kLongest))
+      throw std::invalid_argument("horizon: a seam more than 600 s after the last observation");
     Seam result;
     result.time = time;
     const double within = std::clamp(time, path_.begin(), path_.end());
@@ -74,8 +83,14 @@ class Horizon {
   }
 
   /// Joins a plan that was made from `seam` and is ready `now` [s], having taken `planning_time` [s]. False,
-  /// and the old motion goes on, where it comes too late.
+  /// and the old motion goes on, where it comes too late. Throws std::invalid_argument where the plan does
+  /// not begin with the tips and velocities of the seam, or a time is none.
   bool join(const Seam& seam, const Plan& plan, double now, double planning_time) {
+    if (!std::isfinite(now) || !(planning_time >= 0.0 && std::isfinite(planning_time)))
+      throw std::invalid_argument("horizon: times of a join must be finite, that of planning not negative");
+    const auto first = plan.path.derivatives_at(plan.path.begin());
+    if (!first[0].isApprox(seam.tips, kSameTips) || !(first[1] - seam.start.velocity).isZero(kSameTips))
+      throw std::invalid_argument("horizon: the plan does not begin at the seam, or moves otherwise there");
     planning_time_ = planning_time;
     if (now > seam.time) return false;
     TipPath<double> joined = path_.until(seam.time);
@@ -87,7 +102,8 @@ class Horizon {
   }
 
  private:
-  static constexpr double kRest = 1e-3;  ///< of the first piece [s]
+  static constexpr double kRest = 1e-3;      ///< of the first piece [s]
+  static constexpr double kSameTips = 1e-6;  ///< [m], [m/s]
 
   TipPath<double> rest(double begin, double duration, const TipColumn<double>& tips) const {
     const TipColumn<double> none = TipColumn<double>::Zero();

@@ -37,10 +37,22 @@ struct TipLimits {
   /// same ones in the same order.
   std::function<std::vector<LimitUse>(const TipPath<double>&)> others{};
 
+  /// What a path uses up of `others`. Throws std::invalid_argument where one of them is not a number.
+  std::vector<LimitUse> other_uses(const TipPath<double>& path) const {
+    if (!others) return {};
+    std::vector<LimitUse> uses = others(path);
+    for (const LimitUse& use : uses)
+      if (std::isnan(use.excess))
+        throw std::invalid_argument("limits, " + use.name + ": its excess is not a number");
+    return uses;
+  }
+
   /// Throws std::invalid_argument where a limit is not positive or the workspace is empty.
   void validate() const {
     const auto positive = [](const char* name, double value) {
-      if (!(value > 0.0)) throw std::invalid_argument(std::string("limits, ") + name + ": must be positive");
+      if (!(value > 0.0))
+        throw std::invalid_argument(std::string("limits, ") + name + ": " + std::to_string(value) +
+                                    "; expected a positive one");
     };
     positive("speed", speed);
     positive("acceleration", acceleration);
@@ -135,8 +147,7 @@ inline std::vector<LimitUse> limit_uses(const TipPath<double>& path, const TipLi
     const bool lower = use.name == "gap of the tips" || use.name.ends_with("lowest");
     if (lower) use.value = -use.value, use.limit = -use.limit;
   }
-  if (limits.others)
-    for (LimitUse& use : limits.others(path)) uses.push_back(std::move(use));
+  for (LimitUse& use : limits.other_uses(path)) uses.push_back(std::move(use));
   return uses;
 }
 

@@ -170,7 +170,7 @@ class PlanResiduals {
   std::vector<double> other_parts(const std::vector<double>& x) const {
     std::vector<double> parts;
     if (!problem_.limits.others) return parts;
-    for (const LimitUse& use : problem_.limits.others(path_of(unknowns_.motion(x))))
+    for (const LimitUse& use : problem_.limits.other_uses(path_of(unknowns_.motion(x))))
       parts.push_back(weight *
                       std::max(0.0, use.unit == "m" ? 10.0 * use.excess + inside : use.excess + inside));
     return parts;

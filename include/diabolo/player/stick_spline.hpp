@@ -47,8 +47,8 @@ struct StickSpline {
     return time;
   }
 
-  /// Throws std::invalid_argument where there are not enough points, a duration is not positive, a point is
-  /// not finite, a direction is none, or a loop does not close.
+  /// Throws std::invalid_argument where there are not enough points, a duration is not positive, a point or
+  /// the start is not finite, a direction is none, or a loop does not close.
   void validate() const {
     if (points.size() < 2 || durations.size() + 1 != points.size())
       throw std::invalid_argument("stick spline: " + std::to_string(points.size()) + " points and " +
@@ -62,6 +62,11 @@ struct StickSpline {
       for (int k = 0; k < 6; ++k)
         if (!all(is_finite(points[i][k])))
           throw std::invalid_argument("stick spline, point " + std::to_string(i) + ": is not finite");
+    if (start)
+      for (int k = 0; k < 6; ++k)
+        if (!all(is_finite(start->velocity[k])) || !all(is_finite(start->acceleration[k])))
+          throw std::invalid_argument(
+              "stick spline: the velocity or acceleration of its start is not finite");
     if (!is_direction<double>(sticks.head<3>()) || !is_direction<double>(sticks.tail<3>()))
       throw std::invalid_argument("stick spline: a stick's direction is neither a unit vector nor zero");
     if (ends == SplineEnds::kClamped) return;

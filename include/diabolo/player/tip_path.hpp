@@ -124,10 +124,14 @@ class TipPath {
   std::vector<TipPiece<Scalar>> pieces_;
 };
 
+/// Of samples [s].
+inline constexpr double kShortestInterval = 1e-5;
+
 /// Poses of the path every `interval` [s] or less, for whatever reads tips at given instants.
 inline TipMotion<double> sampled(const TipPath<double>& path, double interval) {
   if (path.empty()) throw std::invalid_argument("tip path: empty; nothing to sample");
-  if (!(interval > 0.0)) throw std::invalid_argument("interval: must be positive");
+  if (!(interval >= kShortestInterval && std::isfinite(interval)))
+    throw std::invalid_argument("interval: must be finite and at least 1e-5 s");
   const auto count = static_cast<std::size_t>(std::ceil((path.end() - path.begin()) / interval - 1e-9));
   std::vector<double> times;
   std::vector<Vector3<double>> left, right, left_stick, right_stick;

@@ -25,7 +25,13 @@ def check_outputs(
         raise ValueError(f"{folder}: a file; expected a folder")
     taken = {}
     for given in inputs:
+        if not str(given):
+            raise ValueError("an empty name of a file to read; expected a file")
         path = Path(given)
+        try:
+            path.resolve()
+        except RuntimeError:  # of Python before 3.13
+            raise ValueError(f"{path}: a symbolic link that leads to itself; expected a file") from None
         taken[path.resolve()] = "read"
         if path.name and path.suffix != ".json":  # a tidy recording's other half
             taken[path.with_suffix(".json").resolve()] = "read"

@@ -120,7 +120,7 @@ def run(arguments: argparse.Namespace) -> int:
     if out is not None and out.suffix != ".csv":
         raise ValueError(f"{out}: expected a name that ends in .csv")
     inputs = [arguments.model] if arguments.model not in DEFAULT_MODELS else []
-    inputs += [file for file in (arguments.recording, arguments.diagnosis) if file]
+    inputs += [file for file in (arguments.recording, arguments.diagnosis) if file is not None]
     beside = out.with_suffix(".json") if out else None
     files.check_outputs([out, beside, arguments.plot, arguments.html, arguments.json], inputs)
     if arguments.plot:

@@ -49,7 +49,7 @@ def _add_check(actions: Any) -> None:
         text="Say whether two arms can play a motion of the stick tips from rest to rest: whether both tips\n"
         "are within reach, how much slower than planned the joints' limits ask for, and how close the arms\n"
         "come. PLAN.csv has the columns time, left_x, left_y, left_z, right_x, right_y, right_z (s, m,\n"
-        "world frame: x forward, y left, z up); recordings will do, too.",
+        "world frame: x forward, y left, z up); recordings will do, too. Status 1 where it cannot be played.",
         example="  diabolo robot check plan.csv\n"
         "  diabolo robot check throw_1.csv --shift 0.4 0 0.1 --height 0.75 --spacing 1.05",
     )
@@ -105,7 +105,8 @@ def _add_mounts(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run_check(arguments: argparse.Namespace) -> None:
+def run_check(arguments: argparse.Namespace) -> int:
+    """0, or 1 where the plan cannot be played."""
     files.check_outputs([arguments.json], [arguments.plan])
     limits = {
         name: value
@@ -127,6 +128,7 @@ def run_check(arguments: argparse.Namespace) -> None:
     files.write_json(arguments.json, {"schema": "diabolo.robot_check/1", "file": arguments.plan, **found})
     if arguments.json != files.STDOUT:
         print(text_of(arguments.plan, found))
+    return 0 if found["playable"] else 1
 
 
 def run_grid(arguments: argparse.Namespace) -> None:
