@@ -140,5 +140,8 @@ TEST_CASE("goals that make no sense are refused in a sentence") {
   goals.apex.reset();
   goals.waypoints = {Waypoint{}};
   goals.waypoints[0].velocity_weight = -1.0;
-  CHECK_THROWS_WITH(goals.validate(), Contains("waypoint 0: weights"));
+  CHECK_THROWS_WITH(goals.validate(), Contains("waypoint 0: a weight of -1"));
+  goals.waypoints.clear();
+  goals.taut = NAN;
+  CHECK_THROWS_WITH(goals.validate(), Contains("taut goal: a weight of nan"));
 }
