@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "diabolo/recording/model.hpp"
+#include "diabolo/recording/text.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -136,7 +137,7 @@ Problem make_problem(const std::vector<Model>& models, const std::vector<State<d
 }
 
 Budget budget_of(int evaluations, double seconds, const std::atomic<bool>& cancel) {
-  if (!(seconds > 0.0)) throw std::invalid_argument("seconds: must be positive");
+  if (!(seconds > 0.0)) throw std::invalid_argument("seconds: " + shown(seconds) + "; must be positive");
   if (evaluations < 1) throw std::invalid_argument("evaluations: must be positive");
   return {evaluations, [end = deadline(seconds), &cancel] { return cancel.load() || end(); }};
 }
@@ -175,7 +176,8 @@ py::tuple make_throw_and_catch(const std::vector<Model>& models, const std::vect
 py::tuple foresee(const Model& model, const State<double>& start, const Path& path, double dt,
                   double flight) {
   if (path.empty()) throw std::invalid_argument("tip path: empty");
-  if (!(dt >= 1e-5 && dt <= 0.1)) throw std::invalid_argument("dt: must be within 0.00001 and 0.1 s");
+  if (!(dt >= 1e-5 && dt <= 0.1))
+    throw std::invalid_argument("dt: " + shown(dt) + " s; must be within 0.00001 and 0.1 s");
   return play_of(play(simulator(model), start, path, {.dt = dt, .flight = flight}));
 }
 
@@ -256,6 +258,7 @@ void bind_limits(py::module_& module) {
       .def_readonly("unit", &LimitUse::unit)
       .def_readonly("time", &LimitUse::time)
       .def_readonly("excess", &LimitUse::excess);
+  using Others = std::function<std::vector<LimitUse>(const Path&)>;
   py::class_<TipLimits>(module, "TipLimits",
                         R"(What the tips may do; every plan keeps it.
 
@@ -264,8 +267,16 @@ the string is long by this; least_gap [m]: the left tip stays to the left of the
 highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
 robot's.)")
       .def(py::init([](double speed, double acceleration, double jerk, double string_margin, double least_gap,
-                       const Vector& lowest, const Vector& highest,
-                       std::function<std::vector<LimitUse>(const Path&)> others) {
+                       const Vector& lowest, const Vector& highest, Others given) {
+             Others others;
+             if (given)
+               others = [given = std::move(given)](const Path& path) {
+                 try {
+                   return given(path);
+                 } catch (const py::cast_error&) {
+                   throw std::invalid_argument("limits, others: what it returned is no list of LimitUse");
+                 }
+               };
              TipLimits limits{speed,     acceleration, jerk,    string_margin,
                               least_gap, lowest,       highest, std::move(others)};
              limits.validate();
@@ -354,6 +365,7 @@ void bind_plans(py::module_& module) {
       .def_readonly("weight", &GoalCost::weight)
       .def_readonly("error", &GoalCost::error)
       .def_readonly("tolerance", &GoalCost::tolerance)
+      .def_readonly("unit", &GoalCost::unit, "Of error and tolerance; empty for a share.")
       .def_readonly("reached", &GoalCost::reached);
   py::class_<Plan>(module, "Plan", "A motion that was found, and what it leads to. It keeps its limits.")
       .def_readonly("motion", &Plan::motion)

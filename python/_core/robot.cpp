@@ -35,7 +35,7 @@ StickArm make_arm(const std::string& side, double height, double spacing, double
   StickArm arm = paper_arm(to_side(side), {height, spacing, forward});
   if (calibration.is_none()) return arm;
   const Array rows = Array::ensure(calibration);
-  if (!rows) throw py::error_already_set();
+  if (!rows) throw std::invalid_argument("calibration: not of numbers; expected the shape (6, 6)");
   expect_shape(rows, "calibration", {kJointCount, 6});
   Ur5eCalibration links;
   const double* from = rows.data();

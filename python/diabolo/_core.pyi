@@ -1871,6 +1871,11 @@ class GoalCost:
     def tolerance(self) -> float:
         ...
     @property
+    def unit(self) -> str:
+        """
+        Of error and tolerance; empty for a share.
+        """
+    @property
     def weight(self) -> float:
         ...
 class Plan:

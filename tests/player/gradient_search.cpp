@@ -105,6 +105,9 @@ TEST_CASE("an impossible goal ends in a plan within the limits that names what b
   CHECK_FALSE(plan.reached);
   CHECK(keeps_all(plan));
   CHECK_THAT(plan.answer, Contains("apex is missed by") && Contains("what binds") && Contains("tip speed"));
+  problem.limits.speed = 1e-9;  // next to nothing of the seed is left
+  CHECK_THAT(GradientSearch{}(problem, {}).answer, Contains("what binds") && Contains("tip speed"));
+  problem.limits.speed = 1.5;
   problem.limits.highest.z() = 1.2;
   CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("left tip z, highest, 1.2 m"));
 }
@@ -151,6 +154,29 @@ TEST_CASE("a spent budget ends a search with the best so far") {
   CHECK(keeps_all(plan));
   const Plan none = GradientSearch{}(problem_of("throw"), {.stop = [] { return true; }});
   CHECK(keeps_all(none));
+}
+
+TEST_CASE("many control points are no reason to go on beyond the time") {
+  PlanProblem<> problem = problem_of("swing");
+  const TipColumn<double> home = problem.seed.points.front();
+  problem.seed.points.assign(200, home);
+  problem.seed.durations.assign(199, 0.05);
+  int asked = 0;
+  const Plan plan = GradientSearch{}(problem, {.stop = [&asked] { return ++asked > 5; }});
+  CHECK(asked < 40);  // of the 999 unknowns' 36 parts, 5 were predicted
+  CHECK(keeps_all(plan));
+}
+
+TEST_CASE("a diabolo that is elsewhere than on its string, or too fast, is refused") {
+  PlanProblem<> problem = problem_of("throw");
+  problem.start.position.z() -= 100.0;
+  CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("on the string, 1.45 m long"));
+  problem = problem_of("throw");
+  problem.start.velocity.x() = 1e200;
+  CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("expected 100 m/s at most"));
+  problem = problem_of("throw");
+  problem.start.spin = -1e300;
+  CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("spin of -1e+300 rad/s"));
 }
 
 TEST_CASE("a plan for several models serves the worst of them better than the nominal plan does") {

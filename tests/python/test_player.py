@@ -251,13 +251,16 @@ def test_ctrl_c_ends_a_plan_whose_limits_are_in_python() -> None:
 
 def test_bad_input_is_refused_in_a_sentence() -> None:
     start, seed = swing()
+    limits = TipLimits(others=lambda path: None)  # type: ignore[arg-type, return-value]
+    with pytest.raises(ValueError, match="others: what it returned is no list of LimitUse"):
+        diabolo.plan(start, seed, Goals(taut=1.0), limits=limits)
     with pytest.raises(ValueError, match="goals: none"):
         Goals()
     with pytest.raises(ValueError, match=r"solver: 'magic'"):
         diabolo.plan(start, seed, Goals(taut=1.0), solver="magic")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="somersault"):
         diabolo.plan_action("somersault")
-    with pytest.raises(ValueError, match=r"speed: -1\.000000; expected"):
+    with pytest.raises(ValueError, match=r"speed: -1; expected"):
         TipLimits(speed=-1.0)
     with pytest.raises(ValueError, match=r"start is not finite"):
         StickSpline(

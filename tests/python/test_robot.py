@@ -155,6 +155,8 @@ def test_a_side_is_left_or_right() -> None:
         robot.StickArm("up")
     with pytest.raises(ValueError, match="spacing"):
         robot.StickArm("left", spacing=-1.0)
+    with pytest.raises(ValueError, match="calibration: not of numbers"):
+        robot.StickArm("left", calibration="a")
 
 
 def test_check_says_that_a_plan_can_be_played(command: Command, tmp_path: Path) -> None:
@@ -195,9 +197,10 @@ def test_check_says_where_a_plan_cannot_be_played_and_why(command: Command, tmp_
     [
         ("time,left_x\n", [], "line 1"),
         (HEADER + "0,0,0,0,0,0,0\n", [], "a plan has two or more"),
-        (excursion(0.1), ["--spacing", "0"], "spacing: 0.000000 m; must be > 0"),
+        (excursion(0.1), ["--spacing", "0"], "spacing: 0 m; must be > 0"),
         (excursion(0.1), ["--speed", "-1"], "limits, speed of joint 1"),
         (excursion(0.1), ["--shift", "nan", "0", "0"], "--shift"),
+        (excursion(0.1), ["--shift", "0", "1e300", "0"], "expected numbers within 100 m"),
         (excursion(0.1), ["--json", "nowhere/x.json"], "there is no folder"),
     ],
 )

@@ -85,6 +85,12 @@ TEST_CASE("arms that come too close are told") {
   CHECK(check_plan(close, motion, check.least_clearance - 1e-3).playable());
 }
 
+TEST_CASE("a motion of more than an hour is refused before its ticks are counted") {
+  const Vector3<double> left(0.6, 0.25, 1.2), right(0.6, -0.25, 1.2);
+  const TipMotion<double> motion({0, 1e9}, {left, left}, {right, right}, Interpolation::kLinear);
+  CHECK_THROWS_WITH(check_plan(planner(), motion), "tip motion: lasts 1e+09 s; expected 3600 s at most");
+}
+
 TEST_CASE("a plan is read from the columns of the tips alone, or from a tidy recording's") {
   const TipMotion<double> plan = read_tip_plan(
       "time,right_x,right_y,right_z,left_x,left_y,left_z\n0,1,2,3,4,5,6\n0.5,1,2,3,4,5,7\n", "plan.csv");

@@ -168,7 +168,7 @@ TEST_CASE("limits that are none are refused in a sentence") {
   } catch (const std::invalid_argument& error) {
     message = error.what();
   }
-  CHECK(message == "limits, acceleration of joint 3: 0.000000; must be finite and > 0");
+  CHECK(message == "limits, acceleration of joint 3: 0; must be finite and > 0");
   limits.acceleration[2] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(check_limits(limits), std::invalid_argument);
 }

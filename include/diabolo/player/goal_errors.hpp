@@ -63,10 +63,10 @@ void add_waypoint(const std::string& name, const Waypoint& wanted, const Goals::
   if (wanted.position_weight > 0.0) {
     const Vector3<Scalar> off = position - Vector3<Scalar>(wanted.position.template cast<Scalar>());
     errors.push_back(
-        {name + " position", wanted.position_weight, tolerances.position, {off[0], off[1], off[2]}});
+        {name + " position", wanted.position_weight, tolerances.position, "m", {off[0], off[1], off[2]}});
   }
   if (wanted.velocity_weight > 0.0) {
-    GoalError<Scalar> error{name + " velocity", wanted.velocity_weight, tolerances.velocity, {}};
+    GoalError<Scalar> error{name + " velocity", wanted.velocity_weight, tolerances.velocity, "m/s", {}};
     if (wanted.velocity.isZero(0.0))  // the speed itself: its components are as large and smooth
       error.parts = {velocity[0], velocity[1], velocity[2]};
     else
@@ -74,14 +74,14 @@ void add_waypoint(const std::string& name, const Waypoint& wanted, const Goals::
     errors.push_back(error);
   }
   if (wanted.direction_weight > 0.0)
-    errors.push_back({name + " direction", wanted.direction_weight, tolerances.direction,
+    errors.push_back({name + " direction", wanted.direction_weight, tolerances.direction, "rad",
                       angle_parts(velocity, wanted.velocity)});
 }
 
 /// How much of the wanted pull is missing at each instant.
 template <class Scalar>
 GoalError<Scalar> slack_error(const Play<Scalar>& play, const Goals& goals) {
-  GoalError<Scalar> error{"taut string", *goals.taut, goals.tolerances.taut, {}};
+  GoalError<Scalar> error{"taut string", *goals.taut, goals.tolerances.taut, "", {}};
   const double share = 1.0 / std::sqrt(static_cast<double>(play.planned));
   for (std::size_t i = 1; i < play.planned; ++i) {
     const State<Scalar>& state = play.instants[i].state;
@@ -107,7 +107,7 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
   // A release that is certain: the diabolo is well above the plane of the tips when they have come to rest.
   const Scalar missing = Scalar(0.05) - height_over_tips<Scalar>(end.state.position, end.tips);
   const bool released = end.state.string_state == StringState::kFlying;
-  errors.push_back({"release", 1.0, 0.0, {maximum(missing, Scalar(0))}, released});
+  errors.push_back({"release", 1.0, 0.0, "m", {maximum(missing, Scalar(0))}, released});
   const double inverse = 0.5 / play.gravity;
   if (goals.apex) {
     std::size_t i = play.planned - 1;  // the last instant on the way up
@@ -118,6 +118,7 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
     errors.push_back({"apex",
                       goals.apex->weight,
                       goals.tolerances.position,
+                      "m",
                       {Scalar(state.position.z() + rise - tips - Scalar(goals.apex->value))}});
   }
   if (goals.landing) {
@@ -130,7 +131,7 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
     const Scalar height = state.position.z() - Scalar(wanted.z());
     const Scalar square = state.velocity.z() * state.velocity.z() + Scalar(2.0 * play.gravity) * height;
     const Scalar time = (state.velocity.z() + positive_sqrt<Scalar>(square)) * Scalar(1.0 / play.gravity);
-    GoalError<Scalar> error{"landing", goals.landing->weight, goals.tolerances.position, {}};
+    GoalError<Scalar> error{"landing", goals.landing->weight, goals.tolerances.position, "m", {}};
     for (int k = 0; k < 2; ++k)
       error.parts.push_back(state.position[k] + state.velocity[k] * time - Scalar(wanted[k]));
     errors.push_back(error);
@@ -142,7 +143,7 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
 template <class Scalar>
 void add_catch(const Play<Scalar>& play, const Goals& goals, double string_length, double slack,
                std::vector<GoalError<Scalar>>& errors) {
-  GoalError<Scalar> error{"catch", *goals.caught, 0.1, {}, false};
+  GoalError<Scalar> error{"catch", *goals.caught, 0.1, "m", {}, false};
   for (std::size_t i = 1; i < play.planned; ++i) error.held = error.held || play.instants[i].caught;
   for (std::size_t i = 1; i < play.planned; ++i) {
     const PlayInstant<Scalar>&a = play.instants[i - 1], &b = play.instants[i];
@@ -199,8 +200,11 @@ std::vector<GoalError<Scalar>> goal_errors(const Play<Scalar>& play, const Goals
   if (goals.final_state)
     detail::add_waypoint("final", *goals.final_state, goals.tolerances, last.position, last.velocity, errors);
   if (goals.spin)
-    errors.push_back(
-        {"spin", goals.spin->weight, goals.tolerances.spin, {Scalar(last.spin - Scalar(goals.spin->value))}});
+    errors.push_back({"spin",
+                      goals.spin->weight,
+                      goals.tolerances.spin,
+                      "rad/s",
+                      {Scalar(last.spin - Scalar(goals.spin->value))}});
   if (goals.taut) errors.push_back(detail::slack_error(play, goals));
   if (goals.throws()) detail::add_flight(play, goals, errors);
   if (goals.caught) detail::add_catch(play, goals, parameters.string_length, parameters.catch_slack, errors);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/scalar.hpp"
 
 namespace diabolo {
@@ -61,7 +62,7 @@ struct Goals {
   void validate() const {
     const auto weight = [](const std::string& name, double value) {
       if (!(value >= 0.0) || !std::isfinite(value))
-        throw std::invalid_argument(name + ": a weight of " + std::to_string(value) +
+        throw std::invalid_argument(name + ": a weight of " + shown(value) +
                                     "; expected a finite one that is not negative");
     };
     const auto check = [&weight](const std::string& name, const Waypoint& w) {
@@ -72,9 +73,11 @@ struct Goals {
     };
     for (std::size_t i = 0; i < waypoints.size(); ++i) check("waypoint " + std::to_string(i), waypoints[i]);
     if (final_state) check("final state", *final_state);
-    if (spin && !std::isfinite(spin->value)) throw std::invalid_argument("spin goal: must be finite");
+    if (spin && !std::isfinite(spin->value))
+      throw std::invalid_argument("spin goal: " + shown(spin->value) + "; must be finite");
     if (apex && !(apex->value > 0.0 && std::isfinite(apex->value)))
-      throw std::invalid_argument("apex goal: must lie above the tips, and be finite");
+      throw std::invalid_argument("apex goal: " + shown(apex->value) +
+                                  " m; must lie above the tips, and be finite");
     if (landing && !landing->position.allFinite())
       throw std::invalid_argument("landing goal: must be finite");
     if (spin) weight("spin goal", spin->weight);
@@ -98,6 +101,7 @@ struct GoalError {
   std::string name;
   double weight;
   double tolerance;  ///< of the norm
+  const char* unit;  ///< of the norm; empty for a share
   std::vector<Scalar> parts;
   bool held = true;  ///< whether what must hold besides does, such as that the diabolo was caught
 

@@ -71,7 +71,7 @@ struct GradientSearch {
     };
     const auto linearize = [&](const std::vector<double>& at) {
       ++evaluations;
-      return linearization<N>(residuals, duals, at);
+      return linearization<N>(residuals, duals, at, budget);
     };
     const auto stop = [&] { return budget.spent(evaluations) || sum < good_enough; };
     residuals.dt = problem.dt;
@@ -87,18 +87,22 @@ struct GradientSearch {
     const StickSpline<double> found = unknowns.motion(x);
     const auto towards = [&](double share) { return detail::between(seed, found, share); };
     const double share = detail::kept_share(problem.limits, length, towards);
-    Plan plan = judged(problem, towards(share), evaluations);
+    const std::vector<std::vector<LimitUse>> wanted{limit_uses(path_of(wanted_seed), problem.limits, length),
+                                                    limit_uses(path_of(found), problem.limits, length)};
+    Plan plan = judged(problem, towards(share), evaluations, wanted);
     if (share == 1.0) return plan;
-    Plan stayed = judged(problem, seed, evaluations);
+    Plan stayed = judged(problem, seed, evaluations, wanted);
     return stayed.cost < plan.cost ? stayed : plan;
   }
 
+  /// Where the budget's time is spent on the way, what came out until then; the caller looks at the budget.
   template <int N, template <class> class... Effects>
   static Linearization linearization(const PlanResiduals<Effects...>& residuals,
                                      const std::vector<Predictor<D<N>, Effects...>>& models,
-                                     const std::vector<double>& x) {
+                                     const std::vector<double>& x, const Budget& budget) {
     Linearization result;
     for (std::size_t first = 0; first < x.size(); first += N) {
+      if (first > 0 && budget.spent(0)) return result;
       const std::size_t count = std::min<std::size_t>(N, x.size() - first);
       std::vector<D<N>> at(x.begin(), x.end());
       for (std::size_t i = 0; i < count; ++i)
@@ -118,13 +122,14 @@ struct GradientSearch {
               static_cast<double>(part.gradient[static_cast<Eigen::Index>(i)]);
       }
     }
-    add_others(residuals, x, result);
+    add_others(residuals, x, budget, result);
     return result;
   }
 
   /// Rows for the limits that know no derivatives, by central differences.
   template <class Residuals>
-  static void add_others(const Residuals& residuals, const std::vector<double>& x, Linearization& result) {
+  static void add_others(const Residuals& residuals, const std::vector<double>& x, const Budget& budget,
+                         Linearization& result) {
     const std::vector<double> parts = residuals.other_parts(x);
     if (parts.empty()) return;
     const Eigen::Index first = result.residuals.size(), count = static_cast<Eigen::Index>(parts.size());
@@ -132,7 +137,7 @@ struct GradientSearch {
     result.residuals.tail(count) = Eigen::Map<const Eigen::VectorXd>(parts.data(), count);
     result.jacobian.conservativeResize(first + count, Eigen::NoChange);
     constexpr double h = 1e-4;
-    for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t i = 0; i < x.size() && !budget.spent(0); ++i) {
       std::vector<double> above = x, below = x;
       above[i] += h;
       below[i] -= h;

@@ -19,13 +19,15 @@ struct Linearization {
 
 namespace detail {
 
-/// The Levenberg-Marquardt step that is no longer than `radius`: damped just so much.
-inline Eigen::VectorXd step_within(const Eigen::MatrixXd& normal, const Eigen::VectorXd& slope,
-                                   double radius) {
+/// The Levenberg-Marquardt step that is no longer than `radius`: damped just so much, or as much as could be
+/// tried before `stop()`.
+template <class Stop>
+Eigen::VectorXd step_within(const Eigen::MatrixXd& normal, const Eigen::VectorXd& slope, double radius,
+                            const Stop& stop) {
   const double largest = std::max(normal.diagonal().maxCoeff(), 1e-12);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(slope.size());
   constexpr int kDampings = 25;  // from 1e-9 on, four times more each
-  for (int i = 0; i < kDampings; ++i) {
+  for (int i = 0; i < kDampings && !stop(); ++i) {
     Eigen::MatrixXd damped = normal;
     damped.diagonal().array() += std::ldexp(1e-9 * largest, 2 * i);
     step = -solve_symmetric(damped, slope).col(0);
@@ -47,6 +49,7 @@ double least_squares(std::vector<double>& x, const std::vector<double>& bounds, 
   double sum = INFINITY;
   for (int iteration = 0; iteration < iterations && !stop(); ++iteration) {
     const Linearization at = linearize(x);
+    if (stop()) return sum;
     sum = at.residuals.squaredNorm();
     if (!std::isfinite(sum) || !at.jacobian.allFinite()) return sum;
     Eigen::MatrixXd normal = at.jacobian.transpose() * at.jacobian;
@@ -60,7 +63,7 @@ double least_squares(std::vector<double>& x, const std::vector<double>& bounds, 
     }
     bool gained = false, settled = false;
     for (int attempt = 0; attempt < 7 && !gained && !stop(); ++attempt) {
-      const Eigen::VectorXd step = detail::step_within(normal, slope, radius);
+      const Eigen::VectorXd step = detail::step_within(normal, slope, radius, stop);
       std::vector<double> next = x;
       for (Eigen::Index i = 0; i < n; ++i) {
         const std::size_t k = static_cast<std::size_t>(i);

@@ -10,6 +10,7 @@
 
 #include "diabolo/player/polynomial_maximum.hpp"
 #include "diabolo/player/tip_path.hpp"
+#include "diabolo/recording/text.hpp"
 
 namespace diabolo {
 
@@ -51,14 +52,19 @@ struct TipLimits {
   void validate() const {
     const auto positive = [](const char* name, double value) {
       if (!(value > 0.0))
-        throw std::invalid_argument(std::string("limits, ") + name + ": " + std::to_string(value) +
+        throw std::invalid_argument(std::string("limits, ") + name + ": " + shown(value) +
                                     "; expected a positive one");
     };
     positive("speed", speed);
     positive("acceleration", acceleration);
     positive("jerk", jerk);
-    if (!(string_margin >= 0.0)) throw std::invalid_argument("limits, string_margin: must not be negative");
-    if (!std::isfinite(least_gap)) throw std::invalid_argument("limits, least_gap: must be finite");
+    if (!(string_margin >= 0.0))
+      throw std::invalid_argument("limits, string_margin: " + shown(string_margin) +
+                                  "; must not be negative");
+    if (!std::isfinite(least_gap))
+      throw std::invalid_argument("limits, least_gap: " + shown(least_gap) + "; must be finite");
+    if (lowest.hasNaN() || highest.hasNaN())
+      throw std::invalid_argument("limits: a corner of the workspace is not a number");
     if (!((highest - lowest).minCoeff() > 0.0))
       throw std::invalid_argument("limits: the workspace's highest corner must lie above its lowest one");
   }

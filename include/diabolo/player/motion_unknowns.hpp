@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diabolo/player/stick_spline.hpp"
+#include "diabolo/recording/text.hpp"
 
 namespace diabolo {
 
@@ -22,9 +23,9 @@ struct Freedom {
   /// Throws std::invalid_argument where a bound is not positive, or a duration could come down to nothing.
   void validate() const {
     if (!(reach > 0.0) || reach > 10.0)
-      throw std::invalid_argument("freedom, reach: must be positive, at most 10 m");
+      throw std::invalid_argument("freedom, reach: " + shown(reach) + " m; must be positive, at most 10 m");
     if (!(stretch > 0.0 && stretch < 0.95))
-      throw std::invalid_argument("freedom, stretch: must be within 0 and 0.95");
+      throw std::invalid_argument("freedom, stretch: " + shown(stretch) + "; must be within 0 and 0.95");
   }
 };
 

@@ -15,6 +15,7 @@
 #include "diabolo/player/goals.hpp"
 #include "diabolo/player/motion_unknowns.hpp"
 #include "diabolo/recording/baseline.hpp"
+#include "diabolo/recording/text.hpp"
 #include "diabolo/state.hpp"
 
 namespace diabolo {
@@ -40,8 +41,8 @@ struct ActionOptions {
   void validate() const {
     const auto check = [](const char* name, double value, double low, double high) {
       if (value >= low && value <= high) return;
-      throw std::invalid_argument(std::string("action, ") + name + ": " + std::to_string(value) +
-                                  "; must be within " + std::to_string(low) + " and " + std::to_string(high));
+      throw std::invalid_argument(std::string("action, ") + name + ": " + shown(value) + "; must be within " +
+                                  shown(low) + " and " + shown(high));
     };
     check("size", size, 0.1, 3.0);
     check("pace", pace, 0.2, 5.0);

@@ -18,6 +18,7 @@ namespace diabolo {
 struct GoalCost {
   std::string name;
   double weight, error, tolerance;  ///< the cost is weight * error; reached where error <= tolerance
+  std::string unit;                 ///< of error and tolerance; empty for a share
   bool reached;
 };
 
@@ -52,28 +53,37 @@ inline std::function<bool()> deadline(double seconds) {
 
 namespace detail {
 
-/// Limits that stand in the way of more.
-inline std::string binding_limits(const std::vector<LimitUse>& uses) {
+/// Limits that stand in the way of more: those nearly used up, and those that one of the `wanted` motions
+/// breaks.
+inline std::string binding_limits(const std::vector<LimitUse>& uses,
+                                  const std::vector<std::vector<LimitUse>>& wanted) {
   std::ostringstream text;
   text.precision(3);
-  for (const LimitUse& use : uses) {
-    if (use.excess < (use.unit == "m" ? -0.004 : -0.03)) continue;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const LimitUse& use = uses[i];
+    const bool broken = std::ranges::any_of(
+        wanted, [i](const std::vector<LimitUse>& of) { return i < of.size() && of[i].excess > 0.0; });
+    if (!broken && use.excess < (use.unit == "m" ? -0.004 : -0.03)) continue;
     text << (text.tellp() > 0 ? ", " : "") << use.name << " (" << use.value << " of " << use.limit << ' '
          << use.unit << " at " << use.time << " s)";
   }
   return text.str();
 }
 
-inline std::string answer_of(const Plan& plan) {
+inline std::string answer_of(const Plan& plan, const std::vector<std::vector<LimitUse>>& wanted) {
   std::ostringstream text;
   text.precision(3);
   for (const GoalCost& goal : plan.goals) {
     if (goal.reached) continue;
-    text << (text.tellp() > 0 ? "; " : "") << goal.name << " is missed by " << goal.error;
+    text << (text.tellp() > 0 ? "; " : "") << goal.name;
+    if (goal.error > goal.tolerance)
+      text << " is missed by " << goal.error << (goal.unit.empty() ? "" : " ") << goal.unit;
+    else
+      text << " does not come about";
   }
   if (text.tellp() == 0) return "every goal is reached";
-  const std::string binding = binding_limits(plan.limits);
-  text << (binding.empty() ? "; no limit stands in the way, so another seed or more freedom may do better"
+  const std::string binding = binding_limits(plan.limits, wanted);
+  text << (binding.empty() ? "; it is at no limit: more time, another seed or more freedom may do better"
                            : "; what binds: " + binding);
   return text.str();
 }
@@ -132,9 +142,10 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
                 1.0);
 }
 
-/// What a motion that keeps the limits is worth.
+/// What a motion that keeps the limits is worth. `wanted`: what those use of them in whose place it stands.
 template <template <class> class... Effects>
-Plan judged(const PlanProblem<Effects...>& problem, const StickSpline<double>& motion, int evaluations) {
+Plan judged(const PlanProblem<Effects...>& problem, const StickSpline<double>& motion, int evaluations,
+            const std::vector<std::vector<LimitUse>>& wanted = {}) {
   Plan plan;
   plan.motion = motion;
   plan.path = path_of(motion);
@@ -142,13 +153,13 @@ Plan judged(const PlanProblem<Effects...>& problem, const StickSpline<double>& m
   plan.play = problem.played(0, problem.models.front(), plan.path, dt);
   for (const GoalError<double>& error :
        goal_errors(plan.play, problem.goals, problem.models.front().parameters(), false))
-    plan.goals.push_back({error.name, error.weight, error.size(), error.tolerance,
+    plan.goals.push_back({error.name, error.weight, error.size(), error.tolerance, error.unit,
                           error.held && error.size() <= error.tolerance});
   plan.cost = problem.cost(plan.path, dt, false);
   plan.limits = limit_uses(plan.path, problem.limits, problem.string_length());
   plan.reached = std::ranges::all_of(plan.goals, &GoalCost::reached);
   plan.evaluations = evaluations;
-  plan.answer = detail::answer_of(plan);
+  plan.answer = detail::answer_of(plan, wanted);
   return plan;
 }
 

@@ -14,6 +14,7 @@
 #include "diabolo/player/goal_errors.hpp"
 #include "diabolo/player/limits.hpp"
 #include "diabolo/player/motion_unknowns.hpp"
+#include "diabolo/recording/text.hpp"
 
 namespace diabolo {
 
@@ -41,25 +42,48 @@ struct PlanProblem {
     return shortest;
   }
 
+  /// A diabolo on the string that is farther from it than this share of its length is somewhere else.
+  static constexpr double kOffString = 0.5;
+  static constexpr double kFastest = 100.0;  ///< diabolo [m/s]
+  static constexpr double kMostSpin = 1e4;   ///< [rad/s]
+
   /// Throws std::invalid_argument where something is missing or out of its range.
   void validate() const {
     if (models.empty()) throw std::invalid_argument("plan: no model; at least one expected");
     if (!starts.empty() && starts.size() != models.size())
       throw std::invalid_argument("plan: " + std::to_string(starts.size()) + " start states; expected " +
                                   std::to_string(models.size()) + ", one for each model, or none");
-    for (std::size_t m = 0; m < models.size(); ++m)
-      if (const State<double>& state = start_of(m);
-          !state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
-        throw std::invalid_argument("plan: the start state must be finite");
     if (!(dt >= 1e-4 && dt <= 0.02))
-      throw std::invalid_argument("plan, dt: must be within 0.0001 and 0.02 s");
+      throw std::invalid_argument("plan, dt: " + shown(dt) + " s; must be within 0.0001 and 0.02 s");
     seed.validate();
+    for (std::size_t m = 0; m < models.size(); ++m) check_start(m);
     goals.validate();
     limits.validate();
     freedom.validate();
     double duration = 0.0;
     for (const double part : seed.durations) duration += part;
-    if (duration > 60.0) throw std::invalid_argument("plan: the seed lasts longer than 60 s");
+    if (duration > 60.0)
+      throw std::invalid_argument("plan: the seed lasts " + shown(duration) + " s; expected 60 s at most");
+  }
+
+  /// Throws std::invalid_argument where the diabolo cannot begin as it is said to.
+  void check_start(std::size_t m) const {
+    const State<double>& state = start_of(m);
+    if (!state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
+      throw std::invalid_argument("plan: the start state must be finite");
+    if (const double speed = state.velocity.stableNorm(); speed > kFastest)
+      throw std::invalid_argument("plan: the diabolo starts with " + shown(speed) + " m/s; expected " +
+                                  shown(kFastest) + " m/s at most");
+    if (std::abs(state.spin) > kMostSpin)
+      throw std::invalid_argument("plan: the diabolo starts with a spin of " + shown(state.spin) +
+                                  " rad/s; expected " + shown(kMostSpin) + " rad/s at most");
+    const TipColumn<double>& tips = seed.points.front();
+    const double length = models[m].parameters().string_length,
+                 path = (state.position - tips.head<3>()).norm() + (state.position - tips.tail<3>()).norm();
+    if (state.string_state == StringState::kFlying || path <= (1.0 + kOffString) * length) return;
+    throw std::invalid_argument("plan: the start state is on the string, " + shown(length) +
+                                " m long, but from tip to tip by way of the diabolo it is " +
+                                shown_rounded(path) + " m");
   }
 
   const State<double>& start_of(std::size_t m) const { return starts.empty() ? start : starts[m]; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diabolo/player/tip_path.hpp"
+#include "diabolo/recording/text.hpp"
 
 namespace diabolo {
 
@@ -56,8 +57,9 @@ struct StickSpline {
                                   " durations; expected at least two points, and a duration less");
     for (std::size_t i = 0; i < durations.size(); ++i)
       if (!all(is_finite(durations[i])) || !all(durations[i] > Scalar(0)))
-        throw std::invalid_argument("stick spline, duration " + std::to_string(i) +
-                                    ": must be positive and finite");
+        throw std::invalid_argument("stick spline, duration " + std::to_string(i) + ": " +
+                                    shown(static_cast<double>(value_of(durations[i]))) +
+                                    " s; must be positive and finite");
     for (std::size_t i = 0; i < points.size(); ++i)
       for (int k = 0; k < 6; ++k)
         if (!all(is_finite(points[i][k])))

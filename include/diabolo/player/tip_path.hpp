@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/sticks.hpp"
 
 namespace diabolo {
@@ -131,7 +132,8 @@ inline constexpr double kShortestInterval = 1e-5;
 inline TipMotion<double> sampled(const TipPath<double>& path, double interval) {
   if (path.empty()) throw std::invalid_argument("tip path: empty; nothing to sample");
   if (!(interval >= kShortestInterval && std::isfinite(interval)))
-    throw std::invalid_argument("interval: must be finite and at least 1e-5 s");
+    throw std::invalid_argument("interval: " + shown(interval) + " s; must be finite and at least " +
+                                shown(kShortestInterval) + " s");
   const auto count = static_cast<std::size_t>(std::ceil((path.end() - path.begin()) / interval - 1e-9));
   std::vector<double> times;
   std::vector<Vector3<double>> left, right, left_stick, right_stick;

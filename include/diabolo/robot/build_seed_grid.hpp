@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/ease_posture.hpp"
 #include "diabolo/robot/stick_map.hpp"
 
@@ -66,8 +67,8 @@ class SeedGridBuilder {
  private:
   [[noreturn]] void fail(const Vector3<double>& point, const std::string& why) const {
     throw std::invalid_argument(std::string("grid of the ") + name_of(arm_.side) + " arm: (" +
-                                std::to_string(point.x()) + ", " + std::to_string(point.y()) + ", " +
-                                std::to_string(point.z()) + ") m: " + why);
+                                shown(point.x()) + ", " + shown(point.y()) + ", " + shown(point.z()) +
+                                ") m: " + why);
   }
 
   /// From the joints of a neighbour, or from the closed form in the arm's windows.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/clearance.hpp"
 #include "diabolo/robot/stick_plan.hpp"
 
@@ -35,10 +36,13 @@ struct PlanCheck {
 };
 
 /// Looks at every tick of the motion. `least_clearance` [m] is what must stay between the arms. Throws
-/// std::invalid_argument where that is not finite, or the motion is too short to start and stop in.
+/// std::invalid_argument where that is not finite, or the motion is too short to start and stop in, or too
+/// long.
 inline PlanCheck check_plan(const StickPlanner& planner, const TipMotion<double>& motion,
                             double least_clearance = 0.10) {
-  if (!std::isfinite(least_clearance)) throw std::invalid_argument("least_clearance: must be finite");
+  if (!std::isfinite(least_clearance))
+    throw std::invalid_argument("least_clearance: " + shown(least_clearance) + " m; must be finite");
+  check_duration(motion);
   PlanCheck check;
   const auto trouble = [&check](double time, const std::string& who, const std::string& why,
                                 const Vector3<double>& tip) {

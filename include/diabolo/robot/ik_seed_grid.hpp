@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/joints.hpp"
 
 namespace diabolo {
@@ -173,8 +174,8 @@ class IkSeedGrid {
       const std::string name = std::string("grid, ") + "xyz"[axis] + ": ";
       const int knots = box_.knots[static_cast<std::size_t>(axis)];
       if (!(box_.lower[axis] < box_.upper[axis]) || !std::isfinite(box_.upper[axis] - box_.lower[axis]))
-        throw std::invalid_argument(name + std::to_string(box_.lower[axis]) + " to " +
-                                    std::to_string(box_.upper[axis]) + " m; must grow");
+        throw std::invalid_argument(name + shown(box_.lower[axis]) + " to " + shown(box_.upper[axis]) +
+                                    " m; must grow");
       if (knots < 2 || knots > 1000)
         throw std::invalid_argument(name + std::to_string(knots) + " key points; must be within [2, 1000]");
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/joints.hpp"
 
 namespace diabolo {
@@ -41,7 +42,7 @@ inline void check_limits(const JointLimits& limits) {
     for (std::size_t i = 0; i < kJointCount; ++i)
       if (!(values[i] > 0) || !std::isfinite(values[i]))
         throw std::invalid_argument(std::string("limits, ") + name + " of joint " + std::to_string(i + 1) +
-                                    ": " + std::to_string(values[i]) + "; must be finite and > 0");
+                                    ": " + shown(values[i]) + "; must be finite and > 0");
 }
 
 /// How much slower the step from the last of four setpoints would have to be for the limits to hold: the

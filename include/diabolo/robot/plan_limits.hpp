@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "diabolo/player/limits.hpp"
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/clearance.hpp"
 #include "diabolo/robot/stick_plan.hpp"
 
@@ -30,8 +31,10 @@ class RobotLimits {
       : planner_(std::make_shared<const StickPlanner>(std::move(planner))),
         least_clearance_(least_clearance),
         share_(share) {
-    if (!std::isfinite(least_clearance)) throw std::invalid_argument("least_clearance: must be finite");
-    if (!(share > 0.0 && share <= 1.0)) throw std::invalid_argument("share: must be above 0, at most 1");
+    if (!std::isfinite(least_clearance))
+      throw std::invalid_argument("least_clearance: " + shown(least_clearance) + " m; must be finite");
+    if (!(share > 0.0 && share <= 1.0))
+      throw std::invalid_argument("share: " + shown(share) + "; must be above 0, at most 1");
   }
 
   /// Eleven limits: of each arm its box, reach and joints; the clearance.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/stick_task.hpp"
 
 namespace diabolo {
@@ -46,11 +47,11 @@ struct Mounts {
 /// std::invalid_argument that names the field where a mount is not finite, or the spacing not above zero.
 inline StickArm paper_arm(Side side, const Mounts& mounts = {}) {
   if (!std::isfinite(mounts.height))
-    throw std::invalid_argument("height: " + std::to_string(mounts.height) + " m; must be finite");
+    throw std::invalid_argument("height: " + shown(mounts.height) + " m; must be finite");
   if (!std::isfinite(mounts.spacing) || !(mounts.spacing > 0))
-    throw std::invalid_argument("spacing: " + std::to_string(mounts.spacing) + " m; must be > 0");
+    throw std::invalid_argument("spacing: " + shown(mounts.spacing) + " m; must be > 0");
   if (!std::isfinite(mounts.forward))
-    throw std::invalid_argument("forward: " + std::to_string(mounts.forward) + " m; must be finite");
+    throw std::invalid_argument("forward: " + shown(mounts.forward) + " m; must be finite");
   const bool right = side == Side::kRight;
   const double quarter = kPi / 2, half = kPi;
   const double eased = 0.35;  // [rad] that the stick may tilt beyond the vertical at the edge of reach

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/keep_limits.hpp"
 #include "diabolo/robot/stick_map.hpp"
 #include "diabolo/robot/tip_path.hpp"
@@ -60,8 +61,7 @@ class StickPlanner {
          {std::pair{"lead", options.lead}, std::pair{"blend", options.blend}, std::pair{"rest", options.rest},
           std::pair{"most_factor", options.most_factor}})
       if (!(value > 0) || !std::isfinite(value))
-        throw std::invalid_argument(std::string(name) + ": " + std::to_string(value) +
-                                    "; must be finite and > 0");
+        throw std::invalid_argument(std::string(name) + ": " + shown(value) + "; must be finite and > 0");
   }
 
   const StickMap& left() const { return left_; }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/joint_limits.hpp"
 #include "diabolo/robot/smooth_step.hpp"
 #include "diabolo/sticks.hpp"
@@ -17,21 +18,33 @@ struct TipPair {
   Vector3<double> left, right;
 };
 
+/// Of the tips, so that its ticks fit into memory [s].
+inline constexpr double kLongestMotion = 3600.0;
+
+/// Throws std::invalid_argument where a motion lasts longer than kLongestMotion.
+inline void check_duration(const TipMotion<double>& motion) {
+  if (const double duration = motion.end() - motion.begin(); !(duration <= kLongestMotion))
+    throw std::invalid_argument("tip motion: lasts " + shown(duration) + " s; expected " +
+                                shown(kLongestMotion) + " s at most");
+}
+
 /// A motion of the tips one tick apart, from its first instant to its last. For `rest` seconds its clock
 /// starts up from standstill, where `from_rest`, and always runs down to it at the end: arms that get nothing
 /// new come to rest on the motion's own curve. That takes half of `rest` longer at each of these ends. Throws
-/// std::invalid_argument where the motion is shorter than that takes, or the times do not fit.
+/// std::invalid_argument where the motion is shorter than that takes or longer than kLongestMotion, or the
+/// times do not fit.
 inline std::vector<TipPair> tips_to_rest(const TipMotion<double>& motion, double from, double rest,
                                          bool from_rest) {
+  check_duration(motion);
   const double length = motion.end() - from;
   const double starting = from_rest ? rest : 0.0;
   if (!(rest > 0) || !std::isfinite(rest))
-    throw std::invalid_argument("rest: " + std::to_string(rest) + " s; must be finite and > 0");
+    throw std::invalid_argument("rest: " + shown(rest) + " s; must be finite and > 0");
   if (!(length >= 0.5 * (rest + starting)) || !(from >= motion.begin()))
-    throw std::invalid_argument(
-        "tip motion: from " + std::to_string(from) + " to " + std::to_string(motion.end()) +
-        " s; must last " + std::to_string(0.5 * (rest + starting)) +
-        " s or more, time to start and stop, and not begin before " + std::to_string(motion.begin()) + " s");
+    throw std::invalid_argument("tip motion: from " + shown(from) + " to " + shown(motion.end()) +
+                                " s; must last " + shown(0.5 * (rest + starting)) +
+                                " s or more, time to start and stop, and not begin before " +
+                                shown(motion.begin()) + " s");
   const double duration = length + 0.5 * (rest + starting);
   std::vector<TipPair> path(static_cast<std::size_t>(std::ceil(duration / kTick - 1e-9)) + 1);
   std::size_t hint = 0;

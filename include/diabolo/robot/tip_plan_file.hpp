@@ -11,6 +11,7 @@
 
 #include "diabolo/recording/file.hpp"
 #include "diabolo/recording/tidy.hpp"
+#include "diabolo/robot/tip_path.hpp"
 #include "diabolo/sticks.hpp"
 
 namespace diabolo {
@@ -54,9 +55,9 @@ inline TipMotion<double> read_tip_plan(std::string_view text, const std::string&
   if (times.size() < 2)
     throw RecordingError(file_name + ": " + std::to_string(times.size()) +
                          " lines of data; a plan has two or more");
-  if (times.back() - times.front() > 3600)
-    throw RecordingError(file_name + ": lasts " + shown(times.back() - times.front()) +
-                         " s; expected an hour at most");
+  if (times.back() - times.front() > kLongestMotion)
+    throw RecordingError(file_name + ": lasts " + shown(times.back() - times.front()) + " s; expected " +
+                         shown(kLongestMotion) + " s at most");
   return TipMotion<double>(std::move(times), left, right, Interpolation::kSpline);
 }
 

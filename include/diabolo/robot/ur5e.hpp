@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/chain.hpp"
 
 namespace diabolo {
@@ -65,12 +66,12 @@ Chain<Scalar> ur5e_from_calibration(const Ur5eCalibration& calibration) {
     const LinkCalibration& link = calibration[i];
     for (const double number : {link.x, link.y, link.z, link.roll, link.pitch, link.yaw})
       if (!std::isfinite(number))
-        throw std::invalid_argument("calibration, link " + std::to_string(i + 1) + ": " +
-                                    std::to_string(number) + "; must be finite");
+        throw std::invalid_argument("calibration, link " + std::to_string(i + 1) + ": " + shown(number) +
+                                    "; must be finite");
     const double reach = std::sqrt(link.x * link.x + link.y * link.y + link.z * link.z);
     if (reach > 1.0)
-      throw std::invalid_argument("calibration, link " + std::to_string(i + 1) + ": " +
-                                  std::to_string(reach) + " m from the link before; must be within 1 m");
+      throw std::invalid_argument("calibration, link " + std::to_string(i + 1) + ": " + shown(reach) +
+                                  " m from the link before; must be within 1 m");
     links[i] = Pose<Scalar>::from_roll_pitch_yaw({Scalar(link.x), Scalar(link.y), Scalar(link.z)},
                                                  Scalar(link.roll), Scalar(link.pitch), Scalar(link.yaw));
   }

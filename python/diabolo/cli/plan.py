@@ -234,6 +234,7 @@ def summary(played: PlannedPlay, model: str) -> dict[str, Any]:
                         "name": goal.name,
                         "error": goal.error,
                         "tolerance": goal.tolerance,
+                        "unit": goal.unit,
                         "reached": goal.reached,
                     }
                     for goal in plan.goals

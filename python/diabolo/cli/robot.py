@@ -26,6 +26,7 @@ from .tables import format_table
 
 SAMPLES = 20  # along each side of a grid's box, for the map of speeds
 SLOWED = 1.0005  # times the planned duration from which a motion counts as slowed down
+LARGEST_SHIFT = 100.0  # [m]
 
 
 def add_parser(commands: Any) -> None:
@@ -208,8 +209,8 @@ def _read(path: str) -> TipMotion:
 
 
 def _shifted(motion: TipMotion, shift: list[float]) -> TipMotion:
-    if not all(math.isfinite(x) for x in shift):
-        raise ValueError(f"--shift {' '.join(map(str, shift))}: expected finite numbers")
+    if not all(abs(x) <= LARGEST_SHIFT for x in shift):
+        raise ValueError(f"--shift {' '.join(map(str, shift))}: expected numbers within {LARGEST_SHIFT:g} m")
     if not any(shift):
         return motion
     return TipMotion(motion.times, motion.left + shift, motion.right + shift, motion.interpolation)
