@@ -134,7 +134,7 @@ TEST_CASE("a spline that is none is refused in a sentence") {
   CHECK_THROWS_WITH(path_of(spline), Contains("a loop must end in its first point"));
   spline.ends = SplineEnds::kClamped;
   spline.durations[2] = 0.0;
-  CHECK_THROWS_WITH(path_of(spline), Contains("duration 2: must be positive"));
+  CHECK_THROWS_WITH(path_of(spline), Contains("duration 2: 0 s; must be positive"));
   spline.durations.pop_back();
   CHECK_THROWS_WITH(path_of(spline), Contains("6 points and 4 durations"));
   CHECK_THROWS_WITH(sampled(TipPath<double>(), 0.01), Contains("empty"));

@@ -123,7 +123,7 @@ TEST_CASE("a wrong grid is refused in a sentence") {
   box.knots[1] = 1;
   CHECK(message_of([&] { IkSeedGrid(box, joints); }) == "grid, y: 1 key points; must be within [2, 1000]");
   box.upper.x() = box.lower.x();
-  CHECK(message_of([&] { IkSeedGrid(box, joints); }) == "grid, x: 0.400000 to 0.400000 m; must grow");
+  CHECK(message_of([&] { IkSeedGrid(box, joints); }) == "grid, x: 0.4 to 0.4 m; must grow");
 }
 
 TEST_CASE("a stored grid is read back bit for bit, and building is reproducible") {
