@@ -59,8 +59,7 @@ TEST_CASE("a wrong calibration is refused in a sentence") {
   calibration[2].x = std::numeric_limits<double>::quiet_NaN();
   CHECK(message_of(calibration) == "calibration, link 3: nan; must be finite");
   calibration[2].x = -425;  // in millimetres
-  CHECK(message_of(calibration) ==
-        "calibration, link 3: 425 m from the link before; must be within 1 m");
+  CHECK(message_of(calibration) == "calibration, link 3: 425 m from the link before; must be within 1 m");
 }
 
 TEST_CASE("Newton's method takes a nominal solution to the calibrated arm, or says that it did not") {

@@ -64,6 +64,7 @@ double least_squares(std::vector<double>& x, const std::vector<double>& bounds, 
     bool gained = false, settled = false;
     for (int attempt = 0; attempt < 7 && !gained && !stop(); ++attempt) {
       const Eigen::VectorXd step = detail::step_within(normal, slope, radius, stop);
+      if (!step.allFinite()) return sum;  // residuals so large that their squares overflow
       std::vector<double> next = x;
       for (Eigen::Index i = 0; i < n; ++i) {
         const std::size_t k = static_cast<std::size_t>(i);
