@@ -20,7 +20,7 @@ struct PlanTrouble {
   double from = 0, to = 0;                        ///< [s] of the motion's own time
   std::string who;                                ///< "left arm", "right arm", "both arms"
   std::string why;                                ///< one clause
-  Vector3<double> tip = Vector3<double>::Zero();  ///< of the arm in question, the first place [m, world]
+  Vector3<double> tip = Vector3<double>::Zero();  ///< of the arm in question, of both the left one's, the first place [m, world]
 };
 
 /// Whether two arms can play a motion of the tips, from rest to rest.
@@ -73,7 +73,7 @@ inline PlanCheck check_plan(const StickPlanner& planner, const TipMotion<double>
   check.worst_at = std::min(motion.begin() + plan.worst_at, motion.end());
   if (plan.fault == PlanFault::kLimits)
     trouble(motion.begin() + plan.at, "both arms", "the limits of the joints ask for too slow a play",
-            Vector3<double>::Zero());
+            motion.at(std::min(motion.begin() + plan.at, motion.end())).left);
   const StickArm &left = planner.left().arm(), &right = planner.right().arm();
   check.least_clearance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < plan.setpoints.size(); ++i) {

@@ -34,7 +34,7 @@ PAPER_NOTE = "program: the authors' program, run again on the same rows; printed
 HORIZON_NOTE = """\
 distance between predicted and recorded diabolo [m] at a time after the start, over many starts
 baseline: the diabolo rests at the lowest point of the string; intervals: of the mean, by block bootstrap
-too few starts: they overlap, and fewer than five stretches of that length stand alone"""
+too few starts: their errors are alike for so long that fewer than five stretches stand alone"""
 
 
 def add_parser(commands: Any) -> None:
