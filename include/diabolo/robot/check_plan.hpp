@@ -20,7 +20,7 @@ struct PlanTrouble {
   double from = 0, to = 0;                        ///< [s] of the motion's own time
   std::string who;                                ///< "left arm", "right arm", "both arms"
   std::string why;                                ///< one clause
-  Vector3<double> tip = Vector3<double>::Zero();  ///< of the arm in question, of both the left one's, the first place [m, world]
+  Vector3<double> tip = Vector3<double>::Zero();  ///< the first place [m, world]; of both arms the left one's
 };
 
 /// Whether two arms can play a motion of the tips, from rest to rest.
