@@ -46,6 +46,8 @@ TEST_CASE("What cannot be read or written is named") {
   CHECK(complaint([&] { read_file(here); }) == here + ": a directory; expected a file");
   CHECK(complaint([&] { read_file("/dev/zero"); }) == "/dev/zero: a device or a pipe; expected a file");
   CHECK(complaint([&] { FilesToWrite().add(here, "x"); }) == here + ": a directory; expected a file");
+  CHECK(complaint([&] { FilesToWrite().add("/dev/null", "x"); }) ==
+        "/dev/null: a device or a pipe; expected a file");
   const std::string nowhere = (folder / "nowhere/a.csv").string();
   CHECK(complaint([&] { FilesToWrite().add(nowhere, "x"); }) ==
         nowhere + ": the file cannot be written there: No such file or directory");

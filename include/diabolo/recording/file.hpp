@@ -53,11 +53,14 @@ class FilesToWrite {
     for (const Pending& file : pending_) std::filesystem::remove(file.temporary, ignored);
   }
 
-  /// Throws RecordingError where the content cannot be written (no such folder, disk full).
+  /// Throws RecordingError where the content cannot be written (no such folder, no file, disk full).
   void add(const std::filesystem::path& path, std::string_view content) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
+    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+    if (std::filesystem::is_directory(status))
       throw RecordingError(path.string() + ": a directory; expected a file");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+      throw RecordingError(path.string() + ": a device or a pipe; expected a file");
     std::filesystem::path temporary = path;
     temporary += ".tmp" + std::to_string(std::random_device()());
     File file(std::fopen(temporary.c_str(), "wbx"));
