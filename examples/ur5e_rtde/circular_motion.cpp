@@ -12,7 +12,7 @@ namespace ur5e {
 diabolo::TipPath<double> circular_motion(double seconds, double spin) {
   using namespace diabolo;
   if (!(seconds > 0 && seconds <= 600))
-    throw std::invalid_argument("seconds: " + std::to_string(seconds) + "; must be within 0 and 600");
+    throw std::invalid_argument("seconds: " + diabolo::shown(seconds) + " s; must be within 0 and 600 s");
   constexpr const char* kName = "circular_acceleration";
   EffectSet<double, StringFriction> effects;
   effects.get<StringFriction>().coefficient = 0.25;

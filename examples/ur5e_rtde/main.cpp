@@ -113,6 +113,7 @@ int run(const Options& options, const std::string& client) {
     return 0;
   }
   const diabolo::StickPlan plan = planner.start(slower);
+  if (!plan.ok()) throw std::logic_error("the plan that was checked cannot be played");
   ur5e::CellOptions cell_options{client, options.left, options.right, options.arm};
   cell_options.settings.slow_call = options.stale;
   cell_options.control.stale_after = cell_options.control.late_after = options.stale;

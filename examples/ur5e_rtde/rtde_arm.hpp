@@ -124,8 +124,8 @@ class RtdeArm : public diabolo::ArmLink {
  private:
   static void check(const char* name, double value, double low, double high) {
     if (value >= low && value <= high) return;
-    throw std::invalid_argument(std::string(name) + ": " + std::to_string(value) + "; must be within " +
-                                std::to_string(low) + " and " + std::to_string(high));
+    throw std::invalid_argument(std::string(name) + ": " + diabolo::shown(value) + "; must be within " +
+                                diabolo::shown(low) + " and " + diabolo::shown(high));
   }
 
   bool request(ArmCommand command, const diabolo::Joints<double>& joints = diabolo::Joints<double>::Zero()) {

@@ -2,7 +2,7 @@
 #pragma once
 
 // Everything that needs the standard library and Eigen only, but for the diagnosis (diagnose/diagnosis.hpp)
-// and the robot (robot/robot.hpp), which take long to compile.
+// and the robot (robot/), which take long to compile.
 #include "diabolo/batch.hpp"
 #include "diabolo/dual.hpp"
 #include "diabolo/effects/all.hpp"

@@ -7,6 +7,9 @@
 // before it is used.
 namespace diabolo::python {
 
+/// Of a function that needs no interpreter: without its lock.
+using Unlocked = pybind11::call_guard<pybind11::gil_scoped_release>;
+
 void bind_parameters(pybind11::module_& module);
 void bind_model(pybind11::module_& module);
 void bind_state(pybind11::module_& module);

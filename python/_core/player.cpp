@@ -93,7 +93,6 @@ Eigen::MatrixXd points_of(const Spline& spline, int side) {
 Array derivatives_of(const Path& path, const Array& times) {
   expect_shape(times, "times", {kAny});
   expect_finite(times, "times");
-  if (path.empty()) throw std::invalid_argument("tip path: empty");
   Array result({py::ssize_t{4}, times.shape(0), py::ssize_t{6}});
   for (py::ssize_t i = 0; i < times.shape(0); ++i) {
     const auto derivatives = path.derivatives_at(times.data()[i]);
@@ -136,6 +135,9 @@ Problem make_problem(const std::vector<Model>& models, const std::vector<State<d
   return problem;
 }
 
+/// Of a path to foresee, which takes 0.2 kB an instant [s].
+constexpr double kLongestPath = 3600.0;
+
 Budget budget_of(int evaluations, double seconds, const std::atomic<bool>& cancel) {
   if (!(seconds > 0.0)) throw std::invalid_argument("seconds: " + shown(seconds) + "; must be positive");
   if (evaluations < 1) throw std::invalid_argument("evaluations: must be positive");
@@ -160,7 +162,7 @@ Plan make_plan(const std::vector<Model>& models, const std::vector<State<double>
   return plan;
 }
 
-/// The plans of throw and catch, and the path of both.
+/// The plans of throw and catch (none where there is nothing to catch), and the path of both.
 py::tuple make_throw_and_catch(const std::vector<Model>& models, const std::vector<State<double>>& starts,
                                const Spline& seed, const Goals& goals, const TipLimits& limits,
                                const Freedom& freedom, int evaluations, double seconds, double dt) {
@@ -173,12 +175,22 @@ py::tuple make_throw_and_catch(const std::vector<Model>& models, const std::vect
 }
 
 /// What a path leads to by a model.
-py::tuple foresee(const Model& model, const State<double>& start, const Path& path, double dt,
-                  double flight) {
-  if (path.empty()) throw std::invalid_argument("tip path: empty");
+py::tuple foresee(const Model& model, const State<double>& start, const Path& path, double dt, double flight,
+                  double down_to) {
   if (!(dt >= 1e-5 && dt <= 0.1))
     throw std::invalid_argument("dt: " + shown(dt) + " s; must be within 0.00001 and 0.1 s");
-  return play_of(play(simulator(model), start, path, {.dt = dt, .flight = flight}));
+  if (!(flight >= 0.0 && flight <= 60.0))
+    throw std::invalid_argument("flight: " + shown(flight) + " s; must be within 0 and 60 s");
+  check_state("start", start);
+  if (path.end() - path.begin() > kLongestPath)
+    throw std::invalid_argument("tip path: lasts " + shown(path.end() - path.begin()) + " s; expected " +
+                                shown(kLongestPath) + " s at most");
+  Play<double> seen;
+  {
+    const py::gil_scoped_release free;
+    seen = play(simulator(model), start, path, {.dt = dt, .flight = flight, .down_to = down_to});
+  }
+  return play_of(seen);
 }
 
 /// The paper's residual of a path, for solvers of one's own; infinite where it breaks a limit.
@@ -243,7 +255,9 @@ void bind_path(py::module_& module) {
             path.append(next);
             return path;
           },
-          "next"_a, "This path and then another one, moved in time to this one's end.");
+          "next"_a,
+          "This path and then another one, moved in time to this one's end, where their tips and velocities "
+          "must meet.");
 }
 
 void bind_limits(py::module_& module) {
@@ -293,7 +307,7 @@ robot's.)")
       .def_readonly("least_gap", &TipLimits::least_gap)
       .def_readonly("lowest", &TipLimits::lowest)
       .def_readonly("highest", &TipLimits::highest);
-  module.def("limit_uses", &limit_uses, "path"_a, "limits"_a, "string_length"_a,
+  module.def("limit_uses", &limit_uses, "path"_a, "limits"_a, "string_length"_a, Unlocked(),
              "How much a path uses of each limit, from its exact maxima.");
   py::class_<Freedom>(module, "Freedom",
                       "What a solver may change of a seed: x too, durations, the last point; up to a reach "
@@ -323,6 +337,7 @@ directions, unit vectors, likewise, zero where not known; StickFlex alone looks 
       .def_property_readonly("times", &times_of)
       .def_property_readonly("left", [](const Spline& s) { return points_of(s, 0); })
       .def_property_readonly("right", [](const Spline& s) { return points_of(s, 1); })
+      .def_readonly("sticks", &Spline::sticks)
       .def("path", &path_of<double>, "The TipPath through the points.");
   py::class_<Action>(module, "Action", "A figure of play: seed motion, freedom and goals.")
       .def_readonly("name", &Action::name)
@@ -383,12 +398,16 @@ void bind_plans(py::module_& module) {
           "end", [](const Plan& plan) { return plan.play.end().state; }, "State at the end of the motion.");
   module.def("plan", &make_plan, "models"_a, "starts"_a, "seed"_a, "goals"_a, "limits"_a, "freedom"_a,
              "solver"_a, "evaluations"_a, "seconds"_a, "random_seed"_a, "dt"_a, "See diabolo.plan.");
+  module.def("plan_throw_and_catch", &make_throw_and_catch, "models"_a, "starts"_a, "seed"_a, "goals"_a,
+             "limits"_a, "freedom"_a, "evaluations"_a, "seconds"_a, "dt"_a,
+             "Plans of a throw and of the catch that follows, None where there is nothing to catch; the path "
+             "of both, "
+             "and whether both are reached.");
   module.def(
-      "plan_throw_and_catch", &make_throw_and_catch, "models"_a, "starts"_a, "seed"_a, "goals"_a, "limits"_a,
-      "freedom"_a, "evaluations"_a, "seconds"_a, "dt"_a,
-      "Plans of a throw and of the catch that follows, the path of both, and whether both are reached.");
-  module.def("foresee", &foresee, "model"_a, "start"_a, "path"_a, "dt"_a = 1e-3, "flight"_a = 0.0,
-             "What a path leads to by a model: times, states (N, 7), string states, left and right tips.");
+      "foresee", &foresee, "model"_a, "start"_a, "path"_a, "dt"_a = 1e-3, "flight"_a = 0.0,
+      "down_to"_a = -TipLimits::kNone,
+      "What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight "
+      "at its end is followed for `flight` seconds, or until it falls through the height `down_to`.");
   module.def("plan_cost", &cost, "models"_a, "start"_a, "motion"_a, "goals"_a, "limits"_a, "dt"_a = 4e-3,
              "The paper's residual of a motion; infinite where it breaks a limit.");
   py::class_<Seam>(module, "Seam", "Where a new piece of motion sets in.")
@@ -419,8 +438,8 @@ void bind_plans(py::module_& module) {
       .def_property_readonly("path", &FullHorizon::path)
       .def("observe", &FullHorizon::observe, "time"_a, "state"_a,
            "Takes over an observed state; predictions begin with the latest one.")
-      .def("seam", &FullHorizon::seam, "now"_a)
-      .def("seam_at", &FullHorizon::seam_at, "time"_a)
+      .def("seam", &FullHorizon::seam, "now"_a, Unlocked())
+      .def("seam_at", &FullHorizon::seam_at, "time"_a, Unlocked())
       .def("join", &FullHorizon::join, "seam"_a, "plan"_a, "now"_a, "planning_time"_a);
 }
 

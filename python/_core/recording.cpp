@@ -23,7 +23,6 @@ namespace diabolo::python {
 namespace {
 
 using namespace py::literals;
-using Unlocked = py::call_guard<py::gil_scoped_release>;
 
 /// A read-only view of numbers that `owner` keeps.
 template <class T>
@@ -178,6 +177,16 @@ void bind_motive(py::module_& module) {
       .def_readonly("bodies", &MotiveTake::bodies, "List of MotiveBody.");
 }
 
+void bind_text(py::module_& module) {
+  module.def(
+      "read_text",
+      [](const std::filesystem::path& path) {
+        const std::string text = read_file(path);
+        return std::string(utf8_text(text, path.string()));
+      },
+      "path"_a, "A text file in UTF-8, without its byte order mark. Raises RecordingError.");
+}
+
 void bind_properties(py::module_& module) {
   using Properties = DiaboloProperties;
   const auto make_properties = [](double mass, double diameter, double length, double axle_radius) {
@@ -221,6 +230,7 @@ void bind_calibration(py::module_& module) {
 void bind_recording(py::module_& module) {
   py::register_exception<RecordingError>(module, "RecordingError", PyExc_ValueError).attr("__doc__") =
       "What is wrong with a recording, a calibration or one of their files.";
+  bind_text(module);
   bind_properties(module);
   bind_calibration(module);
   bind_motive(module);

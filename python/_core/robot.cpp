@@ -22,7 +22,6 @@ namespace diabolo::python {
 namespace {
 
 using namespace py::literals;
-using Unlocked = py::call_guard<py::gil_scoped_release>;
 
 Side to_side(const std::string& name) {
   if (name == "left") return Side::kLeft;
@@ -64,7 +63,9 @@ Array map_rows(const Array& given, const std::string& name, const std::vector<py
   Array result(shape);
   const double* from = given.data();
   double* to = result.mutable_data();
-  for (py::ssize_t i = 0; i < given.size() / columns; ++i, from += columns, to += size)
+  const py::ssize_t rows = given.size() / columns;
+  const py::gil_scoped_release unlocked;
+  for (py::ssize_t i = 0; i < rows; ++i, from += columns, to += size)
     write(Eigen::Map<const Eigen::Matrix<double, columns, 1>>(from), to);
   return result;
 }
@@ -117,8 +118,13 @@ Array inverse_of_arm(const StickArm& arm, const Array& flange, const Array& seed
 IkSeedGrid build_grid(const StickArm& arm, const py::object& lower, const py::object& upper,
                       const std::array<int, 3>& knots) {
   GridBox box = paper_box(arm);
-  if (!lower.is_none()) box.lower = to_vector3(lower.cast<Array>(), "lower");
-  if (!upper.is_none()) box.upper = to_vector3(upper.cast<Array>(), "upper");
+  const auto corner = [](const py::object& given, const std::string& name) {
+    const Array array = Array::ensure(given);
+    if (!array) throw std::invalid_argument(name + ": not of numbers; expected the shape (3,)");
+    return to_vector3(array, name);
+  };
+  if (!lower.is_none()) box.lower = corner(lower, "lower");
+  if (!upper.is_none()) box.upper = corner(upper, "upper");
   box.knots = knots;
   const py::gil_scoped_release unlocked;
   return build_seed_grid(arm, box);
@@ -168,8 +174,10 @@ py::tuple limit(const Array& joints, double speed, double acceleration, double j
     std::copy_n(from, 2 * kJointCount, point.data());
     from += 2 * kJointCount;
   }
-  const LimitedMotion motion =
-      keep_limits(JointPath(std::move(points)), to_limits(speed, acceleration, jerk));
+  const LimitedMotion motion = [&] {
+    const py::gil_scoped_release unlocked;
+    return keep_limits(JointPath(std::move(points)), to_limits(speed, acceleration, jerk));
+  }();
   if (!motion.within)
     throw std::invalid_argument(
         "joints: no play a hundred times slower keeps the limits; the path has a corner");

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
+__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1722,7 +1722,7 @@ class TipPath:
         """
     def followed_by(self, next: TipPath) -> TipPath:
         """
-        This path and then another one, moved in time to this one's end.
+        This path and then another one, moved in time to this one's end, where their tips and velocities must meet.
         """
     def tips(self, interval: typing.SupportsFloat | typing.SupportsIndex = 0.002) -> TipMotion:
         """
@@ -1834,6 +1834,9 @@ class StickSpline:
         ...
     @property
     def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def sticks(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]:
         ...
     @property
     def times(self) -> list[float]:
@@ -2097,9 +2100,9 @@ def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdo
     """
     See diabolo.diagnose.
     """
-def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> tuple:
+def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0, down_to: typing.SupportsFloat | typing.SupportsIndex = ...) -> tuple:
     """
-    What a path leads to by a model: times, states (N, 7), string states, left and right tips.
+    What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`.
     """
 def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: typing.SupportsFloat | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> State:
     """
@@ -2139,11 +2142,15 @@ def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: Sti
     """
 def plan_throw_and_catch(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
     """
-    Plans of a throw and of the catch that follows, the path of both, and whether both are reached.
+    Plans of a throw and of the catch that follows, None where there is nothing to catch; the path of both, and whether both are reached.
     """
 def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
     """
     See diabolo.predict.
+    """
+def read_text(path: os.PathLike | str | bytes) -> str:
+    """
+    A text file in UTF-8, without its byte order mark. Raises RecordingError.
     """
 def recorded_plan(recording: Recording) -> TipMotion:
     """
@@ -2177,5 +2184,5 @@ def ur5e_inverse(flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]
     """
     Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4).
     """
-ACTION_NAMES: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'catch', 'stop')
+ACTION_NAMES: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'stop')
 __version__: str = '0.1.0'

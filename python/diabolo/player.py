@@ -31,10 +31,11 @@ from .enums import StringState
 AnyModel: TypeAlias = Model | Parameters | str
 Solver: TypeAlias = Literal["gradient", "walk"]
 
-ACTIONS: tuple[str, ...] = (*(name for name in ACTION_NAMES if name != "catch"), "throw_and_catch")
+ACTIONS: tuple[str, ...] = (*ACTION_NAMES, "throw_and_catch")
 """What `plan_action` knows."""
 MOST_CYCLES = 1000
 LONGEST_SEARCH = 1e6  # [s]
+LONGEST_FLIGHT = 10.0  # that a play shows after its end; it ends at the height of the hands [s]
 WANTED = {
     "height": ("hop", "throw", "side_throw", "throw_and_catch"),
     "sideways": ("swing", "side_throw", "throw_and_catch"),
@@ -43,6 +44,7 @@ WANTED = {
 """What may be wanted of which action."""
 GUESSED = ("string_length", "air_drag_quadratic", "magnus_lift")
 """What `best_guess` takes from a diagnosis."""
+LARGEST_FOUND = 1e6
 
 
 class PlannedPlay(NamedTuple):
@@ -52,7 +54,7 @@ class PlannedPlay(NamedTuple):
     path: TipPath
     """Of the tips."""
     plans: list[Plan]
-    """One a cycle; of a throw and catch, two."""
+    """One a cycle; of a throw and catch, two, or one where there is nothing to catch."""
     wanted: list[Goals]
     """The goals of the first cycle."""
     start: State
@@ -144,7 +146,8 @@ def plan_action(
 
     name: one of ACTIONS.
     start: of the diabolo; by default it hangs with the given spin [rad/s], see `hanging`.
-    cycles: so many in a row, each planned from the predicted end of the one before.
+    cycles: so many in a row, each planned from the predicted end of the one before, where position, velocity
+        and acceleration of the tips go on; fewer where a throw leaves nothing to catch.
     size, pace: of the seed's hands, relative to the usual ones.
     height: of a throw's apex above the tips, or of a hop [m]; sideways: how far to the left a swing goes or a
     throw comes down [m]; spin_gain: wanted of each cycle of acceleration [rad/s] (needs a model with string
@@ -196,11 +199,12 @@ def plan_action(
             sticks=_directions(sticks),
         )
         wanted = wanted or [action.goals]
+        seed = action.seed if path is None else _going_on(action.seed, path)
         if catches:
             thrown, caught, piece, _ = _core.plan_throw_and_catch(
                 models,
                 states_now,
-                action.seed,
+                seed,
                 action.goals,
                 limits,
                 action.freedom,
@@ -208,13 +212,12 @@ def plan_action(
                 min(seconds, LONGEST_SEARCH),
                 dt,
             )
-            has_flown = thrown.end.string_state == StringState.FLYING
-            plans += [thrown, caught] if has_flown else [thrown]
+            plans += [thrown] if caught is None else [thrown, caught]
         else:
             plans.append(
                 plan(
                     states_now,
-                    action.seed,
+                    seed,
                     action.goals,
                     models,
                     limits=limits,
@@ -227,11 +230,15 @@ def plan_action(
             )
             piece = plans[-1].path
         path = piece if path is None else path.followed_by(piece)
+        if catches and caught is None:
+            break
         states_now = [_end(one, now, piece) for one, now in zip(models, states_now, strict=True)]
     assert path is not None
     took = time.perf_counter() - began
-    flight = 0.8 if figure in ("throw", "side_throw") and not catches else 0.0
-    time_s, states, codes, lefts, rights = _core.foresee(models[0], initials[0], path, flight=flight)
+    hands = float(path.derivatives(np.array([path.end]))[0, 0, [2, 5]].mean())
+    time_s, states, codes, lefts, rights = _core.foresee(
+        models[0], initials[0], path, flight=0.0 if catches else LONGEST_FLIGHT, down_to=hands
+    )
     return PlannedPlay(name, path, plans, wanted, initials[0], time_s, states, codes, lefts, rights, took)
 
 
@@ -327,13 +334,22 @@ def _rungs(result: Mapping[str, Any]) -> list[dict[str, Any]]:
             raise ValueError(f"ladder[{index}]: {rung!r:.60}; expected a candidate with name and claimed")
         for field in ("z", "estimate") if rung["name"] in GUESSED else ():
             value = rung.get(field)
-            if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
-                raise ValueError(f"ladder[{index}], {field}: {value!r:.60}; expected a finite number")
+            number = isinstance(value, int | float) and not isinstance(value, bool)
+            if not number or not abs(value) <= LARGEST_FOUND:
+                raise ValueError(
+                    f"ladder[{index}], {field}: {value!r:.60}; expected a number of at most {LARGEST_FOUND:g}"
+                )
     return ladder
 
 
 def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:
     return np.zeros(6) if sticks is None else np.asarray(sticks, dtype=float)
+
+
+def _going_on(seed: StickSpline, path: TipPath) -> StickSpline:
+    """A seed that sets in where a path ends, with its velocity and acceleration."""
+    _, velocity, acceleration, _ = path.derivatives(np.array([path.end]))[:, 0]
+    return StickSpline(seed.times, seed.left, seed.right, start=(velocity, acceleration), sticks=seed.sticks)
 
 
 def _end(model: Model, start: State, path: TipPath) -> State:

@@ -101,13 +101,16 @@ TEST_CASE("between instants the smooth cost finds the closest approach") {
 TEST_CASE("a flight's apex and landing follow from the throw, before and after its apex") {
   for (const double speed : {3.0, -1.0}) {
     Play<double> play =
-        through({{0.0, 0.1, 1.0}, {0.0, 0.1, 1.2}}, {{0.0, 0.5, 4.0}, {0.2, 0.5, speed}}, 0.01);
-    play.instants.back().state.string_state = StringState::kFlying;
+        through({{0.0, 0.1, 1.0}, {0.0, 0.1, 1.25}, {0.0, 0.1, 1.2}},
+                {{0.0, 0.5, 4.0}, {0.0, 0.5, speed > 0.0 ? 4.0 : 0.3}, {0.2, 0.5, speed}}, 0.01);
+    for (std::size_t i : {1u, 2u}) play.instants[i].state.string_state = StringState::kFlying;
     Goals goals;
     goals.apex = Target{0.4};
     goals.landing = Landing{{0.0, 0.3, 1.0}};
     const auto sizes = by_name(goal_errors(play, goals, kParameters, false));
-    const double apex = 0.2 + speed * std::abs(speed) / (2.0 * play.gravity);
+    // From the last instant of the flight on the way up: the last, or the one before.
+    const double apex =
+        speed > 0.0 ? 0.2 + speed * speed / (2.0 * play.gravity) : 0.25 + 0.3 * 0.3 / (2.0 * play.gravity);
     CHECK(sizes.at("apex") == Approx(std::abs(apex - 0.4)));
     const double time = (speed + std::sqrt(speed * speed + 2.0 * play.gravity * 0.2)) / play.gravity;
     CHECK(sizes.at("landing") == Approx(std::hypot(0.2 * time, 0.1 + 0.5 * time - 0.3)));
@@ -115,6 +118,22 @@ TEST_CASE("a flight's apex and landing follow from the throw, before and after i
     play.instants.back().state.string_state = StringState::kOnString;
     CHECK_FALSE(goal_errors(play, goals, kParameters, false)[0].held);
   }
+}
+
+TEST_CASE("what was caught in a step counts as caught where it fell") {
+  // The step ends just above the plane of the tips: by how little is the step's own affair.
+  Play<double> play =
+      through({{0.0, 0.02, 1.001}, {0.0, 0.02, 1.0001}}, {{0.0, 0.0, -0.9}, Vector::Zero()}, 1e-3);
+  play.instants[0].state.string_state = StringState::kFlying;
+  play.instants[1].caught = true;
+  Goals goals;
+  goals.caught = 1.0;
+  const std::vector<GoalError<double>> errors = goal_errors(play, goals, kParameters, false);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].held);
+  REQUIRE(errors[0].parts.size() == 5);
+  CHECK(errors[0].parts[1] == 0.0);  // along the string counts for itself
+  CHECK(errors[0].parts[3] == Approx(0.3 * 0.02));
 }
 
 TEST_CASE("slack counts by its share of the time") {
@@ -135,13 +154,23 @@ TEST_CASE("goals that make no sense are refused in a sentence") {
   goals.taut = 1.0;
   CHECK_THROWS_WITH(goals.validate(), Contains("cannot keep the string taut"));
   goals.taut.reset();
-  goals.apex->value = NAN;
-  CHECK_THROWS_WITH(goals.validate(), Contains("apex"));
+  for (const double height : {0.05, 1e300, static_cast<double>(NAN)}) {
+    goals.apex->value = height;
+    CHECK_THROWS_WITH(goals.validate(), Contains("m above the tips; must be above 0.05"));
+  }
   goals.apex.reset();
   goals.waypoints = {Waypoint{}};
   goals.waypoints[0].velocity_weight = -1.0;
   CHECK_THROWS_WITH(goals.validate(), Contains("waypoint 0: a weight of -1"));
+  goals.waypoints[0].velocity_weight = 0.0;
+  goals.waypoints[0].direction_weight = 1.0;
+  CHECK_THROWS_WITH(goals.validate(), Contains("a direction counts, but its velocity is zero"));
+  goals.waypoints[0].direction_weight = goals.waypoints[0].position_weight = 0.0;
+  CHECK_THROWS_WITH(goals.validate(), Contains("all of its weights are zero"));
   goals.waypoints.clear();
+  goals.spin = Target{1e308};
+  CHECK_THROWS_WITH(goals.validate(), Contains("spin goal: 1e+308 rad/s; expected 10000 rad/s at most"));
+  goals.spin.reset();
   goals.taut = NAN;
   CHECK_THROWS_WITH(goals.validate(), Contains("taut goal: a weight of nan"));
 }

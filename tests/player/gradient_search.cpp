@@ -106,10 +106,38 @@ TEST_CASE("an impossible goal ends in a plan within the limits that names what b
   CHECK(keeps_all(plan));
   CHECK_THAT(plan.answer, Contains("apex is missed by") && Contains("what binds") && Contains("tip speed"));
   problem.limits.speed = 1e-9;  // next to nothing of the seed is left
-  CHECK_THAT(GradientSearch{}(problem, {}).answer, Contains("what binds") && Contains("tip speed"));
+  CHECK_THAT(GradientSearch{}(problem, {}).answer, Contains("made smaller for: left tip speed"));
   problem.limits.speed = 1.5;
   problem.limits.highest.z() = 1.2;
   CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("left tip z, highest, 1.2 m"));
+}
+
+TEST_CASE("limits that the seed broke, but the plan is far from, are told apart from those that bind") {
+  const LimitUse near{"speed", 3.9, 4.0, "m/s", 0.5, -0.025},
+      far{"acceleration", 20.0, 60.0, "m/s^2", 0.2, -0.67},
+      broken{"acceleration", 80.0, 60.0, "m/s^2", 0.2, 0.33}, unused{"jerk", 1.0, 9.0, "m/s^3", 0.0, -0.9};
+  CHECK(detail::binding_limits({near, far, unused}, {{near, broken, unused}}) ==
+        "; what binds: speed (3.9 of 4 m/s at 0.5 s); made smaller for: acceleration (20 of 60 m/s^2 at 0.2 "
+        "s)");
+  CHECK(detail::binding_limits({far, unused}, {{far, unused}}).empty());
+}
+
+TEST_CASE("the random walk stays within its reach of the seed") {
+  PlanProblem<> problem = problem_of("throw");
+  problem.freedom.reach = 0.02;
+  std::mt19937_64 generator(8401);
+  const Plan plan = RandomWalk{}(problem, {.evaluations = 400}, generator);
+  for (std::size_t i = 0; i < plan.motion.points.size(); ++i)
+    CHECK((plan.motion.points[i] - problem.seed.points[i]).cwiseAbs().maxCoeff() <= 0.02 + 1e-12);
+}
+
+TEST_CASE("a model that predicts no numbers is told, and no plan is made of them") {
+  PlanProblem<> problem = problem_of("throw");
+  problem.goals.apex->value = 0.5;
+  Parameters<double> parameters = Parameters<double>::consistent();
+  parameters.gravity = 0.0;
+  problem.models = {Predictor<double>(parameters)};
+  CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("a gravity of 0 m/s^2; expected 0.1 m/s^2"));
 }
 
 TEST_CASE("limits from elsewhere are kept, and the search finds its way around them") {
@@ -176,7 +204,7 @@ TEST_CASE("a diabolo that is elsewhere than on its string, or too fast, is refus
   CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("expected 100 m/s at most"));
   problem = problem_of("throw");
   problem.start.spin = -1e300;
-  CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("spin of -1e+300 rad/s"));
+  CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("spin: -1e+300 rad/s"));
 }
 
 TEST_CASE("a plan for several models serves the worst of them better than the nominal plan does") {

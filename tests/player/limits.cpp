@@ -40,6 +40,28 @@ TEST_CASE("the maximum of a polynomial lies above all its values, by no more tha
   CHECK(maximum_on_unit_interval(std::array<double, 3>{2.0, 0.0, 0.0}, 1e-9).value == 2.0);
 }
 
+TEST_CASE("numbers too large for a maximum end its search, above all values") {
+  CHECK(maximum_on_unit_interval(std::array<double, 3>{1.0, NAN, 0.0}, 1e-9).value == INFINITY);
+  CHECK(maximum_on_unit_interval(std::array<double, 3>{1.7e308, 1.7e308, 0.0}, 1e-9).value == INFINITY);
+  // Flat, but for rounding far above the tolerance: no reason to look at every last bit of the interval.
+  const PolynomialMaximum flat =
+      maximum_on_unit_interval(std::array<double, 5>{1e20, -3e4, 4e4, 2e4, -3e4}, 1e-10);
+  CHECK(flat.value >= 1e20);
+  CHECK(flat.value <= 1.000001e20);
+}
+
+TEST_CASE("limits from elsewhere must be numbers") {
+  Random random(8205);
+  const TipPath<double> path = path_of(random_spline(random, SplineEnds::kClamped));
+  TipLimits limits;
+  limits.others = [](const TipPath<double>&) {
+    return std::vector<LimitUse>{{"elbow", NAN, 1.0, "rad", 0.0, -0.5}};
+  };
+  CHECK_THROWS_WITH(limit_uses(path, limits, kLength), "limits, elbow: its value is not a number");
+  limits.string_margin = INFINITY;
+  CHECK_THROWS_WITH(limits.validate(), "limits, string_margin: inf m; must be finite and not negative");
+}
+
 TEST_CASE("what a path uses of its limits is the maximum over dense samples") {
   Random random(8201);
   const TipLimits limits;

@@ -116,7 +116,9 @@ TEST_CASE("the tips of a path know where the sticks point, in its samples and af
   StickSpline<double> spline = random_spline(random, SplineEnds::kClamped);
   spline.sticks << 0.6, 0.0, 0.8, 0.8, 0.0, 0.6;
   TipPath<double> path = path_of(spline);
-  path.append(path_of(random_spline(random, SplineEnds::kClamped)));  // of one that does not know
+  StickSpline<double> next = random_spline(random, SplineEnds::kClamped);  // of one that does not know
+  next.points.front() = spline.points.back();
+  path.append(path_of(next));
   for (const double time : {path.begin() - 1.0, path.begin(), path.begin() + 0.3}) {
     CHECK((path.at(time).left_direction - Vector3<double>(0.6, 0.0, 0.8)).norm() == 0.0);
     CHECK((path.at(time).right_direction - Vector3<double>(0.8, 0.0, 0.6)).norm() == 0.0);
@@ -134,8 +136,35 @@ TEST_CASE("a spline that is none is refused in a sentence") {
   CHECK_THROWS_WITH(path_of(spline), Contains("a loop must end in its first point"));
   spline.ends = SplineEnds::kClamped;
   spline.durations[2] = 0.0;
-  CHECK_THROWS_WITH(path_of(spline), Contains("duration 2: 0 s; must be positive"));
+  CHECK_THROWS_WITH(path_of(spline), Contains("duration 2: 0 s; must be within 1e-06 and"));
   spline.durations.pop_back();
   CHECK_THROWS_WITH(path_of(spline), Contains("6 points and 4 durations"));
-  CHECK_THROWS_WITH(sampled(TipPath<double>(), 0.01), Contains("empty"));
+  spline = random_spline(random, SplineEnds::kClamped);
+  spline.points[3][1] = 1e200;
+  CHECK_THROWS_WITH(path_of(spline), Contains("point 3: 1e+200 m; expected 1000 m at most"));
+}
+
+TEST_CASE("paths go on where they meet only") {
+  Random random(8107);
+  const StickSpline<double> spline = random_spline(random, SplineEnds::kClamped);
+  StickSpline<double> next = random_spline(random, SplineEnds::kClamped);
+  next.points.front() = spline.points.back();
+  TipPath<double> path = path_of(spline);
+  path.append(path_of(next));
+  CHECK(path.end() == Approx(spline.end() + next.end() - next.begin));
+  CHECK_THROWS_WITH(path.append(path_of(spline)), Contains("what follows begins elsewhere"));
+  next.points.front() = next.points.back();
+  next.start = SplineStart<double>{TipColumn<double>::Constant(0.1), TipColumn<double>::Zero()};
+  CHECK_THROWS_WITH(path.append(path_of(next)), Contains("moves otherwise"));
+  CHECK(path.end() == Approx(spline.end() + next.end() - next.begin));  // as it was
+}
+
+TEST_CASE("a path without pieces has no ends and no tips, and says so") {
+  const TipPath<double> none;
+  CHECK(none.empty());
+  CHECK_THROWS_WITH(none.begin(), "tip path: empty");
+  CHECK_THROWS_WITH(none.end(), "tip path: empty");
+  CHECK_THROWS_WITH(none.at(0.0), "tip path: empty");
+  CHECK_THROWS_WITH(none.derivatives_at(0.0), "tip path: empty");
+  CHECK_THROWS_WITH(sampled(none, 0.01), "tip path: empty");
 }

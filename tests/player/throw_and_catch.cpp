@@ -27,7 +27,8 @@ TEST_CASE("a throw is caught again and hangs at rest, on one smooth path") {
   for (const char* name : {"throw", "side_throw"}) {
     const PlanProblem<> problem = throwing(name, 0.6);
     const ThrowAndCatch both = plan_throw_and_catch(problem, GradientSearch{}, {});
-    INFO(name << ": " << both.thrown.answer << "; " << both.caught.answer);
+    REQUIRE(both.caught);
+    INFO(name << ": " << both.thrown.answer << "; " << both.caught->answer);
     CHECK(both.reached);
     CHECK(largest_jump(both.path) < 1e-8);
     CHECK(keeps(both.path, problem.limits, kLength));
@@ -65,7 +66,8 @@ TEST_CASE("a plan for several models catches every flight among theirs, and one 
   CHECK(lost(plan_throw_and_catch(problem, GradientSearch{}, {}).path) > 0);
   problem.models = {model_of(9.8, kLength), model_of(9.5, kLength - 0.003), model_of(10.1, kLength + 0.003)};
   const ThrowAndCatch robust = plan_throw_and_catch(problem, GradientSearch{}, {});
-  INFO(robust.thrown.answer << "; " << robust.caught.answer);
+  REQUIRE(robust.caught);
+  INFO(robust.thrown.answer << "; " << robust.caught->answer);
   CHECK(lost(robust.path) == 0);
   CHECK(keeps(robust.path, problem.limits, kLength - 0.003));
 }
@@ -80,6 +82,17 @@ TEST_CASE("each model may begin in a state of its own, and there is one for each
   CHECK(problem.cost(path, 4e-3, false) == Approx(throwing("throw", 0.6).cost(path, 4e-3, false)));
   problem.starts[1].position.y() += 0.1;
   CHECK(problem.cost(path, 4e-3, false) > throwing("throw", 0.6).cost(path, 4e-3, false) + 1e-3);
+}
+
+TEST_CASE("a throw that comes down too soon to be caught is the closest plan, and says so") {
+  PlanProblem<> problem = throwing("throw", 0.06);
+  problem.limits.speed = 1.35;
+  const ThrowAndCatch both = plan_throw_and_catch(problem, GradientSearch{}, {});
+  INFO(both.thrown.answer);
+  CHECK_FALSE(both.caught);
+  CHECK_FALSE(both.reached);
+  CHECK_FALSE(both.thrown.reached);
+  CHECK(both.path.end() == both.thrown.path.end());
 }
 
 TEST_CASE("what does not fly is not caught") {
@@ -130,6 +143,25 @@ TEST_CASE("a plan that comes too late changes nothing, and the tips end at rest"
   CHECK(horizon.path().at(100.0).left_velocity.norm() == 0.0);
 }
 
+TEST_CASE("a plan may set in where the horizon begins, and must end at rest") {
+  const TipColumn<double> home = home_pose("swing", kLength);
+  const State<double> hanging = hanging_state(home, kLength, 100.0);
+  Horizon<> horizon(kModel, home, hanging, 0.0);
+  const Seam seam = horizon.seam_at(0.0);
+  const Action action = action_named("swing", home, seam.state, kLength, {});
+  Plan plan;
+  plan.motion = joined_at(seam, action.seed);
+  plan.path = path_of(plan.motion);
+  CHECK(horizon.join(seam, plan, 0.0, 0.0));
+  CHECK(horizon.path().begin() == 0.0);
+  CHECK(horizon.path().end() == Approx(plan.path.end()));
+  const Seam later = horizon.seam_at(0.3);
+  plan.path = path_of(joined_at(later, action.seed)).until(0.8);
+  CHECK_THROWS_WITH(horizon.join(later, plan, 0.2, 0.0), Contains("does not end at rest"));
+  plan.path = TipPath<double>();
+  CHECK_THROWS_WITH(horizon.join(later, plan, 0.2, 0.0), "tip path: empty");
+}
+
 TEST_CASE("an observed state takes the place of the predicted one") {
   const TipColumn<double> home = home_pose("swing", kLength);
   Horizon<> horizon(kModel, home, hanging_state(home, kLength, 100.0), 0.0);
@@ -141,5 +173,5 @@ TEST_CASE("an observed state takes the place of the predicted one") {
   CHECK(horizon.seam_at(1.2).state.position.y() > 0.05);
   CHECK_THROWS_WITH(horizon.observe(0.5, seen), Contains("before the last one"));
   seen.spin = NAN;
-  CHECK_THROWS_WITH(horizon.observe(2.0, seen), Contains("finite"));
+  CHECK_THROWS_WITH(horizon.observe(2.0, seen), Contains("spin: nan rad/s; expected"));
 }

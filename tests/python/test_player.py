@@ -114,6 +114,77 @@ def test_best_guess_counts_what_was_too_unsure_to_be_claimed() -> None:
     assert both.air.quadratic_drag == 0.0
 
 
+def test_cycles_go_on_smoothly_and_keep_the_limits_as_a_whole() -> None:
+    limits = TipLimits(jerk=6000.0)
+    for name in ("stop", "hop", "throw_and_catch"):
+        play = diabolo.plan_action(name, cycles=3, limits=limits)
+        assert play.reached, play.answer
+        assert len(play.plans) == (6 if name == "throw_and_catch" else 3)
+        assert max(use.excess for use in diabolo._core.limit_uses(play.path, limits, LENGTH)) <= 0.0
+        first = play.plans[0].path
+        seam = first.end - first.begin
+        before, after = play.path.derivatives(np.array([seam - 1e-7, seam + 1e-7])).transpose(1, 0, 2)
+        assert np.abs(before[:3] - after[:3]).max() < 5e-3  # of the jerk, 2e-7 s long
+
+
+def test_cycles_end_with_a_throw_that_leaves_nothing_to_catch() -> None:
+    play = diabolo.plan_action("throw_and_catch", cycles=2, limits=TipLimits(speed=0.3))
+    assert not play.reached
+    assert len(play.plans) == 1
+    assert "what binds: left tip speed" in play.answer
+    low = diabolo.plan_action("throw_and_catch", height=0.06)
+    assert not low.reached
+    assert "time to catch is missed" in low.answer
+
+
+def test_a_flight_is_shown_until_it_comes_down_to_the_hands() -> None:
+    play = diabolo.plan_action("throw", height=1.0)
+    hands = play.path.derivatives(np.array([play.path.end]))[0, 0, [2, 5]].mean()
+    assert play.states[-1, 2] <= hands < play.states[-2, 2]
+    fall = play.time[-1] - play.time[play.states[:, 2].argmax()]
+    assert fall == pytest.approx(math.sqrt(2.0 * 1.0 / 9.8), rel=0.02)
+
+
+def test_paths_go_on_where_they_meet_only() -> None:
+    _, seed = swing()
+    path = seed.path()
+    assert path.followed_by(path).end == pytest.approx(2.0 * path.end)
+    higher = StickSpline(seed.times, np.add(seed.left, [0.0, 0.0, 0.1]), seed.right).path()
+    with pytest.raises(ValueError, match="what follows begins elsewhere"):
+        path.followed_by(higher)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('{"schema": 1, "schema": 2}', "a field is there twice"),
+        ('{"ladder": [' + "9" * 400 + "]}", "expected a file of the schema"),
+        ("", "the file is empty"),
+        ("{", "no JSON"),
+        ("[" * 100000, "no JSON"),
+        ("\xff", "belongs to another encoding"),
+    ],
+)
+def test_wrong_diagnoses_are_refused(command: Command, tmp_path: Path, text: str, said: str) -> None:
+    file = tmp_path / "wrong.json"
+    file.write_bytes(text.encode("latin-1"))
+    done = command("plan", "hop", "--diagnosis", str(file))
+    assert done.returncode == 2
+    assert str(file) in done.stderr and said in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_numbers_of_a_diagnosis_that_are_none_are_named(command: Command, tmp_path: Path) -> None:
+    rung = {"name": "air_drag_quadratic", "claimed": False, "estimate": 0.1, "z": 1e200}
+    file = tmp_path / "d.json"
+    file.write_text(json.dumps({"schema": "diabolo.diagnosis/1", "ladder": [rung]}))
+    done = command("plan", "hop", "--diagnosis", str(file))
+    assert done.returncode == 2
+    assert "ladder[0], z: 1e+200; expected a number of at most 1e+06" in done.stderr
+    done = command("plan", "hop", "--diagnosis", "/dev/zero")
+    assert done.returncode == 2 and "a device or a pipe" in done.stderr
+
+
 def test_sticks_give_only_square_to_their_directions() -> None:
     model = Model(stick_flex=diabolo.StickFlex(compliance=1.0 / 300.0, damping=3.0))
     along_the_pull = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0]
@@ -214,9 +285,9 @@ def test_horizon_joins_pieces() -> None:
         horizon.join(seam, piece, math.nan, 0.02)
     with pytest.raises(ValueError, match="more than 600 s"):
         horizon.seam_at(1e6)
-    with pytest.raises(ValueError, match="at no time"):
+    with pytest.raises(ValueError, match="time of the observation: inf s"):
         horizon.observe(math.inf, start)
-    with pytest.raises(ValueError, match="tips and the time"):
+    with pytest.raises(ValueError, match="the tips: nan m"):
         diabolo.Horizon(Model(Parameters()), [math.nan] * 3, right, start)
 
 
@@ -262,14 +333,14 @@ def test_bad_input_is_refused_in_a_sentence() -> None:
         diabolo.plan_action("somersault")
     with pytest.raises(ValueError, match=r"speed: -1; expected"):
         TipLimits(speed=-1.0)
-    with pytest.raises(ValueError, match=r"start is not finite"):
+    with pytest.raises(ValueError, match=r"velocity of its start: nan m/s"):
         StickSpline(
             [0.0, 1.0], [[0.0, 0.3, 1.0]] * 2, [[0.0, -0.3, 1.0]] * 2, start=([math.nan] * 6, [0.0] * 6)
         )
     with pytest.raises(ValueError, match="interval"):
         seed.path().tips(1e-9)
     nothing = diabolo.LimitUse("mine", math.nan, 1.0, "m", 0.0, math.nan)
-    with pytest.raises(ValueError, match="mine: its excess is not a number"):
+    with pytest.raises(ValueError, match="mine: its value is not a number"):
         diabolo.plan(start, seed, Goals(taut=1.0), limits=TipLimits(others=lambda path: [nothing]))
     with pytest.raises(ValueError, match="height"):
         diabolo.plan_action("throw", height=-0.5)

@@ -72,6 +72,24 @@ TEST_CASE("a tip that leaves the box is told with arm, time and place") {
   CHECK(check.as_played == 0);
 }
 
+TEST_CASE("a tip that leaves the box between two ticks of the motion, while it comes to rest, is told") {
+  // A peak of 2 ms across the wall, which the ticks of the motion step over and the ones at its end do not.
+  const StickPlanner arms = planner();
+  const double wall = arms.left().grid().box().upper.z();
+  std::vector<double> times;
+  std::vector<Vector3<double>> left, right;
+  for (int i = 0; i <= 1000; ++i) {
+    times.push_back(1e-3 * i);
+    left.emplace_back(0.6, 0.55, wall - 1e-4 + (i % 2 == 1 && i > 940 && i < 960 ? 2e-3 : 0.0));
+    right.emplace_back(0.6, -0.55, 1.2);
+  }
+  const PlanCheck check = check_plan(arms, TipMotion<double>(times, left, right, Interpolation::kLinear));
+  REQUIRE_FALSE(check.playable());
+  CHECK(check.troubles.front().who == "left arm");
+  CHECK(check.troubles.front().why == "outside the box of the seed grid");
+  CHECK(check.troubles.front().from == Approx(0.95).margin(0.06));
+}
+
 TEST_CASE("arms that come too close are told") {
   const StickPlanner close = planner({0.70, 0.5, 0.0});
   const TipMotion<double> motion({0, 1, 2}, {{0.6, 0.25, 1.2}, {0.6, 0.0, 1.2}, {0.6, 0.25, 1.2}},

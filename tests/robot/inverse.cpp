@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -222,5 +223,20 @@ TEST_CASE("single precision and derivatives go through") {
         for (int k = 0; k < 3; ++k)
           REQUIRE(std::abs(again.position[row].gradient[k] - (row == k ? 1.0 : 0.0)) <= 1e-6);
     }
+  }
+}
+
+TEST_CASE("where the wrist is singular and q6 = 0 does not reach, another turn of it is found") {
+  Random random(15);
+  const Chain<double> chain = ur5e_nominal<double>();
+  for (int i = 0; i < 20000; ++i) {
+    Joints<double> q = random_joints(random);
+    q[4] = std::array{-std::numbers::pi, 0.0, std::numbers::pi}[static_cast<std::size_t>(i % 3)];
+    const Pose<double> flange = chain.forward(q);
+    const InverseSolutions<double> solutions = inverse(flange);
+    INFO("try " << i);
+    REQUIRE(solutions.count > 0);
+    for (const InverseSolution<double>& s : solutions)
+      REQUIRE(apart(chain.forward(s.joints), flange) <= 1e-9);
   }
 }

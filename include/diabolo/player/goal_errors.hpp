@@ -105,12 +105,16 @@ template <class Scalar>
 void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalError<Scalar>>& errors) {
   const PlayInstant<Scalar>& end = play.end();
   // A release that is certain: the diabolo is well above the plane of the tips when they have come to rest.
-  const Scalar missing = Scalar(0.05) - height_over_tips<Scalar>(end.state.position, end.tips);
+  const Scalar missing = Scalar(kRelease) - height_over_tips<Scalar>(end.state.position, end.tips);
   const bool released = end.state.string_state == StringState::kFlying;
   errors.push_back({"release", 1.0, 0.0, "m", {maximum(missing, Scalar(0))}, released});
   const double inverse = 0.5 / play.gravity;
   if (goals.apex) {
-    std::size_t i = play.planned - 1;  // the last instant on the way up
+    std::size_t i = play.planned - 1;  // the last instant on the way up, or the first of the flight
+    const auto flies = [&play](std::size_t k) {
+      return play.instants[k].state.string_state == StringState::kFlying;
+    };
+    while (i > 0 && flies(i) && flies(i - 1) && play.instants[i].state.velocity.z() <= Scalar(0)) --i;
     while (i + 1 < play.instants.size() && play.instants[i + 1].state.velocity.z() > Scalar(0)) ++i;
     const State<Scalar>& state = play.instants[i].state;
     const Scalar tips = (end.tips.left.z() + end.tips.right.z()) * Scalar(0.5);
@@ -150,10 +154,13 @@ void add_catch(const Play<Scalar>& play, const Goals& goals, double string_lengt
     if (a.state.string_state != StringState::kFlying) break;
     const Scalar above = height_over_tips<Scalar>(a.state.position, a.tips);
     // What the step would have come to in free flight: the same, caught or not.
-    const Vector3<Scalar> free = a.state.position + a.state.velocity * Scalar(b.time - a.time);
+    const double dt = b.time - a.time;
+    Vector3<Scalar> free = a.state.position + a.state.velocity * Scalar(dt);
+    free.z() -= Scalar(0.5 * play.gravity * dt * dt);
     const Scalar below = height_over_tips<Scalar>(free, b.tips);
-    if (above <= Scalar(0) || below > Scalar(0)) continue;
-    const Scalar f = above / (above - below);
+    const bool misses = below > Scalar(0);
+    if (above <= Scalar(0) || (misses && !b.caught)) continue;
+    const Scalar f = misses ? Scalar(1) : Scalar(above / (above - below));
     const Vector3<Scalar> left = a.tips.left + (b.tips.left - a.tips.left) * f,
                           right = a.tips.right + (b.tips.right - a.tips.right) * f,
                           off =

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/player/ranges.hpp"
 #include "diabolo/recording/text.hpp"
 #include "diabolo/scalar.hpp"
 
@@ -34,6 +35,9 @@ struct Landing {
   double weight = 1.0;
 };
 
+/// A throw has left the string for certain when it is so far above the tips [m].
+inline constexpr double kRelease = 0.05;
+
 /// What a plan shall achieve. Goals that are not given do not count.
 struct Goals {
   std::vector<Waypoint> waypoints;      ///< on the way, in this order
@@ -56,9 +60,11 @@ struct Goals {
 
   /// Whether the motion ends in a flight.
   bool throws() const { return apex || landing; }
+  /// Whether they are of a flight.
+  bool flies() const { return throws() || caught; }
 
-  /// Throws std::invalid_argument where a weight is negative, a number is not finite, or goals exclude each
-  /// other.
+  /// Throws std::invalid_argument where a weight is negative, a number is not finite or beyond what can be,
+  /// or goals exclude each other.
   void validate() const {
     const auto weight = [](const std::string& name, double value) {
       if (!(value >= 0.0) || !std::isfinite(value))
@@ -66,20 +72,22 @@ struct Goals {
                                     "; expected a finite one that is not negative");
     };
     const auto check = [&weight](const std::string& name, const Waypoint& w) {
-      if (!w.position.allFinite() || !w.velocity.allFinite())
-        throw std::invalid_argument(name + ": position and velocity must be finite");
       for (const double value : {w.position_weight, w.velocity_weight, w.direction_weight})
         weight(name, value);
+      check_size(name + ", position", w.position.stableNorm(), kFarthest, "m");
+      check_size(name + ", velocity", w.velocity.stableNorm(), kFastest, "m/s");
+      if (w.position_weight + w.velocity_weight + w.direction_weight == 0.0)
+        throw std::invalid_argument(name + ": all of its weights are zero");
+      if (w.direction_weight > 0.0 && w.velocity.isZero(0.0))
+        throw std::invalid_argument(name + ": a direction counts, but its velocity is zero");
     };
     for (std::size_t i = 0; i < waypoints.size(); ++i) check("waypoint " + std::to_string(i), waypoints[i]);
     if (final_state) check("final state", *final_state);
-    if (spin && !std::isfinite(spin->value))
-      throw std::invalid_argument("spin goal: " + shown(spin->value) + "; must be finite");
-    if (apex && !(apex->value > 0.0 && std::isfinite(apex->value)))
-      throw std::invalid_argument("apex goal: " + shown(apex->value) +
-                                  " m; must lie above the tips, and be finite");
-    if (landing && !landing->position.allFinite())
-      throw std::invalid_argument("landing goal: must be finite");
+    if (spin) check_size("spin goal", spin->value, kMostSpin, "rad/s");
+    if (apex && !(apex->value > kRelease && apex->value <= kFarthest))
+      throw std::invalid_argument("apex goal: " + shown(apex->value) + " m above the tips; must be above " +
+                                  shown(kRelease) + " and at most " + shown(kFarthest) + " m");
+    if (landing) check_size("landing goal", landing->position.stableNorm(), kFarthest, "m");
     if (spin) weight("spin goal", spin->weight);
     if (apex) weight("apex goal", apex->weight);
     if (landing) weight("landing goal", landing->weight);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "diabolo/dual.hpp"
@@ -49,7 +50,7 @@ struct GradientSearch {
       if (other.reached || other.cost < best.cost) best = std::move(other);
     }
     best.evaluations = evaluations;
-    return best;
+    return found(std::move(best));
   }
 
   template <int N, template <class> class... Effects>
@@ -102,7 +103,7 @@ struct GradientSearch {
                                      const std::vector<double>& x, const Budget& budget) {
     Linearization result;
     for (std::size_t first = 0; first < x.size(); first += N) {
-      if (first > 0 && budget.spent(0)) return result;
+      if (first > 0 && budget.spent(0)) return result;  // zeros where it did not come to
       const std::size_t count = std::min<std::size_t>(N, x.size() - first);
       std::vector<D<N>> at(x.begin(), x.end());
       for (std::size_t i = 0; i < count; ++i)
@@ -112,7 +113,7 @@ struct GradientSearch {
                          columns = static_cast<Eigen::Index>(x.size());
       if (first == 0) {
         result.residuals.resize(rows);
-        result.jacobian.resize(rows, columns);
+        result.jacobian.setZero(rows, columns);
       }
       for (Eigen::Index r = 0; r < rows; ++r) {
         const D<N>& part = parts[static_cast<std::size_t>(r)];
@@ -136,6 +137,7 @@ struct GradientSearch {
     result.residuals.conservativeResize(first + count);
     result.residuals.tail(count) = Eigen::Map<const Eigen::VectorXd>(parts.data(), count);
     result.jacobian.conservativeResize(first + count, Eigen::NoChange);
+    result.jacobian.bottomRows(count).setZero();
     constexpr double h = 1e-4;
     for (std::size_t i = 0; i < x.size() && !budget.spent(0); ++i) {
       std::vector<double> above = x, below = x;

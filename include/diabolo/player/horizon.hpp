@@ -35,8 +35,8 @@ class Horizon {
   Horizon(Model model, const TipColumn<double>& tips, const State<double>& state, double begin,
           const TipColumn<double>& sticks = TipColumn<double>::Zero())
       : model_(std::move(model)), sticks_(sticks), observed_(state), observed_time_(begin) {
-    if (!tips.allFinite() || !std::isfinite(begin))
-      throw std::invalid_argument("horizon: the tips and the time of its begin must be finite");
+    check_size("horizon: the time of its begin", begin, kLatest, "s");
+    check_size("horizon: the tips", tips.stableNorm(), kFarthest, "m");
     if (!is_direction<double>(sticks.head<3>()) || !is_direction<double>(sticks.tail<3>()))
       throw std::invalid_argument("horizon: a stick's direction is neither a unit vector nor zero");
     path_ = rest(begin, kRest, tips);
@@ -49,10 +49,10 @@ class Horizon {
   /// Takes over a state of the diabolo that was seen at a time [s]; predictions begin with the latest one.
   /// Throws std::invalid_argument where it is not finite, or older than the one before.
   void observe(double time, const State<double>& state) {
-    if (!state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
-      throw std::invalid_argument("horizon: the observed state must be finite");
-    if (!(time >= observed_time_ && std::isfinite(time)))
-      throw std::invalid_argument("horizon: a state that was observed before the last one, or at no time");
+    check_state("horizon: the observed state", state);
+    check_size("horizon: the time of the observation", time, kLatest, "s");
+    if (!(time >= observed_time_))
+      throw std::invalid_argument("horizon: a state that was observed before the last one");
     observed_ = state;
     observed_time_ = time;
   }
@@ -84,26 +84,28 @@ class Horizon {
 
   /// Joins a plan that was made from `seam` and is ready `now` [s], having taken `planning_time` [s]. False,
   /// and the old motion goes on, where it comes too late. Throws std::invalid_argument where the plan does
-  /// not begin with the tips and velocities of the seam, or a time is none.
+  /// not begin with the tips and velocities of the seam or not end at rest, or a time is none.
   bool join(const Seam& seam, const Plan& plan, double now, double planning_time) {
     if (!std::isfinite(now) || !(planning_time >= 0.0 && std::isfinite(planning_time)))
       throw std::invalid_argument("horizon: times of a join must be finite, that of planning not negative");
     const auto first = plan.path.derivatives_at(plan.path.begin());
-    if (!first[0].isApprox(seam.tips, kSameTips) || !(first[1] - seam.start.velocity).isZero(kSameTips))
+    if (!(first[0] - seam.tips).isZero(kSameTips) || !(first[1] - seam.start.velocity).isZero(kSameTips))
       throw std::invalid_argument("horizon: the plan does not begin at the seam, or moves otherwise there");
+    if (!plan.path.derivatives_at(plan.path.end())[1].isZero(kSameTips))
+      throw std::invalid_argument("horizon: the plan does not end at rest");
     planning_time_ = planning_time;
     if (now > seam.time) return false;
     TipPath<double> joined = path_.until(seam.time);
-    if (const double gap = seam.time - joined.end(); gap > 1e-12)  // the tips have rested since
-      joined.append(rest(joined.end(), gap, seam.tips));
+    if (const double gap = seam.time - path_.end(); gap > 1e-12)  // the tips have rested since
+      joined.append(rest(path_.end(), gap, seam.tips));
     joined.append(plan.path);
     path_ = std::move(joined);
     return true;
   }
 
  private:
-  static constexpr double kRest = 1e-3;      ///< of the first piece [s]
-  static constexpr double kSameTips = 1e-6;  ///< [m], [m/s]
+  static constexpr double kRest = 1e-3;  ///< of the first piece [s]
+  static constexpr double kSameTips = TipPath<double>::kSameTips;
 
   TipPath<double> rest(double begin, double duration, const TipColumn<double>& tips) const {
     const TipColumn<double> none = TipColumn<double>::Zero();

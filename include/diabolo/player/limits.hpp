@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diabolo/player/polynomial_maximum.hpp"
@@ -38,13 +40,15 @@ struct TipLimits {
   /// same ones in the same order.
   std::function<std::vector<LimitUse>(const TipPath<double>&)> others{};
 
-  /// What a path uses up of `others`. Throws std::invalid_argument where one of them is not a number.
+  /// What a path uses up of `others`. Throws std::invalid_argument where one of their numbers is none.
   std::vector<LimitUse> other_uses(const TipPath<double>& path) const {
     if (!others) return {};
     std::vector<LimitUse> uses = others(path);
     for (const LimitUse& use : uses)
-      if (std::isnan(use.excess))
-        throw std::invalid_argument("limits, " + use.name + ": its excess is not a number");
+      for (const auto& [what, number] :
+           {std::pair{"value", use.value}, {"limit", use.limit}, {"time", use.time}, {"excess", use.excess}})
+        if (std::isnan(number))
+          throw std::invalid_argument("limits, " + use.name + ": its " + what + " is not a number");
     return uses;
   }
 
@@ -58,9 +62,9 @@ struct TipLimits {
     positive("speed", speed);
     positive("acceleration", acceleration);
     positive("jerk", jerk);
-    if (!(string_margin >= 0.0))
+    if (!(string_margin >= 0.0 && std::isfinite(string_margin)))
       throw std::invalid_argument("limits, string_margin: " + shown(string_margin) +
-                                  "; must not be negative");
+                                  " m; must be finite and not negative");
     if (!std::isfinite(least_gap))
       throw std::invalid_argument("limits, least_gap: " + shown(least_gap) + "; must be finite");
     if (lowest.hasNaN() || highest.hasNaN())

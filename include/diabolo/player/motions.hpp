@@ -29,6 +29,16 @@ struct Action {
   Goals goals{};
 };
 
+namespace detail {
+
+inline void check_option(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw std::invalid_argument(std::string("action, ") + name + ": " + shown(value) + "; must be within " +
+                              shown(low) + " and " + shown(high));
+}
+
+}  // namespace detail
+
 /// What can be asked of an action.
 struct ActionOptions {
   double size = 1.0;             ///< of the hands' motion, as a share of the usual one
@@ -39,22 +49,17 @@ struct ActionOptions {
 
   /// Throws std::invalid_argument where one is out of its range.
   void validate() const {
-    const auto check = [](const char* name, double value, double low, double high) {
-      if (value >= low && value <= high) return;
-      throw std::invalid_argument(std::string("action, ") + name + ": " + shown(value) + "; must be within " +
-                                  shown(low) + " and " + shown(high));
-    };
-    check("size", size, 0.1, 3.0);
-    check("pace", pace, 0.2, 5.0);
-    check("height", height, 0.01, 5.0);
-    check("sideways", sideways, -2.0, 2.0);
-    if (spin) check("spin", *spin, 0.0, 500.0);
+    detail::check_option("size", size, 0.1, 3.0);
+    detail::check_option("pace", pace, 0.2, 5.0);
+    detail::check_option("height", height, 0.01, 5.0);
+    detail::check_option("sideways", sideways, -2.0, 2.0);
+    if (spin) detail::check_option("spin", *spin, 0.0, 500.0);
   }
 };
 
-/// The names of the actions, as for action_named().
-inline constexpr std::array<std::string_view, 8> kActionNames{
-    "linear_acceleration", "circular_acceleration", "swing", "hop", "throw", "side_throw", "catch", "stop"};
+/// The names of the actions, as for action_named(); for the catch of a throw see catch_action().
+inline constexpr std::array<std::string_view, 7> kActionNames{
+    "linear_acceleration", "circular_acceleration", "swing", "hop", "throw", "side_throw", "stop"};
 
 /// Where the tips start a figure whose name is one of kActionNames, for a string of the given length: the
 /// authors' poses, scaled with the string; left over right [m].
@@ -65,7 +70,6 @@ inline TipColumn<double> home_pose(std::string_view action, double string_length
   if (action == "circular_acceleration") return detail::tips_column(0.55, 0.21 * s, 1.25, -0.28 * s, 1.25);
   if (action == "throw" || action == "side_throw")
     return detail::tips_column(0.55, 0.25 * s, 1.25, -0.25 * s, 1.25);
-  if (action == "catch") return detail::tips_column(0.55, 0.65 * s, 1.25, -0.65 * s, 1.25);
   return detail::tips_column(0.55, 0.3 * s, 1.25, -0.3 * s, 1.25);
 }
 
@@ -134,11 +138,12 @@ inline StickSpline<double> throw_seed(const TipColumn<double>& home, double stri
 }  // namespace detail
 
 /// The action of the given name, from the pose where the tips rest and the diabolo's state then, for a string
-/// of that length. Throws std::invalid_argument where there is none of that name, or an option is out of its
-/// range. For "catch" see catch_action().
+/// of that length. Throws std::invalid_argument where there is none of that name, or an option or the length
+/// is out of its range.
 inline Action action_named(std::string_view name, const TipColumn<double>& tips, const State<double>& start,
                            double string_length, const ActionOptions& wanted) {
   wanted.validate();
+  detail::check_option("string_length", string_length, 0.05, 20.0);  // as of Parameters
   ActionOptions options = wanted;
   options.pace /= std::sqrt(string_length / 1.45);  // longer pendulums are slower
   const double s = options.size * string_length / kAuthorsStringLength;

@@ -53,21 +53,23 @@ inline std::function<bool()> deadline(double seconds) {
 
 namespace detail {
 
-/// Limits that stand in the way of more: those nearly used up, and those that one of the `wanted` motions
-/// breaks.
+/// Limits that stand in the way of more, in a clause: those nearly used up, and those that one of the
+/// `wanted` motions breaks, in whose place a smaller one stands.
 inline std::string binding_limits(const std::vector<LimitUse>& uses,
                                   const std::vector<std::vector<LimitUse>>& wanted) {
-  std::ostringstream text;
-  text.precision(3);
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    const LimitUse& use = uses[i];
-    const bool broken = std::ranges::any_of(
-        wanted, [i](const std::vector<LimitUse>& of) { return i < of.size() && of[i].excess > 0.0; });
-    if (!broken && use.excess < (use.unit == "m" ? -0.004 : -0.03)) continue;
-    text << (text.tellp() > 0 ? ", " : "") << use.name << " (" << use.value << " of " << use.limit << ' '
+  std::ostringstream binding, broken;
+  for (std::ostringstream* text : {&binding, &broken}) text->precision(3);
+  const auto add = [](std::ostringstream& text, const LimitUse& use, const char* before) {
+    text << (text.tellp() > 0 ? ", " : before) << use.name << " (" << use.value << " of " << use.limit << ' '
          << use.unit << " at " << use.time << " s)";
+  };
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (uses[i].excess >= (uses[i].unit == "m" ? -0.004 : -0.03))
+      add(binding, uses[i], "; what binds: ");
+    else if (std::ranges::any_of(wanted, [i](const auto& of) { return i < of.size() && of[i].excess > 0.0; }))
+      add(broken, uses[i], "; made smaller for: ");
   }
-  return text.str();
+  return binding.str() + broken.str();
 }
 
 inline std::string answer_of(const Plan& plan, const std::vector<std::vector<LimitUse>>& wanted) {
@@ -84,7 +86,7 @@ inline std::string answer_of(const Plan& plan, const std::vector<std::vector<Lim
   if (text.tellp() == 0) return "every goal is reached";
   const std::string binding = binding_limits(plan.limits, wanted);
   text << (binding.empty() ? "; it is at no limit: more time, another seed or more freedom may do better"
-                           : "; what binds: " + binding);
+                           : binding);
   return text.str();
 }
 
@@ -114,7 +116,7 @@ inline StickSpline<double> between(const StickSpline<double>& a, const StickSpli
 
 }  // namespace detail
 
-/// The seed, or where it breaks a limit one that keeps them all: the seed made slower, at most by half, then
+/// The seed, or where it breaks a limit one that keeps them all: the seed made slower, by half at most, or
 /// smaller. Throws std::invalid_argument that names the limit where nothing of it does.
 inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipLimits& limits,
                                      double string_length) {
@@ -126,7 +128,7 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
       result.points[i] = seed.points[0] + (seed.points[i] - seed.points[0]) * size;
     return result;
   };
-  for (int percent = 105; percent < 150; percent += 5)
+  for (int percent = 105; percent <= 150; percent += 5)
     if (StickSpline<double> slower = scaled(1.0, 0.01 * percent);
         keeps(path_of(slower), limits, string_length))
       return slower;
@@ -135,7 +137,8 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
   if (broken.excess > 0.0) {
     std::ostringstream text;
     text << "plan: no motion from this start keeps the limit of the " << broken.name << ", " << broken.limit
-         << ' ' << broken.unit << ": it is " << broken.value << " even where the tips stay";
+         << ' ' << broken.unit << ": it is " << broken.value
+         << (seed.start ? " even where the tips come to rest at once" : " even where the tips stay");
     throw std::invalid_argument(text.str());
   }
   return scaled(detail::kept_share(limits, string_length, [&](double size) { return scaled(size, 1.0); }),
@@ -143,6 +146,7 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
 }
 
 /// What a motion that keeps the limits is worth. `wanted`: what those use of them in whose place it stands.
+/// Its cost is infinite where a model predicts no numbers.
 template <template <class> class... Effects>
 Plan judged(const PlanProblem<Effects...>& problem, const StickSpline<double>& motion, int evaluations,
             const std::vector<std::vector<LimitUse>>& wanted = {}) {
@@ -160,6 +164,14 @@ Plan judged(const PlanProblem<Effects...>& problem, const StickSpline<double>& m
   plan.reached = std::ranges::all_of(plan.goals, &GoalCost::reached);
   plan.evaluations = evaluations;
   plan.answer = detail::answer_of(plan, wanted);
+  return plan;
+}
+
+/// A plan that was found. Throws std::invalid_argument where a model predicts no numbers for it.
+inline Plan found(Plan plan) {
+  if (plan.cost == INFINITY)
+    throw std::invalid_argument(
+        "plan: a model predicts no finite numbers for the best motion that was found");
   return plan;
 }
 

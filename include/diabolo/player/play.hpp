@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <vector>
 
+#include "diabolo/player/ranges.hpp"
 #include "diabolo/player/tip_path.hpp"
 #include "diabolo/predictor.hpp"
 #include "diabolo/predictor_in.hpp"
@@ -40,6 +42,13 @@ struct PlayOptions {
       -std::numeric_limits<double>::infinity();  ///< but no more once it falls below this height [m]
 };
 
+/// Throws std::invalid_argument where a diabolo in play cannot be in that state.
+inline void check_state(const std::string& what, const State<double>& state) {
+  check_size(what + ", position", state.position.stableNorm(), kFarthest, "m");
+  check_size(what + ", velocity", state.velocity.stableNorm(), kFastest, "m/s");
+  check_size(what + ", spin", state.spin, kMostSpin, "rad/s");
+}
+
 /// Predicts what a path leads to from `start`, the state at its begin; the sticks' tips then rest. A flight
 /// is followed for PlayOptions::flight after the path.
 template <class Scalar, template <class> class... Effects>
@@ -56,23 +65,24 @@ Play<Scalar> play(const Predictor<Scalar, Effects...>& predictor, const State<do
   std::size_t hint = 0;
   result.instants.reserve(count + 1);
   result.instants.push_back({number(begin), state_in<Scalar>(start), path.at(begin, hint)});
-  const auto step = [&](std::size_t i) {
+  const auto step = [&](const Scalar& time, const Scalar& length) {
     PlayInstant<Scalar> next = result.instants.back();
-    const Scalar time = i == count ? path.end() : Scalar(begin + dt * Scalar(static_cast<double>(i)));
     next.time = number(time);
     next.tips = path.at(time, hint);
-    next.caught = predictor.step(next.state, result.instants.back().tips, next.tips, dt).caught;
+    next.caught = predictor.step(next.state, result.instants.back().tips, next.tips, length).caught;
     result.instants.push_back(next);
   };
-  for (std::size_t i = 1; i <= count; ++i) step(i);
+  for (std::size_t i = 1; i <= count; ++i)
+    step(i == count ? path.end() : Scalar(begin + dt * Scalar(static_cast<double>(i))), dt);
   result.planned = result.instants.size();
-  const auto more = static_cast<std::size_t>(options.flight / number(dt));
+  const auto more = static_cast<std::size_t>(options.flight / options.dt);
   const auto flies_on = [&] {
     const State<Scalar>& state = result.instants.back().state;
     const bool below = number(state.velocity.z()) <= 0.0 && number(state.position.z()) <= options.down_to;
     return is(state.string_state, StringState::kFlying) && !below;
   };
-  for (std::size_t i = 1; i <= more && flies_on(); ++i) step(count + i);
+  for (std::size_t i = 1; i <= more && flies_on(); ++i)
+    step(path.end() + Scalar(options.dt * static_cast<double>(i)), Scalar(options.dt));
   return result;
 }
 

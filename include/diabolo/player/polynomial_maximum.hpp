@@ -11,7 +11,7 @@ namespace diabolo {
 
 /// Where a polynomial is largest, and how large.
 struct PolynomialMaximum {
-  double value;  ///< never below the true maximum
+  double value;  ///< never below the true maximum; infinite where a coefficient is too large for it or none
   double at;     ///< an argument where the polynomial comes within the tolerance of it
 };
 
@@ -38,8 +38,8 @@ struct BernsteinPiece {
 }  // namespace detail
 
 /// The maximum of c[0] + c[1] s + ... over 0 <= s <= 1, found by halving the interval where it may lie.
-/// `tolerance` is absolute; what is returned lies above the truth by no more than that, and never below, but
-/// for rounding.
+/// `tolerance` is absolute; what is returned lies above the truth by no more than that and what rounding may
+/// do, and never below, but for rounding.
 template <std::size_t N>
 PolynomialMaximum maximum_on_unit_interval(const std::array<double, N>& c, double tolerance) {
   using Piece = detail::BernsteinPiece<N>;
@@ -51,6 +51,11 @@ PolynomialMaximum maximum_on_unit_interval(const std::array<double, N>& c, doubl
       share *= static_cast<double>(i - k) / static_cast<double>(N - 1 - k > 0 ? N - 1 - k : 1);
     }
   }
+  double largest = 0.0;
+  for (const double value : whole.values)
+    largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : INFINITY;
+  if (largest == INFINITY) return {INFINITY, 0.0};
+  tolerance = std::max(tolerance, 1e-13 * largest);
   PolynomialMaximum best{whole.values.front(), 0.0};
   std::vector<Piece> open{whole};
   double bound = best.value;  // of what was put aside

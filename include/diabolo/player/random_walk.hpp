@@ -13,7 +13,8 @@ namespace diabolo {
 
 /// The paper's search: from the best motion so far, which is the seed at first, each knot moves by up to a
 /// centimetre in each coordinate and the whole motion becomes up to 50 ms longer or shorter, its interior
-/// times drawn anew; what is better and keeps the limits is kept.
+/// times drawn anew; what is better and keeps the limits is kept. It stays within Freedom::reach of the seed,
+/// but draws times as the paper does, whatever Freedom::stretch says.
 struct RandomWalk {
   double knot_step = 0.01;  ///< [m]
   double time_step = 0.05;  ///< of the whole motion [s]
@@ -27,16 +28,17 @@ struct RandomWalk {
     double least = problem.cost(path_of(best), problem.dt, false);
     int evaluations = 1;
     while (!budget.spent(evaluations)) {
-      const StickSpline<double> tried = moved(best, problem.freedom, generator);
+      const StickSpline<double> tried = moved(best, problem, generator);
       ++evaluations;
       const TipPath<double> path = path_of(tried);
       if (!keeps(path, problem.limits, problem.string_length())) continue;
       const double cost = problem.cost(path, problem.dt, false);
-      if (cost >= least) continue;
+      if (!(cost < least)) continue;
       least = cost;
       best = tried;
     }
-    return judged(problem, best, evaluations);
+    return found(judged(problem, best, evaluations,
+                        {limit_uses(path_of(problem.seed), problem.limits, problem.string_length())}));
   }
 
  private:
@@ -48,12 +50,18 @@ struct RandomWalk {
     return low + (high - low) * (static_cast<double>(bits) * 0x1p-32);
   }
 
-  template <class Generator>
-  StickSpline<double> moved(StickSpline<double> motion, const Freedom& freedom, Generator& generator) const {
+  template <template <class> class... Effects, class Generator>
+  StickSpline<double> moved(StickSpline<double> motion, const PlanProblem<Effects...>& problem,
+                            Generator& generator) const {
+    const Freedom& freedom = problem.freedom;
     const bool last = freedom.last_point && motion.ends == SplineEnds::kClamped;
     for (std::size_t i = 1; i + (last ? 0 : 1) < motion.points.size(); ++i)
       for (int k = 0; k < 6; ++k)
-        if (k % 3 != 0 || freedom.forward) motion.points[i][k] += uniform(generator, -knot_step, knot_step);
+        if (k % 3 != 0 || freedom.forward) {
+          const double seed = problem.seed.points[i][k],
+                       moved = motion.points[i][k] + uniform(generator, -knot_step, knot_step);
+          motion.points[i][k] = std::clamp(moved, seed - freedom.reach, seed + freedom.reach);
+        }
     if (!freedom.times) return motion;
     const double before = motion.end() - motion.begin;
     const double whole = std::max(0.5 * before, before + uniform(generator, -time_step, time_step));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/player/ranges.hpp"
 #include "diabolo/player/tip_path.hpp"
 #include "diabolo/recording/text.hpp"
 
@@ -34,6 +35,7 @@ inline constexpr double kSettling = 0.06;
 /// not a control point, then makes the acceleration right).
 template <class Scalar>
 struct StickSpline {
+  static_assert(ScalarTraits<Scalar>::kLanes == 1, "one motion a lane, see TipPath");
   Scalar begin{0};                        ///< time of the first point [s]
   std::vector<Scalar> durations;          ///< between the points [s]
   std::vector<TipColumn<Scalar>> points;  ///< one more than durations [m]; of a loop, first = last
@@ -48,27 +50,29 @@ struct StickSpline {
     return time;
   }
 
-  /// Throws std::invalid_argument where there are not enough points, a duration is not positive, a point or
-  /// the start is not finite, a direction is none, or a loop does not close.
+  /// Throws std::invalid_argument where there are not enough points, a number is not finite or beyond what
+  /// play comes to (see ranges.hpp), a direction is none, or a loop does not close.
   void validate() const {
     if (points.size() < 2 || durations.size() + 1 != points.size())
       throw std::invalid_argument("stick spline: " + std::to_string(points.size()) + " points and " +
                                   std::to_string(durations.size()) +
                                   " durations; expected at least two points, and a duration less");
+    const auto number = [](const Scalar& x) { return static_cast<double>(value_of(x)); };
+    const auto check = [&number](const auto& column, const std::string& what, double most, const char* unit) {
+      for (int k = 0; k < 6; ++k) check_size("stick spline, " + what, number(column[k]), most, unit);
+    };
+    check_size("stick spline, begin", number(begin), kLatest, "s");
     for (std::size_t i = 0; i < durations.size(); ++i)
-      if (!all(is_finite(durations[i])) || !all(durations[i] > Scalar(0)))
-        throw std::invalid_argument("stick spline, duration " + std::to_string(i) + ": " +
-                                    shown(static_cast<double>(value_of(durations[i]))) +
-                                    " s; must be positive and finite");
+      if (const double s = number(durations[i]); !(s >= kShortestDuration && s <= kLatest))
+        throw std::invalid_argument("stick spline, duration " + std::to_string(i) + ": " + shown(s) +
+                                    " s; must be within " + shown(kShortestDuration) + " and " +
+                                    shown(kLatest) + " s");
     for (std::size_t i = 0; i < points.size(); ++i)
-      for (int k = 0; k < 6; ++k)
-        if (!all(is_finite(points[i][k])))
-          throw std::invalid_argument("stick spline, point " + std::to_string(i) + ": is not finite");
-    if (start)
-      for (int k = 0; k < 6; ++k)
-        if (!all(is_finite(start->velocity[k])) || !all(is_finite(start->acceleration[k])))
-          throw std::invalid_argument(
-              "stick spline: the velocity or acceleration of its start is not finite");
+      check(points[i], "point " + std::to_string(i), kFarthest, "m");
+    if (start) {
+      check(start->velocity, "velocity of its start", kFastest, "m/s");
+      check(start->acceleration, "acceleration of its start", kMostAcceleration, "m/s^2");
+    }
     if (!is_direction<double>(sticks.head<3>()) || !is_direction<double>(sticks.tail<3>()))
       throw std::invalid_argument("stick spline: a stick's direction is neither a unit vector nor zero");
     if (ends == SplineEnds::kClamped) return;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace diabolo {
 /// Falls that are farther apart in time than this have a point of the catch each [s].
 inline constexpr double kSpreadOfCatches = 0.01;
 
+/// The hands need so long to come under a diabolo that falls [s].
+inline constexpr double kLeastFall = 0.12;
+
 namespace detail {
 
 /// When after now a flying diabolo falls through a height [s], and where [m].
@@ -25,13 +29,21 @@ struct Fall {
 };
 
 inline Fall fall_to(const State<double>& state, double level, double gravity) {
-  if (state.string_state != StringState::kFlying)
-    throw std::invalid_argument("catch: the diabolo does not fly");
   const Vector3<double>&p = state.position, &v = state.velocity;
   const double square = v.z() * v.z() + 2.0 * gravity * (p.z() - level);
   const double time = square > 0.0 ? (v.z() + std::sqrt(square)) / gravity : 0.0;
-  if (time < 0.12) throw std::invalid_argument("catch: the diabolo comes down in less than 0.12 s");
   return {time, p + v * time};
+}
+
+/// The same of one that can be caught. Throws std::invalid_argument where it does not fly, or comes down in
+/// less than kLeastFall.
+inline Fall fall_to_catch(const State<double>& state, double level, double gravity) {
+  if (state.string_state != StringState::kFlying)
+    throw std::invalid_argument("catch: the diabolo does not fly");
+  Fall fall = fall_to(state, level, gravity);
+  if (fall.time < kLeastFall)
+    throw std::invalid_argument("catch: the diabolo comes down in less than " + shown(kLeastFall) + " s");
+  return fall;
 }
 
 }  // namespace detail
@@ -45,11 +57,11 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
                            double catch_slack, double gravity,
                            const std::vector<State<double>>& others = {}) {
   const double level = 0.5 * (seam.tips[2] + seam.tips[5]);
-  const detail::Fall nominal = detail::fall_to(seam.state, level, gravity);
+  const detail::Fall nominal = detail::fall_to_catch(seam.state, level, gravity);
   double first = nominal.time, last = nominal.time;
   Vector3<double> lowest = nominal.place, highest = nominal.place;
   for (const State<double>& other : others) {
-    const detail::Fall fall = detail::fall_to(other, level, gravity);
+    const detail::Fall fall = detail::fall_to_catch(other, level, gravity);
     first = std::min(first, fall.time);
     last = std::max(last, fall.time);
     lowest = lowest.cwiseMin(fall.place);
@@ -88,13 +100,15 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
 
 /// A throw and the catch that follows it.
 struct ThrowAndCatch {
-  Plan thrown, caught;
-  TipPath<double> path;  ///< of both
-  bool reached = false;  ///< both
+  Plan thrown;
+  std::optional<Plan> caught;  ///< where something flies that can be caught
+  TipPath<double> path;        ///< of both
+  bool reached = false;        ///< both
 };
 
 /// Plans a throw and, from its predicted end, the catch: with several models, of every flight that one of
-/// them predicts.
+/// them predicts and that leaves time to catch it. Where the first one's leaves none, that is one more goal
+/// of the throw that is missed.
 template <template <class> class... Effects>
 ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, const GradientSearch& search,
                                    const Budget& budget) {
@@ -104,10 +118,21 @@ ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, cons
   PlanProblem<Effects...> catching = throwing;
   catching.models.clear();
   catching.starts.clear();
+  const double time = result.path.end();
+  const auto tips = result.path.derivatives_at(time);
   for (std::size_t m = 0; m < throwing.models.size(); ++m) {
     const State<double> end =
         throwing.played(m, throwing.models[m], result.path, throwing.kReportedStep).end().state;
-    if (end.string_state != StringState::kFlying) {
+    const double fall =
+        detail::fall_to(end, 0.5 * (tips[0][2] + tips[0][5]), throwing.models[m].parameters().gravity).time;
+    const bool flies = end.string_state == StringState::kFlying;
+    if (m == 0 && flies && fall < kLeastFall) {
+      Plan& thrown = result.thrown;
+      thrown.goals.push_back({"time to catch", 1.0, kLeastFall - fall, 0.0, "s", false});
+      thrown.reached = false;
+      thrown.answer = detail::answer_of(thrown, {});
+    }
+    if (!flies || fall < kLeastFall) {
       if (m == 0) return result;
       continue;
     }
@@ -115,8 +140,6 @@ ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, cons
     catching.starts.push_back(end);
   }
   catching.start = catching.starts.front();
-  const double time = result.path.end();
-  const auto tips = result.path.derivatives_at(time);
   const Seam seam{time, tips[0], {tips[1], tips[2]}, throwing.seed.sticks, catching.start};
   const Parameters<double>& parameters = throwing.models.front().parameters();
   const Action action = catch_action(seam, throwing.seed.points.front(), throwing.string_length(),
@@ -125,8 +148,8 @@ ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, cons
   catching.goals = action.goals;
   catching.freedom = action.freedom;
   result.caught = search(catching, budget);
-  result.path.append(result.caught.path);
-  result.reached = result.thrown.reached && result.caught.reached;
+  result.path.append(result.caught->path);
+  result.reached = result.thrown.reached && result.caught->reached;
   return result;
 }
 

@@ -37,10 +37,14 @@ struct TipPiece {
 
 /// Planned motion of the stick tips: cubics one after the other. Before the first and after the last one the
 /// tips rest. May be followed by rollout() as a TipMotion may; its instants are Scalars too, so that
-/// derivatives by them come out.
+/// derivatives by them come out. All but empty() and append() throw std::invalid_argument of an empty one.
 template <class Scalar>
 class TipPath {
+  static_assert(ScalarTraits<Scalar>::kLanes == 1, "lanes may each be in another piece: one path a lane");
+
  public:
+  static constexpr double kSameTips = 1e-6;  ///< where paths meet [m], [m/s]
+
   TipPath() = default;
   /// Throws std::invalid_argument where a duration is not positive or a piece does not begin where the one
   /// before it ends, within 1e-9 s.
@@ -56,8 +60,8 @@ class TipPath {
 
   const std::vector<TipPiece<Scalar>>& pieces() const { return pieces_; }
   bool empty() const { return pieces_.empty(); }
-  Scalar begin() const { return pieces_.front().begin; }     ///< [s]
-  Scalar end() const { return end_of(pieces_.size() - 1); }  ///< [s]
+  Scalar begin() const { return check(), pieces_.front().begin; }     ///< [s]
+  Scalar end() const { return check(), end_of(pieces_.size() - 1); }  ///< [s]
 
   /// Position [m] and its first three derivatives, at a time [s] within the path or at its ends.
   std::array<TipColumn<Scalar>, 4> derivatives_at(double time) const {
@@ -92,17 +96,26 @@ class TipPath {
     return at(Scalar(time), hint);
   }
 
-  /// Goes on with another path, moved in time to this one's end.
+  /// Goes on with another path, moved in time to this one's end. Throws std::invalid_argument where they do
+  /// not meet: tips and velocities within kSameTips.
   void append(const TipPath& next) {
     if (next.empty()) return;
     const Scalar later = empty() ? Scalar(0) : Scalar(end() - next.begin());
+    if (!empty()) {
+      const auto last = pieces_.back().at(pieces_.back().duration),
+                 first = next.pieces_.front().at(Scalar(0));
+      for (const std::size_t order : {0u, 1u})
+        for (int k = 0; k < 6; ++k)
+          if (!(absolute<Scalar>(first[order][k] - last[order][k]) <= Scalar(kSameTips)))
+            throw std::invalid_argument("tip path: what follows begins elsewhere, or moves otherwise there");
+    }
     for (TipPiece<Scalar> piece : next.pieces_) {
       piece.begin += later;
       pieces_.push_back(piece);
     }
   }
 
-  /// The part up to a time [s] within the path.
+  /// The part up to a time [s] within the path; empty at its begin.
   TipPath until(double time) const {
     TipPath result;
     for (TipPiece<Scalar> piece : pieces_) {
@@ -116,7 +129,12 @@ class TipPath {
  private:
   Scalar end_of(std::size_t i) const { return pieces_[i].begin + pieces_[i].duration; }
 
+  void check() const {
+    if (pieces_.empty()) throw std::invalid_argument("tip path: empty");
+  }
+
   const TipPiece<Scalar>& piece_at(const Scalar& time, std::size_t& hint) const {
+    check();
     if (hint >= pieces_.size() || any(pieces_[hint].begin > time)) hint = 0;
     while (hint + 1 < pieces_.size() && all(pieces_[hint + 1].begin <= time)) ++hint;
     return pieces_[hint];
@@ -130,7 +148,6 @@ inline constexpr double kShortestInterval = 1e-5;
 
 /// Poses of the path every `interval` [s] or less, for whatever reads tips at given instants.
 inline TipMotion<double> sampled(const TipPath<double>& path, double interval) {
-  if (path.empty()) throw std::invalid_argument("tip path: empty; nothing to sample");
   if (!(interval >= kShortestInterval && std::isfinite(interval)))
     throw std::invalid_argument("interval: " + shown(interval) + " s; must be finite and at least " +
                                 shown(kShortestInterval) + " s");

@@ -61,13 +61,15 @@ class FilesToWrite {
       throw RecordingError(path.string() + ": a directory; expected a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
       throw RecordingError(path.string() + ": a device or a pipe; expected a file");
-    std::filesystem::path temporary = path;
+    std::filesystem::path place = path;  // of a link, what it leads to
+    if (std::filesystem::is_symlink(path, ignored)) place = std::filesystem::weakly_canonical(path, ignored);
+    std::filesystem::path temporary = place;
     temporary += ".tmp" + std::to_string(std::random_device()());
     File file(std::fopen(temporary.c_str(), "wbx"));
     if (!file)
       throw RecordingError(path.string() +
                            ": the file cannot be written there: " + std::generic_category().message(errno));
-    pending_.push_back({temporary, path});
+    pending_.push_back({temporary, place});
     const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
     if (std::fclose(file.release()) != 0 || !written)
       throw RecordingError(path.string() + ": the file cannot be written (is the disk full?)");

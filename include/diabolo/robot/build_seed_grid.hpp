@@ -32,6 +32,8 @@ inline constexpr PostureCost kGridCost{1.0, 0.2, 1.0, 3.0, 0.8};
 /// std::invalid_argument that names the arm and the point which cannot be reached, at a key point or between.
 class SeedGridBuilder {
  public:
+  static constexpr std::size_t kMostKnots = 50000;  ///< the paper's grid has 294
+
   SeedGridBuilder(const StickArm& arm, const GridBox& box, const PostureCost& cost = kGridCost)
       : arm_(arm), box_(box), cost_(cost) {}
 
@@ -41,6 +43,9 @@ class SeedGridBuilder {
       if (count < 2 || count > 1000)
         throw std::invalid_argument("grid: " + std::to_string(count) +
                                     " key points; must be within [2, 1000]");
+    if (box_.size() > kMostKnots)
+      throw std::invalid_argument("grid: " + std::to_string(box_.size()) + " key points; expected " +
+                                  std::to_string(kMostKnots) + " at most");
     std::vector<Joints<double>> joints(box_.size());
     std::vector<bool> known(box_.size());
     std::deque<std::array<int, 3>> front{{n[0] / 2, n[1] / 2, n[2] / 2}};

@@ -71,9 +71,15 @@ inline PlanCheck check_plan(const StickPlanner& planner, const TipMotion<double>
   check.as_played = plan.as_played;
   check.worst_factor = plan.worst_factor;
   check.worst_at = std::min(motion.begin() + plan.worst_at, motion.end());
+  const double at = std::min(motion.begin() + plan.at, motion.end());
   if (plan.fault == PlanFault::kLimits)
-    trouble(motion.begin() + plan.at, "both arms", "the limits of the joints ask for too slow a play",
-            motion.at(std::min(motion.begin() + plan.at, motion.end())).left);
+    trouble(at, "both arms", "the limits of the joints ask for too slow a play", motion.at(at).left);
+  if (plan.fault == PlanFault::kTip) {  // between the ticks above, where it starts up or comes to rest
+    const Tips<double> tips = motion.at(at);
+    trouble(at, std::string(name_of(plan.side)) + " arm", text_of(plan.tip_fault),
+            plan.side == Side::kLeft ? tips.left : tips.right);
+  }
+  if (plan.setpoints.empty()) return check;
   const StickArm &left = planner.left().arm(), &right = planner.right().arm();
   check.least_clearance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < plan.setpoints.size(); ++i) {

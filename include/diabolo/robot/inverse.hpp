@@ -38,8 +38,9 @@ struct InverseSolutions {
 };
 
 /// Every joint vector whose flange has the given pose (frame of the base) on an arm of those lengths. Where
-/// the wrist is singular q6 is `q6_when_free`. Never throws and gives no NaN: see `count` and `fault`. A
-/// larger `slack` (see reach_tolerance) adds what almost reaches: seeds for refine_pose.
+/// the wrist is singular q6 is `q6_when_free`, or where the elbow does not reach so what brings it nearest to
+/// the shoulder, or farthest. Never throws and gives no NaN: see `count` and `fault`. A larger `slack` (see
+/// reach_tolerance) adds what almost reaches: seeds for refine_pose.
 template <class Scalar>
 InverseSolutions<Scalar> inverse(const Pose<Scalar>& flange, const Scalar& q6_when_free = Scalar(0),
                                  const Ur5eLengths& lengths = {}, double slack = reach_tolerance<Scalar>()) {
@@ -65,14 +66,24 @@ InverseSolutions<Scalar> inverse(const Pose<Scalar>& flange, const Scalar& q6_wh
     for (int turned = 0; turned < 2; ++turned) {
       const Scalar sign(turned == 0 ? 1 : -1);
       const Scalar s5 = sign * sine5;
-      const Scalar q6 = free6 ? q6_when_free : atan2(sign * b, sign * a);
-      const Scalar c6 = cos(q6), s6 = sin(q6);
-      const Vector3<Scalar> x5 = x6 * c6 - y6 * s6, z4 = x6 * Scalar(-s6) - y6 * c6;
-      const Vector3<Scalar> x4 = x5 * c5 - z6 * s5, elbow_to = wrist - z4 * Scalar(lengths.d5);
-      const Scalar pitch = atan2(x4.z(), x4.x() * c1 + x4.y() * s1);  // q2 + q3 + q4
-      const std::optional<TwoLinks<Scalar>> links =
-          reach_with_two_links<Scalar>(lengths.a2, lengths.a3, elbow_to.x() * c1 + elbow_to.y() * s1,
-                                       elbow_to.z() - Scalar(lengths.d1), slack);
+      Scalar q6, pitch;  // pitch: q2 + q3 + q4
+      std::optional<TwoLinks<Scalar>> links;
+      const auto turn = [&](const Scalar& to) {
+        q6 = to;
+        const Scalar c6 = cos(q6), s6 = sin(q6);
+        const Vector3<Scalar> x5 = x6 * c6 - y6 * s6, z4 = x6 * Scalar(-s6) - y6 * c6;
+        const Vector3<Scalar> x4 = x5 * c5 - z6 * s5, elbow_to = wrist - z4 * Scalar(lengths.d5);
+        pitch = atan2(x4.z(), x4.x() * c1 + x4.y() * s1);
+        links = reach_with_two_links<Scalar>(lengths.a2, lengths.a3, elbow_to.x() * c1 + elbow_to.y() * s1,
+                                             elbow_to.z() - Scalar(lengths.d1), slack);
+      };
+      turn(free6 ? q6_when_free : atan2(sign * b, sign * a));
+      if (free6 && !links) {  // z4 along the way from the shoulder to the wrist, or against it
+        const Vector3<Scalar> way = wrist - Vector3<Scalar>(Scalar(0), Scalar(0), Scalar(lengths.d1));
+        const Scalar x = dot<Scalar>(x6, way), y = dot<Scalar>(y6, way);
+        turn(atan2(-x, -y));
+        if (!links) turn(atan2(x, y));
+      }
       if (!links) continue;
       for (int elbow = 0; elbow < 2; ++elbow) {
         const std::size_t e = static_cast<std::size_t>(elbow);

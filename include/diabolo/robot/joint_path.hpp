@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/joint_limits.hpp"
 
 namespace diabolo {
@@ -15,11 +18,18 @@ namespace diabolo {
 /// continuous.
 class JointPath {
  public:
-  /// Throws std::invalid_argument where there are less than four points.
+  static constexpr double kMostTurn = 1e3;  ///< of a joint [rad]
+
+  /// Throws std::invalid_argument where there are less than four points, or an angle is beyond kMostTurn.
   explicit JointPath(std::vector<PairJoints> points) : points_(std::move(points)) {
     const std::size_t n = points_.size();
     if (n < 4)
       throw std::invalid_argument("joint path: " + std::to_string(n) + " points; must be four or more");
+    for (std::size_t i = 0; i < n; ++i)
+      for (const double angle : points_[i])
+        if (!(std::abs(angle) <= kMostTurn))
+          throw std::invalid_argument("joint path, point " + std::to_string(i) + ": " + shown(angle) +
+                                      " rad; expected " + shown(kMostTurn) + " rad at most");
     // Curvatures over kTick^2 / 6: m[i-1] + 4 m[i] + m[i+1] = the second difference, zero at the ends.
     bends_.assign(n, PairJoints::Zero());
     std::vector<double> factor(n, 0.0);

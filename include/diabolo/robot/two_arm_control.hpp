@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "diabolo/recording/text.hpp"
 #include "diabolo/robot/arm_monitor.hpp"
 #include "diabolo/robot/loaded_plan.hpp"
 #include "diabolo/robot/plan_clock.hpp"
@@ -78,7 +79,7 @@ class TwoArmControl {
     const PairJoints at = actual(), begin = plan->at(0);
     const double gap = (at - begin).cwiseAbs().maxCoeff();
     if (!(gap <= 1.2 * options_.arrived))  // fading it out must not break the limits
-      return "run: the arms are " + std::to_string(gap) +
+      return "run: the arms are " + shown_rounded(gap) +
              " rad from where the plan begins; go home there first";
     guard_.begin(at);
     gap_ = at - begin;
@@ -96,10 +97,10 @@ class TwoArmControl {
   std::string replace(std::shared_ptr<const LoadedPlan> plan, double tick) {
     if (state_ != ControlState::kRunning) return refusal("replace");
     if (!(tick >= plan_ticks()))
-      return "replace: tick " + std::to_string(tick) + " has passed, the plan is at " +
-             std::to_string(plan_ticks());
+      return "replace: tick " + shown_rounded(tick) + " has passed, the plan is at " +
+             shown_rounded(plan_ticks());
     if (!((plan->at(0) - plan_->at(tick)).cwiseAbs().maxCoeff() <= 1e-9))
-      return "replace: the plan does not begin where the running one is at tick " + std::to_string(tick);
+      return "replace: the plan does not begin where the running one is at tick " + shown_rounded(tick);
     next_ = std::move(plan);
     next_tick_ = tick;
     waiting_ = true;
@@ -116,7 +117,7 @@ class TwoArmControl {
   std::string recover(double now) {
     if (state_ != ControlState::kFaulted) return refusal("recover");
     if (now - since_ < options_.recover_after)
-      return "recover: a stop can be released " + std::to_string(options_.recover_after) +
+      return "recover: a stop can be released " + shown(options_.recover_after) +
              " s after it at the soonest";
     for (const Side side : {Side::kLeft, Side::kRight})
       if (reading(side).emergency_stop)

@@ -69,8 +69,9 @@ def made_folder(folder: Path) -> Iterator[None]:
 
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[Path]:
-    """A temporary name of the same ending, which becomes `path` once all is written to it."""
-    final = Path(path)
+    """A temporary name of the same ending, which becomes `path`, or what it is a link to, once all is written
+    to it."""
+    final = Path(os.path.realpath(path))
     temporary = _temporary(final)
     try:
         with _said_of(final):

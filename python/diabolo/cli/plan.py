@@ -21,6 +21,7 @@ from .._core import (
     TipLimits,
     Waypoint,
     load_recording,
+    read_text,
 )
 from ..diagnosis import SCHEMA as DIAGNOSIS_SCHEMA
 from ..enums import StringState
@@ -163,6 +164,7 @@ def run(arguments: argparse.Namespace) -> int:
         sideways=goals.get("sideways"),
         spin_gain=goals.get("spin"),
     )
+    found = summary(played, model.name)
     title = out.stem if out else arguments.action
     p = model.parameters
     recording = recording_of(
@@ -175,7 +177,6 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.html:
         page = view_html(recording, goals=wanted_states(played), note=played.answer)
         files.write_texts({Path(arguments.html): page})
-    found = summary(played, model.name)
     files.write_json(arguments.json, found)
     if arguments.json != files.STDOUT:
         print(text_of(found))
@@ -270,8 +271,14 @@ def text_of(found: dict[str, Any]) -> str:
 
 
 def _read_diagnosis(path: Path) -> dict[str, Any]:
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        if len(dict(pairs)) < len(pairs):
+            raise ValueError(f"a field is there twice among {', '.join(name for name, _ in pairs):.60}")
+        return dict(pairs)
+
+    text = read_text(path)
     try:
-        result = json.loads(path.read_text())
+        result = json.loads(text, object_pairs_hook=once, parse_int=float)
     except (ValueError, RecursionError) as error:
         raise ValueError(f"{path}: no JSON: {error}") from None
     if not isinstance(result, dict) or result.get("schema") != DIAGNOSIS_SCHEMA:

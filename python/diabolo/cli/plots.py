@@ -28,13 +28,12 @@ LOST = 1.0
 def check(path: str | Path) -> None:
     """Raise ValueError where there is no matplotlib, or it cannot write such a file."""
     try:
-        from matplotlib.figure import Figure
+        import matplotlib  # noqa: F401
     except ModuleNotFoundError as error:
         raise ValueError(
             f"{path}: to draw it, install matplotlib (pip install '.[plot]' in the project's root)"
         ) from error
-    known = Figure().canvas.get_supported_filetypes()
-    if Path(path).suffix.removeprefix(".") not in known:
+    if Path(path).suffix not in (".png", ".pdf", ".svg"):
         raise ValueError(f"{path}: expected a name that ends in .png, .pdf or .svg")
 
 
