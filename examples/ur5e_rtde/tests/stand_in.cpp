@@ -93,6 +93,56 @@ TEST_CASE("a session is byte for byte the protocol's") {
   CHECK(session.data().empty());
 }
 
+TEST_CASE("a program that is played is byte for byte the protocol's, tick by tick") {
+  Controller controller(kStart);
+  InputHolders holders;
+  RtdeSession session(controller.outputs(), controller.inputs(), holders);
+  std::string all;  // what the client gets
+  const auto say = [&](PacketType type, std::string_view payload) {
+    PacketReader reader;
+    reader.append(packed(type, payload));
+    all += session.answer(reader.next().value());
+    if (type == PacketType::kData) controller.command_written();
+  };
+  const auto tick = [&](int times = 1) {
+    for (int i = 0; i < times; ++i) controller.tick(), all += session.data();
+  };
+  std::string recipe;
+  put(recipe, 500.0);
+  say(PacketType::kOutputs, recipe + "runtime_state,output_int_register_0,output_int_register_1,");
+  say(PacketType::kInputs, "input_int_register_0,input_double_register_0,");
+  say(PacketType::kStart, "");
+  const auto command = [&](char number) {
+    using namespace std::string_literals;
+    say(PacketType::kData, "\1\0\0\0"s + number + "\x40\x39\0\0\0\0\0\0"s);  // 25.0
+  };
+  tick();
+  controller.upload(program());
+  tick(2);
+  command(static_cast<char>(kSetWatchdog));
+  tick();
+  command(0);
+  tick();
+  command(static_cast<char>(kStopScript));
+  tick(2);
+  say(PacketType::kPause, "");
+  tick();
+  std::string hex;
+  for (const char c : all) hex += "0123456789abcdef"[(c >> 4) & 15], hex += "0123456789abcdef"[c & 15];
+  CHECK(hex ==
+        "00164f0155494e5433322c494e5433322c494e543332"  // UINT32,INT32,INT32
+        "00104901494e5433322c444f55424c45"              // INT32,DOUBLE
+        "00045301"
+        "00105501000000010000000000000000"  // stopped
+        "00105501000000020000000100000000"  // plays, and waits for a command
+        "00105501000000020000000100000000"
+        "00105501000000020000000200000000"  // the command is done
+        "00105501000000020000000100000000"  // it waits again
+        "00105501000000010000000100000000"  // stopped
+        "00105501000000010000000100000000"
+        "00045001");
+}
+
 TEST_CASE("variables that are not there are named, and a slower client gets every n-th state") {
   Server server(loopback_address(0), kStart, 20);
   RtdeClient client(loopback_address(0));
