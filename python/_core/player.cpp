@@ -14,6 +14,7 @@
 
 #include "diabolo/recording/model.hpp"
 #include "diabolo/recording/text.hpp"
+#include "diabolo/robot/plan_limits.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -260,6 +261,22 @@ void bind_path(py::module_& module) {
           "must meet.");
 }
 
+/// RobotLimits as they are, without the interpreter, or what a function in Python returns.
+PathLimits path_limits(const py::object& given) {
+  if (given.is_none()) return {};
+  if (py::isinstance<RobotLimits>(given)) return given.cast<RobotLimits>();
+  if (!PyCallable_Check(given.ptr()))
+    throw std::invalid_argument("limits, others: " + std::string(py::repr(given)).substr(0, 60) +
+                                "; expected a function of a TipPath");
+  return [call = given.cast<std::function<std::vector<LimitUse>(const Path&)>>()](const Path& path) {
+    try {
+      return call(path);
+    } catch (const py::cast_error&) {
+      throw std::invalid_argument("limits, others: what it returned is no list of LimitUse");
+    }
+  };
+}
+
 void bind_limits(py::module_& module) {
   py::class_<LimitUse>(module, "LimitUse",
                        "How much of a limit a path uses: value, limit, and the excess, at most zero where it "
@@ -272,7 +289,6 @@ void bind_limits(py::module_& module) {
       .def_readonly("unit", &LimitUse::unit)
       .def_readonly("time", &LimitUse::time)
       .def_readonly("excess", &LimitUse::excess);
-  using Others = std::function<std::vector<LimitUse>(const Path&)>;
   py::class_<TipLimits>(module, "TipLimits",
                         R"(What the tips may do; every plan keeps it.
 
@@ -281,25 +297,16 @@ the string is long by this; least_gap [m]: the left tip stays to the left of the
 highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
 robot's.)")
       .def(py::init([](double speed, double acceleration, double jerk, double string_margin, double least_gap,
-                       const Vector& lowest, const Vector& highest, Others given) {
-             Others others;
-             if (given)
-               others = [given = std::move(given)](const Path& path) {
-                 try {
-                   return given(path);
-                 } catch (const py::cast_error&) {
-                   throw std::invalid_argument("limits, others: what it returned is no list of LimitUse");
-                 }
-               };
+                       const Vector& lowest, const Vector& highest, const py::object& others) {
              TipLimits limits{speed,     acceleration, jerk,    string_margin,
-                              least_gap, lowest,       highest, std::move(others)};
+                              least_gap, lowest,       highest, path_limits(others)};
              limits.validate();
              return limits;
            }),
            "speed"_a = TipLimits{}.speed, "acceleration"_a = TipLimits{}.acceleration,
            "jerk"_a = TipLimits::kNone, "string_margin"_a = TipLimits{}.string_margin,
            "least_gap"_a = TipLimits{}.least_gap, "lowest"_a = TipLimits{}.lowest,
-           "highest"_a = TipLimits{}.highest, "others"_a = nullptr)
+           "highest"_a = TipLimits{}.highest, "others"_a = py::none())
       .def_readonly("speed", &TipLimits::speed)
       .def_readonly("acceleration", &TipLimits::acceleration)
       .def_readonly("jerk", &TipLimits::jerk)

@@ -1771,7 +1771,7 @@ class TipLimits:
     highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
     robot's.
     """
-    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: collections.abc.Callable[[TipPath], collections.abc.Sequence[LimitUse]] = None) -> None:
+    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: typing.Any = None) -> None:
         ...
     @property
     def acceleration(self) -> float:

@@ -107,3 +107,28 @@ TEST_CASE("each limit of the arms is seen where a path breaks it, and alone") {
   CHECK_THROWS_WITH(RobotLimits(planner(), NAN), Contains("least_clearance"));
   CHECK_THROWS_WITH(RobotLimits(planner(), 0.1, 0.0), Contains("share"));
 }
+
+TEST_CASE("beside a path, the limits near where they are reached are those of the whole") {
+  const RobotLimits limits(planner());
+  for (const TipColumn<double>& shift :
+       {both(0.0, 0.05, -0.05, 0.1), both(0.05, -0.2, 0.2, -0.1), both(0.02, 0.1, 0.0, -0.3)}) {
+    StickSpline<double> spline;
+    const TipColumn<double> home = home_pose("hop", kLength);
+    spline.points = {home, home + shift, home - 0.3 * shift, home};
+    spline.durations = {0.4, 0.35, 0.419};
+    const TipPath<double> beside = path_of(spline);
+    const std::vector<LimitUse> uses = limits(beside);
+    spline.points[1][4] += 1e-6;
+    spline.durations[2] *= 1.0 + 1e-6;
+    const TipPath<double> path = path_of(spline);
+    const std::vector<LimitUse> whole = limits(path), near = limits.near(path, beside, uses);
+    REQUIRE(near.size() == whole.size());
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      INFO(near[k].name << " at " << near[k].time << ", " << whole[k].time);
+      CHECK(near[k].name == whole[k].name);
+      CHECK(near[k].excess <= whole[k].excess + 1e-12);
+      CHECK(near[k].excess == Approx(whole[k].excess).margin(1e-7));
+      CHECK(near[k].value == Approx(whole[k].value).epsilon(1e-6).margin(1e-6));
+    }
+  }
+}

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -67,7 +69,11 @@ struct GradientSearch {
       ++evaluations;
       sum = 0.0;
       for (const double part : residuals(problem.models, at)) sum += part * part;
-      for (const double part : residuals.other_parts(at)) sum += part * part;
+      if (residuals.others())
+        for (const LimitUse& use : residuals.others()(residuals.path(at))) {
+          const double part = residuals.other_part(use);
+          sum += part * part;
+        }
       return sum;
     };
     const auto linearize = [&](const std::vector<double>& at) {
@@ -131,11 +137,13 @@ struct GradientSearch {
   template <class Residuals>
   static void add_others(const Residuals& residuals, const std::vector<double>& x, const Budget& budget,
                          Linearization& result) {
-    const std::vector<double> parts = residuals.other_parts(x);
-    if (parts.empty()) return;
-    const Eigen::Index first = result.residuals.size(), count = static_cast<Eigen::Index>(parts.size());
+    if (!residuals.others()) return;
+    const TipPath<double> path = residuals.path(x);
+    const std::vector<LimitUse> uses = residuals.others()(path);
+    const Eigen::Index first = result.residuals.size(), count = static_cast<Eigen::Index>(uses.size());
     result.residuals.conservativeResize(first + count);
-    result.residuals.tail(count) = Eigen::Map<const Eigen::VectorXd>(parts.data(), count);
+    for (Eigen::Index r = 0; r < count; ++r)
+      result.residuals[first + r] = residuals.other_part(uses[static_cast<std::size_t>(r)]);
     result.jacobian.conservativeResize(first + count, Eigen::NoChange);
     result.jacobian.bottomRows(count).setZero();
     constexpr double h = 1e-4;
@@ -143,10 +151,14 @@ struct GradientSearch {
       std::vector<double> above = x, below = x;
       above[i] += h;
       below[i] -= h;
-      const std::vector<double> up = residuals.other_parts(above), down = residuals.other_parts(below);
-      for (std::size_t r = 0; r < parts.size(); ++r)
+      const std::vector<LimitUse> up = residuals.others().near(residuals.path(above), path, uses),
+                                  down = residuals.others().near(residuals.path(below), path, uses);
+      if (up.size() != uses.size() || down.size() != uses.size())
+        throw std::invalid_argument("limits, others: " + std::to_string(up.size()) + " of them; expected " +
+                                    std::to_string(uses.size()) + ", as for another path");
+      for (std::size_t r = 0; r < uses.size(); ++r)
         result.jacobian(first + static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(i)) =
-            up.size() == parts.size() && down.size() == parts.size() ? (up[r] - down[r]) / (2.0 * h) : 0.0;
+            (residuals.other_part(up[r]) - residuals.other_part(down[r])) / (2.0 * h);
     }
   }
 };

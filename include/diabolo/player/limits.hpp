@@ -3,28 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "diabolo/player/path_limits.hpp"
 #include "diabolo/player/polynomial_maximum.hpp"
 #include "diabolo/player/tip_path.hpp"
 #include "diabolo/recording/text.hpp"
 
 namespace diabolo {
-
-/// How much of a limit a path uses up.
-struct LimitUse {
-  std::string name;  ///< such as "left tip speed"
-  double value;      ///< the largest over the path (of a lower limit, the smallest)
-  double limit;
-  std::string unit;
-  double time;    ///< where it is reached [s]
-  double excess;  ///< how far beyond the limit, as a share of it or of a metre; <= 0 where it is kept
-};
 
 /// What the tips may do. For fixed times, each of them is convex in the control points, so that a path
 /// between two that keep them keeps them too.
@@ -36,21 +26,7 @@ struct TipLimits {
   double string_margin = 0.002;  ///< the tips are closer than the string is long by this [m]
   double least_gap = 0.02;       ///< the left tip is to the left of the right one (along y) by this [m]
   Vector3<double> lowest{-10.0, -10.0, -10.0}, highest{10.0, 10.0, 10.0};  ///< corners of the workspace [m]
-  /// Whatever else there is, such as a robot's joints and clearances: limits that a path uses up, always the
-  /// same ones in the same order.
-  std::function<std::vector<LimitUse>(const TipPath<double>&)> others{};
-
-  /// What a path uses up of `others`. Throws std::invalid_argument where one of their numbers is none.
-  std::vector<LimitUse> other_uses(const TipPath<double>& path) const {
-    if (!others) return {};
-    std::vector<LimitUse> uses = others(path);
-    for (const LimitUse& use : uses)
-      for (const auto& [what, number] :
-           {std::pair{"value", use.value}, {"limit", use.limit}, {"time", use.time}, {"excess", use.excess}})
-        if (std::isnan(number))
-          throw std::invalid_argument("limits, " + use.name + ": its " + what + " is not a number");
-    return uses;
-  }
+  PathLimits others{};  ///< whatever else there is, such as a robot's joints and clearances
 
   /// Throws std::invalid_argument where a limit is not positive or the workspace is empty.
   void validate() const {
@@ -157,7 +133,7 @@ inline std::vector<LimitUse> limit_uses(const TipPath<double>& path, const TipLi
     const bool lower = use.name == "gap of the tips" || use.name.ends_with("lowest");
     if (lower) use.value = -use.value, use.limit = -use.limit;
   }
-  for (LimitUse& use : limits.other_uses(path)) uses.push_back(std::move(use));
+  for (LimitUse& use : limits.others(path)) uses.push_back(std::move(use));
   return uses;
 }
 

@@ -186,14 +186,11 @@ class PlanResiduals {
     return parts;
   }
 
-  /// The same of TipLimits::others, which know no derivatives: one part each.
-  std::vector<double> other_parts(const std::vector<double>& x) const {
-    std::vector<double> parts;
-    if (!problem_.limits.others) return parts;
-    for (const LimitUse& use : problem_.limits.other_uses(path_of(unknowns_.motion(x))))
-      parts.push_back(weight *
-                      std::max(0.0, use.unit == "m" ? 10.0 * use.excess + inside : use.excess + inside));
-    return parts;
+  const PathLimits& others() const { return problem_.limits.others; }  ///< which know no derivatives
+  TipPath<double> path(const std::vector<double>& x) const { return path_of(unknowns_.motion(x)); }
+  /// Of each of them there is one part.
+  double other_part(const LimitUse& use) const {
+    return weight * std::max(0.0, use.unit == "m" ? 10.0 * use.excess + inside : use.excess + inside);
   }
 
  private:

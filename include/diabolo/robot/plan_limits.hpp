@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -39,112 +40,169 @@ class RobotLimits {
 
   /// Eleven limits: of each arm its box, reach and joints; the clearance.
   std::vector<LimitUse> operator()(const TipPath<double>& path) const {
-    const Look look = looked_at(path);
-    std::vector<LimitUse> uses;
-    for (const bool left : {true, false}) {
-      const StickMap& map = left ? planner_->left() : planner_->right();
-      const std::string arm = std::string(name_of(map.arm().side)) + " arm";
-      LimitUse box = least_possible(arm + "'s box, outside", 0.0, "m");
-      LimitUse reach = least_possible(arm + ", time out of reach", 0.0, "s");
-      reach.value = 0.0;
-      for (std::size_t i = 0; i < look.times.size(); ++i) {
-        const Vector3<double> tip = left ? look.tips[i].left : look.tips[i].right;
-        raise(box, outside(map.grid().box(), tip), look.times[i]);
-        const StickFault fault = left ? look.left[i] : look.right[i];
-        if (fault != StickFault::kOutOfReach && fault != StickFault::kWindow) continue;
-        if (reach.value == 0.0) reach.time = look.times[i];
-        reach.value += look.interval;
+    const Ticks ticks(path, ticks_of(path));
+    std::vector<Look> looks;
+    for (std::size_t i = 0; i <= ticks.count; ++i) looks.push_back(look(path, ticks.at(i)));
+    std::vector<LimitUse> uses = named(path);
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+      const Kind kind = kind_of(k);
+      double out_of_reach = 0.0;
+      for (std::size_t i = 0; i + width(kind) <= looks.size(); ++i) {
+        const Value found = value(k, &looks[i], ticks.interval);
+        if (kind == Kind::kReach) {
+          if (found.excess == kUnseen) continue;
+          if (out_of_reach == 0.0) uses[k].time = ticks.at(i);
+          out_of_reach += ticks.interval;
+        } else if (found.excess > uses[k].excess) {
+          put(found, ticks, i, kind, uses[k]);
+        }
       }
-      box.excess = box.value;
-      if (reach.value > 0.0) reach.excess = reach.value / (path.end() - path.begin());
-      uses.push_back(box);
-      uses.push_back(reach);
-      add_joints(look, arm, left ? 0 : kJointCount, uses);
+      if (out_of_reach > 0.0)
+        uses[k].value = out_of_reach, uses[k].excess = out_of_reach / (path.end() - path.begin());
+      if (uses[k].excess == kUnseen) uses[k].excess = -1.0;
     }
-    LimitUse apart = least_possible("clearance of the arms", -least_clearance_, "m");
-    for (std::size_t i = 0; i < look.times.size(); ++i)
-      if (look.reached(i))
-        raise(apart, -clearance(planner_->left().arm(), planner_->right().arm(), look.joints[i]).distance,
-              look.times[i]);
-    apart.excess = apart.value - apart.limit;
-    apart.value = -apart.value;
-    apart.limit = -apart.limit;
-    uses.push_back(apart);
+    return uses;
+  }
+
+  /// The same of a path with another one beside it, of which `uses` are, each looked at where those say that
+  /// it is reached; the time out of reach stays as it is.
+  std::vector<LimitUse> near(const TipPath<double>& path, const TipPath<double>& beside,
+                             std::vector<LimitUse> uses) const {
+    const Ticks was(beside, ticks_of(beside)), ticks(path, was.count);
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+      const Kind kind = kind_of(k);
+      if (kind == Kind::kReach) continue;
+      const double place = (uses[k].time - was.begin) / was.interval - 0.5 * double_of(width(kind) - 1);
+      const auto i = static_cast<std::size_t>(
+          std::clamp(std::round(place), 0.0, double_of(ticks.count + 1 - width(kind))));
+      std::array<Look, 4> looks;
+      for (std::size_t n = 0; n < width(kind); ++n) looks[n] = look(path, ticks.at(i + n));
+      const Value found = value(k, looks.data(), ticks.interval);
+      if (found.excess != kUnseen) put(found, ticks, i, kind, uses[k]);
+    }
     return uses;
   }
 
  private:
-  struct Look {
-    double interval;  ///< [s]
-    std::vector<double> times;
-    std::vector<Tips<double>> tips;
-    std::vector<PairJoints> joints;
-    std::vector<StickFault> left, right;
-    bool reached(std::size_t i) const {
-      return left[i] == StickFault::kNone && right[i] == StickFault::kNone;
-    }
+  enum class Kind { kBox, kReach, kSpeed, kAcceleration, kJerk, kClearance };
+  static constexpr std::size_t kPerArm = 5;
+
+  /// The limit number `k`: five of the left arm, five of the right one, and the clearance.
+  static Kind kind_of(std::size_t k) {
+    return k == 2 * kPerArm ? Kind::kClearance : static_cast<Kind>(k % kPerArm);
+  }
+  /// Instants that it takes to see how much is used up of a limit: a derivative takes its order more than
+  /// one.
+  static std::size_t width(Kind kind) {
+    return kind == Kind::kSpeed ? 2 : kind == Kind::kAcceleration ? 3 : kind == Kind::kJerk ? 4 : 1;
+  }
+  static double double_of(std::size_t n) { return static_cast<double>(n); }
+
+  struct Ticks {
+    double begin, interval;  ///< [s]
+    std::size_t count;       ///< of intervals
+    Ticks(const TipPath<double>& path, std::size_t count_of)
+        : begin(path.begin()), interval((path.end() - begin) / double_of(count_of)), count(count_of) {}
+    double at(std::size_t i) const { return begin + interval * double_of(i); }
   };
 
-  Look looked_at(const TipPath<double>& path) const {
+  static std::size_t ticks_of(const TipPath<double>& path) {
     const double length = path.end() - path.begin();
-    const int count = std::max(4, static_cast<int>(std::ceil(length / kInterval - 1e-9)));
-    Look look{length / count, {}, {}, {}, {}, {}};
-    std::size_t hint = 0;
-    for (int i = 0; i <= count; ++i) {
-      look.times.push_back(path.begin() + look.interval * i);
-      look.tips.push_back(path.at(look.times.back(), hint));
-      const StickMap::Point left = planner_->left().at(look.tips.back().left),
-                            right = planner_->right().at(look.tips.back().right);
-      PairJoints joints;
-      joints << left.joints, right.joints;
-      look.joints.push_back(joints);
-      look.left.push_back(left.fault);
-      look.right.push_back(right.fault);
-    }
-    return look;
+    return std::max<std::size_t>(4, static_cast<std::size_t>(std::ceil(length / kInterval - 1e-9)));
   }
 
-  /// Speed, acceleration and jerk by differences, each of the joint that is nearest to its limit.
-  void add_joints(const Look& look, const std::string& arm, int first, std::vector<LimitUse>& uses) const {
-    const JointLimits& limits = planner_->limits();
-    const std::array<std::pair<const char*, const char*>, 3> kinds{
-        {{" joints' speed", "rad/s"}, {" joints' acceleration", "rad/s^2"}, {" joints' jerk", "rad/s^3"}}};
-    const std::array<const std::array<double, kJointCount>*, 3> most{&limits.speed, &limits.acceleration,
-                                                                     &limits.jerk};
-    std::vector<PairJoints> differences = look.joints;
-    for (std::size_t order = 0; order < 3; ++order) {
-      for (std::size_t i = 0; i + 1 < differences.size(); ++i)
-        differences[i] = (differences[i + 1] - differences[i]) / look.interval;
-      differences.pop_back();
-      LimitUse use = least_possible(arm + kinds[order].first, 0.0, kinds[order].second);
-      use.excess = -1.0;
-      for (std::size_t i = 0; i < differences.size(); ++i) {
-        bool reached = true;
-        for (std::size_t k = i; k <= i + order + 1; ++k) reached = reached && look.reached(k);
-        if (!reached) continue;
-        for (int k = 0; k < kJointCount; ++k) {
-          const double limit = share_ * (*most[order])[static_cast<std::size_t>(k)],
-                       value = std::abs(differences[i][first + k]);
-          if (value / limit - 1.0 < use.excess) continue;
-          use.value = value;
-          use.limit = limit;
-          use.excess = value / limit - 1.0;
-          use.time = look.times[i] + 0.5 * static_cast<double>(order + 1) * look.interval;
-        }
+  /// Both arms at an instant.
+  struct Look {
+    Tips<double> tips;
+    PairJoints joints;
+    StickFault left, right;
+    bool reached() const { return left == StickFault::kNone && right == StickFault::kNone; }
+  };
+
+  Look look(const TipPath<double>& path, double time) const {
+    Look result;
+    result.tips = path.at(time);
+    const StickMap::Point left = planner_->left().at(result.tips.left),
+                          right = planner_->right().at(result.tips.right);
+    result.joints << left.joints, right.joints;
+    result.left = left.fault;
+    result.right = right.fault;
+    return result;
+  }
+
+  static constexpr double kUnseen = -std::numeric_limits<double>::infinity();
+  struct Value {
+    double value = 0.0, limit = 0.0, excess = kUnseen;
+  };
+
+  /// How much of a limit is used up at the instants from `at` on; kUnseen where it cannot be told.
+  Value value(std::size_t k, const Look* at, double interval) const {
+    const bool left = k < kPerArm;
+    switch (const Kind kind = kind_of(k)) {
+      case Kind::kBox: {
+        const GridBox& box = (left ? planner_->left() : planner_->right()).grid().box();
+        const Vector3<double> tip = left ? at->tips.left : at->tips.right;
+        const double outside = std::max((box.lower - tip).maxCoeff(), (tip - box.upper).maxCoeff());
+        return {outside, 0.0, outside};
       }
-      uses.push_back(use);
+      case Kind::kReach: {
+        const StickFault fault = left ? at->left : at->right;
+        const bool out = fault == StickFault::kOutOfReach || fault == StickFault::kWindow;
+        return out ? Value{0.0, 0.0, 1.0} : Value{};
+      }
+      case Kind::kClearance: {
+        if (!at->reached()) return {};
+        const double apart = clearance(planner_->left().arm(), planner_->right().arm(), at->joints).distance;
+        return {apart, least_clearance_, least_clearance_ - apart};
+      }
+      default:
+        return joints_value(kind, left ? 0 : kJointCount, at, interval);
     }
   }
 
-  static LimitUse least_possible(std::string name, double limit, const char* unit) {
-    return {std::move(name), -TipLimits::kNone, limit, unit, 0.0, -1.0};
+  /// Speed, acceleration or jerk by differences, of the joint that is nearest to its limit.
+  Value joints_value(Kind kind, int first, const Look* at, double interval) const {
+    const JointLimits& limits = planner_->limits();
+    for (std::size_t n = 0; n < width(kind); ++n)
+      if (!at[n].reached()) return {};
+    Joints<double> rate;
+    const auto joints = [&](int n) { return at[n].joints.segment<kJointCount>(first); };
+    if (kind == Kind::kSpeed) rate = (joints(1) - joints(0)) / interval;
+    if (kind == Kind::kAcceleration) rate = (joints(2) - 2.0 * joints(1) + joints(0)) / (interval * interval);
+    if (kind == Kind::kJerk)
+      rate = (joints(3) - joints(0) - 3.0 * (joints(2) - joints(1))) / (interval * interval * interval);
+    const auto& most = kind == Kind::kSpeed          ? limits.speed
+                       : kind == Kind::kAcceleration ? limits.acceleration
+                                                     : limits.jerk;
+    Value result;
+    for (int i = 0; i < kJointCount; ++i) {
+      const double limit = share_ * most[static_cast<std::size_t>(i)], size = std::abs(rate[i]);
+      if (size / limit - 1.0 >= result.excess) result = {size, limit, size / limit - 1.0};
+    }
+    return result;
   }
-  static void raise(LimitUse& use, double value, double time) {
-    if (value > use.value) use.value = value, use.time = time;
+
+  static void put(const Value& found, const Ticks& ticks, std::size_t i, Kind kind, LimitUse& use) {
+    use.value = found.value;
+    use.limit = found.limit;
+    use.excess = found.excess;
+    use.time = ticks.at(i) + 0.5 * double_of(width(kind) - 1) * ticks.interval;
   }
-  /// How far a point is outside a box [m]; inside, less than zero.
-  static double outside(const GridBox& box, const Vector3<double>& point) {
-    return std::max((box.lower - point).maxCoeff(), (point - box.upper).maxCoeff());
+
+  /// Nothing used up yet.
+  std::vector<LimitUse> named(const TipPath<double>& path) const {
+    std::vector<LimitUse> uses;
+    for (const StickMap* map : {&planner_->left(), &planner_->right()}) {
+      const std::string arm = std::string(name_of(map->arm().side)) + " arm";
+      for (const auto& [what, unit] : {std::pair{"'s box, outside", "m"},
+                                       {", time out of reach", "s"},
+                                       {" joints' speed", "rad/s"},
+                                       {" joints' acceleration", "rad/s^2"},
+                                       {" joints' jerk", "rad/s^3"}})
+        uses.push_back({arm + what, 0.0, 0.0, unit, path.begin(), kUnseen});
+    }
+    uses.push_back({"clearance of the arms", 0.0, least_clearance_, "m", path.begin(), kUnseen});
+    return uses;
   }
 
   std::shared_ptr<const StickPlanner> planner_;
