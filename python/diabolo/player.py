@@ -25,7 +25,7 @@ from ._core import (
     TipLimits,
     TipPath,
 )
-from .checks import LARGEST_SEED, list_of, model_of, warn_of, whole_number
+from .checks import LARGEST_SEED, instance_of, list_of, model_of, warn_of, whole_number
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters | str
@@ -269,6 +269,7 @@ def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
     """The share of the models by which the diabolo of a planned motion ends on its string, within 0.3 m of
     where it was planned to: how robust the motion is."""
     given = list_of("models", models, (Model,))
+    instance_of("play", play, PlannedPlay)
     if not given:
         raise ValueError("models: none; at least one expected")
     ended = 0

@@ -26,7 +26,7 @@ from .._core import (
 from ..diagnosis import SCHEMA as DIAGNOSIS_SCHEMA
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS
-from ..player import ACTIONS, PlannedPlay, best_guess, model_for, plan_action
+from ..player import ACTIONS, WANTED, PlannedPlay, best_guess, model_for, plan_action
 from ..view import view_html
 from . import files, plots
 from .arguments import add_command, output_name, read_model
@@ -128,6 +128,12 @@ def run(arguments: argparse.Namespace) -> int:
         plots.check(arguments.plot)
     check_spin(arguments.spin, RATE)
     goals = _numbers("--goal", arguments.goal, GOALS)
+    for name in goals:
+        those = WANTED["spin_gain" if name == "spin" else name]
+        if arguments.action not in those:
+            raise ValueError(
+                f"--goal {name}: nothing that {arguments.action} can aim at; expected with {', '.join(those)}"
+            )
     usual = TipLimits()
     asked = _numbers("--limit", arguments.limit, LIMITS)
     joints = {name.removeprefix("joint_"): asked[name] for name in JOINT_LIMITS if name in asked}
