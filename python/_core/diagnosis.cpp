@@ -70,8 +70,7 @@ std::size_t comparable_windows(const Recording& recording, const Model& base) {
 void bind_diagnosis(py::module_& module) {
   module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "budget"_a, "seed"_a,
              "threads"_a, "progress"_a, "See diabolo.diagnose.");
-  module.def("comparable_windows", &comparable_windows, "recording"_a, "base"_a,
-             py::call_guard<py::gil_scoped_release>(),
+  module.def("comparable_windows", &comparable_windows, "recording"_a, "base"_a, Unlocked(),
              "Starts from which a recording that is held out can be compared; see diabolo.diagnose.");
 }
 

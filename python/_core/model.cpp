@@ -64,10 +64,9 @@ says that its own count.)");
                  "The rules of the paper's text: its own string of 1.45 m, held tips.");
   cls.def_static("consistent", &consistent_model,
                  "Ours: an inextensible string of the recording's length, tips on a smooth path.");
-  cls.def_static("load", &load_model, "path"_a, py::call_guard<py::gil_scoped_release>(),
+  cls.def_static("load", &load_model, "path"_a, Unlocked(),
                  "Reads a model file (JSON) of the schema diabolo.model/1.");
-  cls.def("save", &save_model, "path"_a, py::call_guard<py::gil_scoped_release>(),
-          "Writes a model file, whole or not at all.");
+  cls.def("save", &save_model, "path"_a, Unlocked(), "Writes a model file, whole or not at all.");
   cls.def("to_json", &write_model, "The text of its file.");
   cls.def_static("named", &model_named, "name"_a, "'published', 'paper' or 'consistent'.");
   cls.def_readwrite("name", &Model::name);

@@ -186,10 +186,12 @@ py::tuple foresee(const Model& model, const State<double>& start, const Path& pa
   if (path.end() - path.begin() > kLongestPath)
     throw std::invalid_argument("tip path: lasts " + shown(path.end() - path.begin()) + " s; expected " +
                                 shown(kLongestPath) + " s at most");
+  const Simulator by = simulator(model);  // copies: others may change theirs meanwhile
+  const State<double> from = start;
   Play<double> seen;
   {
     const py::gil_scoped_release free;
-    seen = play(simulator(model), start, path, {.dt = dt, .flight = flight, .down_to = down_to});
+    seen = play(by, from, path, {.dt = dt, .flight = flight, .down_to = down_to});
   }
   return play_of(seen);
 }
@@ -445,8 +447,8 @@ void bind_plans(py::module_& module) {
       .def_property_readonly("path", &FullHorizon::path)
       .def("observe", &FullHorizon::observe, "time"_a, "state"_a,
            "Takes over an observed state; predictions begin with the latest one.")
-      .def("seam", &FullHorizon::seam, "now"_a, Unlocked())
-      .def("seam_at", &FullHorizon::seam_at, "time"_a, Unlocked())
+      .def("seam", &FullHorizon::seam, "now"_a)
+      .def("seam_at", &FullHorizon::seam_at, "time"_a)
       .def("join", &FullHorizon::join, "seam"_a, "plan"_a, "now"_a, "planning_time"_a);
 }
 

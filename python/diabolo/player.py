@@ -35,6 +35,7 @@ ACTIONS: tuple[str, ...] = (*ACTION_NAMES, "throw_and_catch")
 """What `plan_action` knows."""
 MOST_CYCLES = 1000
 LONGEST_SEARCH = 1e6  # [s]
+LONGEST_PLAY = 3600.0  # [s]
 LONGEST_FLIGHT = 10.0  # that a play shows after its end; it ends at the height of the hands [s]
 WANTED = {
     "height": ("hop", "throw", "side_throw", "throw_and_catch"),
@@ -69,16 +70,23 @@ class PlannedPlay(NamedTuple):
     right: NDArray[np.float64]
     planning_time: float
     """Of all plans together [s]."""
+    ended: str = ""
+    """Why there are fewer cycles than were asked for; empty where there are not."""
 
     @property
     def reached(self) -> bool:
-        """Whether every goal is reached."""
-        return all(plan.reached for plan in self.plans)
+        """Whether every goal of every cycle is reached."""
+        return not self.ended and all(plan.reached for plan in self.plans)
 
     @property
     def answer(self) -> str:
-        """The same in a sentence: that of the first plan that misses a goal."""
-        return next((plan.answer for plan in self.plans if not plan.reached), "every goal is reached")
+        """The same in a sentence: that of the first plan that misses a goal, or why there are no more."""
+        each = 2 if self.action == "throw_and_catch" else 1
+        several = len(self.plans) > each or self.ended != ""
+        for index, plan in enumerate(self.plans):
+            if not plan.reached:
+                return (f"cycle {index // each + 1}: " if several else "") + plan.answer
+        return self.ended or "every goal is reached"
 
 
 def plan(
@@ -147,7 +155,8 @@ def plan_action(
     name: one of ACTIONS.
     start: of the diabolo; by default it hangs with the given spin [rad/s], see `hanging`.
     cycles: so many in a row, each planned from the predicted end of the one before, where position, velocity
-        and acceleration of the tips go on; fewer where a throw leaves nothing to catch.
+        and acceleration of the tips go on; fewer, and `ended` says why, where a throw leaves nothing to catch
+        or no motion goes on within the limits.
     size, pace: of the seed's hands, relative to the usual ones.
     height: of a throw's apex above the tips, or of a hop [m]; sideways: how far to the left a swing goes or a
     throw comes down [m]; spin_gain: wanted of each cycle of acceleration [rad/s] (needs a model with string
@@ -180,16 +189,14 @@ def plan_action(
         for initial in initials:
             initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
     limits = TipLimits() if limits is None else limits
-    path: TipPath | None = None
-    plans: list[Plan] = []
-    wanted: list[Goals] = []
-    states_now, began = initials, time.perf_counter()
-    for _ in range(cycles):
+
+    def planned(path: TipPath | None, states: list[State]) -> tuple[TipPath, list[Plan], Goals]:
+        """A cycle that goes on from a path and the states at its end."""
         action = _core.action(
             figure,
             left,
             right,
-            states_now[0],
+            states[0],
             length,
             size=size,
             pace=pace,
@@ -198,12 +205,11 @@ def plan_action(
             spin=spin_gain,
             sticks=_directions(sticks),
         )
-        wanted = wanted or [action.goals]
         seed = action.seed if path is None else _going_on(action.seed, path)
         if catches:
             thrown, caught, piece, _ = _core.plan_throw_and_catch(
                 models,
-                states_now,
+                states,
                 seed,
                 action.goals,
                 limits,
@@ -212,34 +218,51 @@ def plan_action(
                 min(seconds, LONGEST_SEARCH),
                 dt,
             )
-            plans += [thrown] if caught is None else [thrown, caught]
-        else:
-            plans.append(
-                plan(
-                    states_now,
-                    seed,
-                    action.goals,
-                    models,
-                    limits=limits,
-                    freedom=action.freedom,
-                    solver=solver,
-                    seconds=seconds,
-                    random_seed=random_seed,
-                    dt=dt,
-                )
-            )
-            piece = plans[-1].path
-        path = piece if path is None else path.followed_by(piece)
-        if catches and caught is None:
-            break
+            return piece, [thrown] if caught is None else [thrown, caught], action.goals
+        found = plan(
+            states,
+            seed,
+            action.goals,
+            models,
+            limits=limits,
+            freedom=action.freedom,
+            solver=solver,
+            seconds=seconds,
+            random_seed=random_seed,
+            dt=dt,
+        )
+        return found.path, [found], action.goals
+
+    began = time.perf_counter()
+    path, plans, goals = planned(None, initials)
+    states_now, piece, ended = initials, path, ""
+    for cycle in range(2, cycles + 1):
         states_now = [_end(one, now, piece) for one, now in zip(models, states_now, strict=True)]
-    assert path is not None
+        if states_now[0].string_state == StringState.FLYING:
+            ended = f"cycle {cycle}: the diabolo flies, nothing holds it"
+            break
+        if catches and len(plans) < 2 * (cycle - 1):
+            ended = f"cycle {cycle}: the throw before it was none"
+            break
+        try:
+            piece, more, _ = planned(path, states_now)
+        except ValueError as error:
+            ended = f"cycle {cycle}: {error}"
+            break
+        if path.end + piece.end - piece.begin > LONGEST_PLAY:
+            ended = f"cycle {cycle}: the play would last more than {LONGEST_PLAY:g} s"
+            break
+        path = path.followed_by(piece)
+        plans += more
     took = time.perf_counter() - began
     hands = float(path.derivatives(np.array([path.end]))[0, 0, [2, 5]].mean())
+    flight = 0.0 if catches and len(plans) % 2 == 0 else LONGEST_FLIGHT
     time_s, states, codes, lefts, rights = _core.foresee(
-        models[0], initials[0], path, flight=0.0 if catches else LONGEST_FLIGHT, down_to=hands
+        models[0], initials[0], path, flight=flight, down_to=hands
     )
-    return PlannedPlay(name, path, plans, wanted, initials[0], time_s, states, codes, lefts, rights, took)
+    return PlannedPlay(
+        name, path, plans, [goals], initials[0], time_s, states, codes, lefts, rights, took, ended
+    )
 
 
 def hanging(
@@ -349,8 +372,10 @@ def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:
 
 def _going_on(seed: StickSpline, path: TipPath) -> StickSpline:
     """A seed that sets in where a path ends, with its velocity and acceleration."""
-    _, velocity, acceleration, _ = path.derivatives(np.array([path.end]))[:, 0]
-    return StickSpline(seed.times, seed.left, seed.right, start=(velocity, acceleration), sticks=seed.sticks)
+    tips, velocity, acceleration, _ = path.derivatives(np.array([path.end]))[:, 0]
+    left, right = np.array(seed.left), np.array(seed.right)
+    left[0], right[0] = tips[:3], tips[3:]
+    return StickSpline(seed.times, left, right, start=(velocity, acceleration), sticks=seed.sticks)
 
 
 def _end(model: Model, start: State, path: TipPath) -> State:

@@ -127,8 +127,13 @@ TEST_CASE("the random walk stays within its reach of the seed") {
   problem.freedom.reach = 0.02;
   std::mt19937_64 generator(8401);
   const Plan plan = RandomWalk{}(problem, {.evaluations = 400}, generator);
+  CHECK(plan.cost < problem.cost(path_of(problem.seed), problem.kReportedStep, false));
   for (std::size_t i = 0; i < plan.motion.points.size(); ++i)
     CHECK((plan.motion.points[i] - problem.seed.points[i]).cwiseAbs().maxCoeff() <= 0.02 + 1e-12);
+  problem.limits.speed = 0.6;  // the seed is made smaller by more than that: the walk goes on from there
+  const StickSpline<double> kept = kept_seed(problem.seed, problem.limits, kLength);
+  const Plan slow = RandomWalk{}(problem, {.evaluations = 400}, generator);
+  CHECK(problem.cost(slow.path, problem.dt, false) < problem.cost(path_of(kept), problem.dt, false));
 }
 
 TEST_CASE("a model that predicts no numbers is told, and no plan is made of them") {

@@ -85,13 +85,13 @@ TEST_CASE("each model may begin in a state of its own, and there is one for each
 }
 
 TEST_CASE("a throw that comes down too soon to be caught is the closest plan, and says so") {
-  PlanProblem<> problem = throwing("throw", 0.06);
-  problem.limits.speed = 1.35;
+  const PlanProblem<> problem = throwing("throw", 0.06);
   const ThrowAndCatch both = plan_throw_and_catch(problem, GradientSearch{}, {});
   INFO(both.thrown.answer);
   CHECK_FALSE(both.caught);
   CHECK_FALSE(both.reached);
   CHECK_FALSE(both.thrown.reached);
+  CHECK_THAT(both.thrown.answer, Contains("time to catch is missed by") && Contains("a higher throw"));
   CHECK(both.path.end() == both.thrown.path.end());
 }
 
@@ -146,20 +146,24 @@ TEST_CASE("a plan that comes too late changes nothing, and the tips end at rest"
 TEST_CASE("a plan may set in where the horizon begins, and must end at rest") {
   const TipColumn<double> home = home_pose("swing", kLength);
   const State<double> hanging = hanging_state(home, kLength, 100.0);
-  Horizon<> horizon(kModel, home, hanging, 0.0);
-  const Seam seam = horizon.seam_at(0.0);
+  Horizon<> horizon(kModel, home, hanging, 3.0);
+  Seam seam = horizon.seam_at(3.0);
   const Action action = action_named("swing", home, seam.state, kLength, {});
   Plan plan;
   plan.motion = joined_at(seam, action.seed);
   plan.path = path_of(plan.motion);
-  CHECK(horizon.join(seam, plan, 0.0, 0.0));
-  CHECK(horizon.path().begin() == 0.0);
-  CHECK(horizon.path().end() == Approx(plan.path.end()));
-  const Seam later = horizon.seam_at(0.3);
-  plan.path = path_of(joined_at(later, action.seed)).until(0.8);
-  CHECK_THROWS_WITH(horizon.join(later, plan, 0.2, 0.0), Contains("does not end at rest"));
+  plan.path = plan.path.begun_at(7.0);  // when it was planned does not matter
+  CHECK(horizon.join(seam, plan, 3.0, 0.0));
+  CHECK(horizon.path().begin() == 3.0);
+  CHECK(horizon.path().end() == Approx(3.0 + plan.path.end() - plan.path.begin()));
+  const Seam later = horizon.seam_at(3.3);
+  plan.path = path_of(joined_at(later, action.seed)).until(3.8);
+  CHECK_THROWS_WITH(horizon.join(later, plan, 3.2, 0.0), Contains("does not end at rest"));
   plan.path = TipPath<double>();
-  CHECK_THROWS_WITH(horizon.join(later, plan, 0.2, 0.0), "tip path: empty");
+  CHECK_THROWS_WITH(horizon.join(later, plan, 3.2, 0.0), "tip path: empty");
+  seam.time = 2.9;
+  plan.path = path_of(plan.motion);
+  CHECK_THROWS_WITH(horizon.join(seam, plan, 2.9, 0.0), Contains("a seam at 2.9 s, before its begin at 3 s"));
 }
 
 TEST_CASE("an observed state takes the place of the predicted one") {

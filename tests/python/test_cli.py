@@ -332,10 +332,10 @@ def test_a_recording_that_is_odd_is_warned_of(
         (("evaluate", "played.csv", "--json", "no/out.json"), "no/out.json: there is no folder"),
         (("evaluate", "played.csv", "--json", "."), ".: a directory; expected the name of a file"),
         (("evaluate", "played.csv", "--json", "/dev/null"), "/dev/null: a device or a pipe; expected a file"),
-        (("evaluate", "played.csv", "--json", "played.csv"), "played.csv: this file is read already"),
-        (("evaluate", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
+        (("evaluate", "played.csv", "--json", "played.csv"), "played.csv: this file is read; choose"),
+        (("evaluate", "played.csv", "--json", "played.json"), "played.json: this file is read; choose"),
         (("evaluate", "played.csv:0-60", "--json", "played.csv:0-60"), "played.csv:0-60: this file is read"),
-        (("info", "played.csv", "--json", "played.json"), "played.json: this file is read already"),
+        (("info", "played.csv", "--json", "played.json"), "played.json: this file is read; choose"),
         (("evaluate", "played.csv:0-99999999999999999999"), "played.csv:0-99999999999999999999: there is no"),
         (
             ("evaluate", "played.csv", "--seed", str(10**20)),
@@ -344,7 +344,7 @@ def test_a_recording_that_is_odd_is_warned_of(
         (("evaluate", "played.csv", "--plot", "out.doc"), "out.doc: expected a name that ends in .png"),
         (
             ("evaluate", "played.csv", "--json", "a.png", "--plot", "a.png"),
-            "a.png: this file is written already",
+            "a.png: another output has this name; choose",
         ),
         (("evaluate", "played.csv", "--calibration", "no.json"), "no.json: there is no such file"),
         (("evaluate", "played.csv:0-1"), "no row to compare"),
@@ -352,7 +352,7 @@ def test_a_recording_that_is_odd_is_warned_of(
         (("info", "played.json"), "played.json, line 1: "),
         (("info", "played.csv", "--calibration", "played.json"), "played.json: "),
         (("convert", "played.csv", "out.txt"), "out.txt: expected a name that ends in .csv"),
-        (("convert", "played.csv", "played.csv"), "played.csv: this file is read already"),
+        (("convert", "played.csv", "played.csv"), "played.csv: this file is read; choose"),
         (("convert", "played.csv"), "the following arguments are required: TIDY.csv"),
         (("convert", "no.csv", "out.csv"), "no.csv: there is no such file"),
         (("convert", "played.csv", "no/out.csv"), "out.csv: there is no folder"),
@@ -375,7 +375,7 @@ def test_a_recording_that_is_odd_is_warned_of(
             ("simulate", "out.csv", "--on", "played.csv", "--spin", "1"),
             "--duration and --spin belong to --motion",
         ),
-        (("simulate", "played.csv", "--on", "played.csv"), "played.csv: this file is read already"),
+        (("simulate", "played.csv", "--on", "played.csv"), "played.csv: this file is read; choose"),
         (("demo", "--out", "played.csv"), "played.csv: a file; expected a folder"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
@@ -464,6 +464,28 @@ def test_a_link_that_leads_to_itself_is_told(tmp_path: Path, command: Command) -
     done = command("view", str(loop), "--out", str(tmp_path / "v.html"))
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "loop.csv" in done.stderr
+
+
+def test_outputs_go_where_links_lead(tmp_path: Path, command: Command) -> None:
+    (tmp_path / "there").mkdir()
+    page, take, loop, nowhere = (
+        tmp_path / name for name in ("page.html", "take.csv", "loop.html", "no.html")
+    )
+    page.symlink_to("there/page.html")  # of which there is none yet
+    take.symlink_to("there/take.csv")
+    loop.symlink_to(loop)
+    nowhere.symlink_to("nowhere/page.html")
+    done = command("plan", "hop", "--out", str(take), "--html", str(page))
+    assert done.returncode == 0, done.stderr
+    assert page.is_symlink() and take.is_symlink()
+    assert (tmp_path / "there" / "page.html").read_text().startswith("<!DOCTYPE html>")
+    assert (tmp_path / "there" / "take.csv").read_text().startswith("time,")
+    assert command("view", str(take), "--out", str(page)).returncode == 0
+    for wrong, said in ((loop, "leads to itself"), (nowhere, "there is no folder")):
+        done = command("plan", "hop", "--html", str(wrong))
+        assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+        assert f"{wrong.name}: " in done.stderr and said in done.stderr
+    assert sorted(path.name for path in (tmp_path / "there").iterdir()) == ["page.html", "take.csv"]
 
 
 def test_ctrl_c_stops_it_and_leaves_nothing(tidy: Path) -> None:

@@ -298,7 +298,7 @@ def test_the_command_overwrites_no_input(
     take = str(packaged_recordings()[0])
     out = ["--out", str(given.parent)] if given.parent != tmp_path else ["--json", str(given)]
     assert main(["diagnose", take, option, str(given), *out]) == 2
-    assert f"{given}: this file is read already" in capsys.readouterr().err
+    assert f"{given}: this file is read; choose" in capsys.readouterr().err
     assert given.read_bytes() == before and list(given.parent.iterdir()) == [given]
 
 

@@ -132,9 +132,27 @@ def test_cycles_end_with_a_throw_that_leaves_nothing_to_catch() -> None:
     assert not play.reached
     assert len(play.plans) == 1
     assert "what binds: left tip speed" in play.answer
+    assert play.answer.startswith("cycle 1: ")
+    assert "cycle 2: " in play.ended
     low = diabolo.plan_action("throw_and_catch", height=0.06)
     assert not low.reached
     assert "time to catch is missed" in low.answer
+
+
+def test_cycles_go_on_from_where_the_tips_are() -> None:
+    """A wall keeps the catch's hands from coming home."""
+    limits = TipLimits(highest=[10.0, 0.66, 10.0])
+    play = diabolo.plan_action("throw_and_catch", cycles=2, limits=limits)
+    assert len(play.plans) == 4, play.ended
+    assert max(use.excess for use in diabolo._core.limit_uses(play.path, limits, LENGTH)) <= 0.0
+
+
+def test_cycles_that_cannot_go_on_within_the_limits_leave_those_before() -> None:
+    play = diabolo.plan_action("linear_acceleration", cycles=3, limits=TipLimits(jerk=300.0))
+    assert len(play.plans) == 1
+    assert play.plans[0].reached and not play.reached
+    assert play.answer == play.ended
+    assert re.match("cycle 2: .* left tip jerk, 300 m/s\\^3", play.ended)
 
 
 def test_a_flight_is_shown_until_it_comes_down_to_the_hands() -> None:

@@ -39,6 +39,24 @@ TEST_CASE("Without commit nothing is left, and what was there stays") {
   CHECK(folder.entries() == 1);
 }
 
+TEST_CASE("What a link leads to is written, and the link stays") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path link = folder / "link", second = folder / "second", loop = folder / "loop";
+  std::filesystem::create_symlink("file", link);  // there is no such file yet
+  std::filesystem::create_symlink(link, second);
+  std::filesystem::create_symlink("loop", loop);
+  for (const auto& [path, text] : {std::pair{link, "one"}, {second, "two"}}) {
+    FilesToWrite files;
+    files.add(path, text);
+    files.commit();
+    CHECK(std::filesystem::is_symlink(path));
+    CHECK(read_file(folder / "file") == text);
+  }
+  CHECK(complaint([&] { FilesToWrite().add(loop, "x"); }) ==
+        loop.string() + ": a symbolic link that leads to itself; expected a file");
+  CHECK(folder.entries() == 4);
+}
+
 TEST_CASE("What cannot be read or written is named") {
   const test::TemporaryFolder folder;
   const std::string missing = (folder / "missing.csv").string(), here = (folder / "").string();

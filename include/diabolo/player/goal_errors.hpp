@@ -123,7 +123,8 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
                       goals.apex->weight,
                       goals.tolerances.position,
                       "m",
-                      {Scalar(state.position.z() + rise - tips - Scalar(goals.apex->value))}});
+                      {Scalar(state.position.z() + rise - tips - Scalar(goals.apex->value))},
+                      released});
   }
   if (goals.landing) {
     const Vector3<double>& wanted = goals.landing->position;
@@ -135,7 +136,7 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
     const Scalar height = state.position.z() - Scalar(wanted.z());
     const Scalar square = state.velocity.z() * state.velocity.z() + Scalar(2.0 * play.gravity) * height;
     const Scalar time = (state.velocity.z() + positive_sqrt<Scalar>(square)) * Scalar(1.0 / play.gravity);
-    GoalError<Scalar> error{"landing", goals.landing->weight, goals.tolerances.position, "m", {}};
+    GoalError<Scalar> error{"landing", goals.landing->weight, goals.tolerances.position, "m", {}, released};
     for (int k = 0; k < 2; ++k)
       error.parts.push_back(state.position[k] + state.velocity[k] * time - Scalar(wanted[k]));
     errors.push_back(error);
@@ -153,14 +154,15 @@ void add_catch(const Play<Scalar>& play, const Goals& goals, double string_lengt
     const PlayInstant<Scalar>&a = play.instants[i - 1], &b = play.instants[i];
     if (a.state.string_state != StringState::kFlying) break;
     const Scalar above = height_over_tips<Scalar>(a.state.position, a.tips);
-    // What the step would have come to in free flight: the same, caught or not.
+    // What the step came to, or where it was caught, would have come to in free flight.
     const double dt = b.time - a.time;
     Vector3<Scalar> free = a.state.position + a.state.velocity * Scalar(dt);
     free.z() -= Scalar(0.5 * play.gravity * dt * dt);
+    if (b.state.string_state == StringState::kFlying) free = b.state.position;
     const Scalar below = height_over_tips<Scalar>(free, b.tips);
-    const bool misses = below > Scalar(0);
-    if (above <= Scalar(0) || (misses && !b.caught)) continue;
-    const Scalar f = misses ? Scalar(1) : Scalar(above / (above - below));
+    if (above <= Scalar(0) || (below > Scalar(0) && !b.caught)) continue;
+    const Scalar fall = above - below;
+    const Scalar f = fall > Scalar(0) ? Scalar(above / fall) : Scalar(1);
     const Vector3<Scalar> left = a.tips.left + (b.tips.left - a.tips.left) * f,
                           right = a.tips.right + (b.tips.right - a.tips.right) * f,
                           off =

@@ -121,6 +121,12 @@ struct GoalError {
     }
     return std::sqrt(sum);
   }
+
+  /// The same as a share of its tolerance; infinite where the goal does not hold.
+  double share() const {
+    const double off = size();
+    return !held ? INFINITY : off == 0.0 ? 0.0 : off / tolerance;
+  }
 };
 
 }  // namespace diabolo

@@ -21,7 +21,8 @@ namespace diabolo {
 struct GradientSearch {
   int iterations = 30;        ///< each a prediction with derivatives
   double least_gain = 2e-3;   ///< an iteration that gains a smaller share of the residual ends the search
-  double good_enough = 2e-6;  ///< so does a smaller sum of squared residuals
+  double good_enough = 2e-6;  ///< so does a smaller sum of squared residuals,
+  double good_share = 0.125;  ///< or every goal within this share of its tolerance, far from the limits
 
   /// Other paces of the seed, tried in turn while a goal is missed.
   std::vector<double> other_paces{1.15, 0.87};
@@ -64,23 +65,28 @@ struct GradientSearch {
     PlanResiduals<Effects...> residuals(problem, unknowns);
     std::vector<double> bounds, x(unknowns.size(), 0.0);
     for (std::size_t i = 0; i < x.size(); ++i) bounds.push_back(unknowns.bound(i));
-    double sum = INFINITY;
+    double sum = INFINITY, least = INFINITY, share_off = INFINITY;  // share_off: at the least sum
     const auto value = [&](const std::vector<double>& at) {
       ++evaluations;
       sum = 0.0;
-      for (const double part : residuals(problem.models, at)) sum += part * part;
+      double worst = INFINITY;
+      for (const double part : residuals(problem.models, at, &worst)) sum += part * part;
       if (residuals.others())
         for (const LimitUse& use : residuals.others()(residuals.path(at))) {
           const double part = residuals.other_part(use);
           sum += part * part;
+          if (part > 0.0) worst = INFINITY;
         }
+      if (sum < least) least = sum, share_off = worst;
       return sum;
     };
     const auto linearize = [&](const std::vector<double>& at) {
       ++evaluations;
       return linearization<N>(residuals, duals, at, budget);
     };
-    const auto stop = [&] { return budget.spent(evaluations) || sum < good_enough; };
+    const auto stop = [&] {
+      return budget.spent(evaluations) || sum < good_enough || share_off < good_share;
+    };
     residuals.dt = problem.dt;
     least_squares(x, bounds, iterations, 2.0, least_gain, value, linearize, stop);
     // Limits that still give way become harder.
@@ -88,7 +94,7 @@ struct GradientSearch {
     for (int round = 0; round < 3 && !budget.spent(evaluations) && !kept(); ++round) {
       residuals.weight *= 5.0;
       residuals.inside += 0.01;
-      sum = INFINITY;
+      sum = least = share_off = INFINITY;
       least_squares(x, bounds, 6, 0.5, least_gain, value, linearize, stop);
     }
     const StickSpline<double> found = unknowns.motion(x);

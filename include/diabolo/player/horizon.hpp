@@ -94,11 +94,14 @@ class Horizon {
     if (!plan.path.derivatives_at(plan.path.end())[1].isZero(kSameTips))
       throw std::invalid_argument("horizon: the plan does not end at rest");
     planning_time_ = planning_time;
+    if (!(seam.time >= path_.begin()))
+      throw std::invalid_argument("horizon: a seam at " + shown(seam.time) + " s, before its begin at " +
+                                  shown(path_.begin()) + " s");
     if (now > seam.time) return false;
     TipPath<double> joined = path_.until(seam.time);
     if (const double gap = seam.time - path_.end(); gap > 1e-12)  // the tips have rested since
       joined.append(rest(path_.end(), gap, seam.tips));
-    joined.append(plan.path);
+    joined.append(plan.path.begun_at(seam.time));
     path_ = std::move(joined);
     return true;
   }

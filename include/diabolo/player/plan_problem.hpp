@@ -166,10 +166,12 @@ class PlanResiduals {
   double inside = 0.01, weight = 3.0;  ///< of the limits
   double dt = 4e-3;                    ///< [s]
 
-  /// `models` are those of the problem in this Scalar.
+  /// `models` are those of the problem in this Scalar. `worst` becomes the goal that is farthest off, as a
+  /// share of its tolerance; infinite where one does not hold, or near a limit.
   template <class Scalar>
   std::vector<Scalar> operator()(const std::vector<Predictor<Scalar, Effects...>>& models,
-                                 const std::vector<Scalar>& x) const {
+                                 const std::vector<Scalar>& x, double* worst = nullptr) const {
+    double farthest = 0.0;
     const TipPath<Scalar> path = path_of(unknowns_.motion(x));
     const double share = 1.0 / std::sqrt(static_cast<double>(models.size()));
     std::vector<Scalar> parts;
@@ -177,11 +179,16 @@ class PlanResiduals {
       const Play<Scalar> play = problem_.judged_part(m, models[m], path, dt);
       const std::vector<GoalError<Scalar>> errors =
           goal_errors(play, problem_.goals, problem_.models[m].parameters(), true);
-      for (const GoalError<Scalar>& error : errors)
+      for (const GoalError<Scalar>& error : errors) {
         for (const Scalar& part : error.parts) parts.push_back(part * Scalar(error.weight * share));
+        if (worst) farthest = std::max(farthest, error.share());
+      }
+      const std::size_t goals = parts.size();
       if (m == 0)
         detail::add_limit_parts(play, path, problem_.limits, problem_.string_length(), inside, weight, parts);
+      if (parts.size() > goals) farthest = INFINITY;
     }
+    if (worst) *worst = farthest;
     for (const Scalar& change : x) parts.push_back(change * Scalar(kStayNearSeed));
     return parts;
   }

@@ -13,8 +13,8 @@ namespace diabolo {
 
 /// The paper's search: from the best motion so far, which is the seed at first, each knot moves by up to a
 /// centimetre in each coordinate and the whole motion becomes up to 50 ms longer or shorter, its interior
-/// times drawn anew; what is better and keeps the limits is kept. It stays within Freedom::reach of the seed,
-/// but draws times as the paper does, whatever Freedom::stretch says.
+/// times drawn anew; what is better and keeps the limits is kept. It stays within Freedom::reach of the kept
+/// seed, but draws times as the paper does, whatever Freedom::stretch says.
 struct RandomWalk {
   double knot_step = 0.01;  ///< [m]
   double time_step = 0.05;  ///< of the whole motion [s]
@@ -24,11 +24,12 @@ struct RandomWalk {
   template <template <class> class... Effects, class Generator>
   Plan operator()(const PlanProblem<Effects...>& problem, const Budget& budget, Generator& generator) const {
     problem.validate();
-    StickSpline<double> best = kept_seed(problem.seed, problem.limits, problem.string_length());
+    const StickSpline<double> seed = kept_seed(problem.seed, problem.limits, problem.string_length());
+    StickSpline<double> best = seed;
     double least = problem.cost(path_of(best), problem.dt, false);
     int evaluations = 1;
     while (!budget.spent(evaluations)) {
-      const StickSpline<double> tried = moved(best, problem, generator);
+      const StickSpline<double> tried = moved(best, seed, problem.freedom, generator);
       ++evaluations;
       const TipPath<double> path = path_of(tried);
       if (!keeps(path, problem.limits, problem.string_length())) continue;
@@ -50,17 +51,16 @@ struct RandomWalk {
     return low + (high - low) * (static_cast<double>(bits) * 0x1p-32);
   }
 
-  template <template <class> class... Effects, class Generator>
-  StickSpline<double> moved(StickSpline<double> motion, const PlanProblem<Effects...>& problem,
-                            Generator& generator) const {
-    const Freedom& freedom = problem.freedom;
+  template <class Generator>
+  StickSpline<double> moved(StickSpline<double> motion, const StickSpline<double>& seed,
+                            const Freedom& freedom, Generator& generator) const {
     const bool last = freedom.last_point && motion.ends == SplineEnds::kClamped;
     for (std::size_t i = 1; i + (last ? 0 : 1) < motion.points.size(); ++i)
       for (int k = 0; k < 6; ++k)
         if (k % 3 != 0 || freedom.forward) {
-          const double seed = problem.seed.points[i][k],
-                       moved = motion.points[i][k] + uniform(generator, -knot_step, knot_step);
-          motion.points[i][k] = std::clamp(moved, seed - freedom.reach, seed + freedom.reach);
+          const double from = seed.points[i][k],
+                       to = motion.points[i][k] + uniform(generator, -knot_step, knot_step);
+          motion.points[i][k] = std::clamp(to, from - freedom.reach, from + freedom.reach);
         }
     if (!freedom.times) return motion;
     const double before = motion.end() - motion.begin;

@@ -129,8 +129,11 @@ ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, cons
     if (m == 0 && flies && fall < kLeastFall) {
       Plan& thrown = result.thrown;
       thrown.goals.push_back({"time to catch", 1.0, kLeastFall - fall, 0.0, "s", false});
+      thrown.cost += thrown.goals.back().error;
+      const std::string short_of =
+          "time to catch is missed by " + shown_rounded(kLeastFall - fall) + " s: a higher throw leaves more";
+      thrown.answer = thrown.reached ? short_of : short_of + "; " + thrown.answer;
       thrown.reached = false;
-      thrown.answer = detail::answer_of(thrown, {});
     }
     if (!flies || fall < kLeastFall) {
       if (m == 0) return result;

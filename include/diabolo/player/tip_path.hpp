@@ -37,10 +37,12 @@ struct TipPiece {
 
 /// Planned motion of the stick tips: cubics one after the other. Before the first and after the last one the
 /// tips rest. May be followed by rollout() as a TipMotion may; its instants are Scalars too, so that
-/// derivatives by them come out. All but empty() and append() throw std::invalid_argument of an empty one.
+/// derivatives by them come out. An empty one has no times and no tips: asked for them it throws
+/// std::invalid_argument.
 template <class Scalar>
 class TipPath {
-  static_assert(ScalarTraits<Scalar>::kLanes == 1, "lanes may each be in another piece: one path a lane");
+  // An exception to the Scalar contract: no packs, whose lanes may each be in another piece.
+  static_assert(ScalarTraits<Scalar>::kLanes == 1, "a path for each lane");
 
  public:
   static constexpr double kSameTips = 1e-6;  ///< where paths meet [m], [m/s]
@@ -51,9 +53,9 @@ class TipPath {
   explicit TipPath(std::vector<TipPiece<Scalar>> pieces) : pieces_(std::move(pieces)) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const std::string where = "tip path, piece " + std::to_string(i) + ": ";
-      if (!all(pieces_[i].duration > Scalar(0)) || !all(is_finite(pieces_[i].duration)))
+      if (!(pieces_[i].duration > Scalar(0)) || !is_finite(pieces_[i].duration))
         throw std::invalid_argument(where + "its duration must be positive and finite");
-      if (i > 0 && !all(absolute<Scalar>(pieces_[i].begin - end_of(i - 1)) < Scalar(1e-9)))
+      if (i > 0 && !(absolute<Scalar>(pieces_[i].begin - end_of(i - 1)) < Scalar(1e-9)))
         throw std::invalid_argument(where + "must begin where the one before it ends");
     }
   }
@@ -75,7 +77,7 @@ class TipPath {
   Tips<Scalar> at(const Scalar& time, std::size_t& hint) const {
     const TipPiece<Scalar>& piece = piece_at(time, hint);
     const Scalar s = time - piece.begin;
-    const bool before = any(s < Scalar(0)), after = any(s > piece.duration);
+    const bool before = s<Scalar(0), after = s> piece.duration;
     const Scalar u = before ? Scalar(0) : after ? piece.duration : s;
     const TipColumn<Scalar> value = ((piece.c[3] * u + piece.c[2]) * u + piece.c[1]) * u + piece.c[0];
     Tips<Scalar> tips;
@@ -100,7 +102,6 @@ class TipPath {
   /// not meet: tips and velocities within kSameTips.
   void append(const TipPath& next) {
     if (next.empty()) return;
-    const Scalar later = empty() ? Scalar(0) : Scalar(end() - next.begin());
     if (!empty()) {
       const auto last = pieces_.back().at(pieces_.back().duration),
                  first = next.pieces_.front().at(Scalar(0));
@@ -109,17 +110,22 @@ class TipPath {
           if (!(absolute<Scalar>(first[order][k] - last[order][k]) <= Scalar(kSameTips)))
             throw std::invalid_argument("tip path: what follows begins elsewhere, or moves otherwise there");
     }
-    for (TipPiece<Scalar> piece : next.pieces_) {
-      piece.begin += later;
-      pieces_.push_back(piece);
-    }
+    const TipPath moved = empty() ? next : next.begun_at(end());
+    pieces_.insert(pieces_.end(), moved.pieces_.begin(), moved.pieces_.end());
+  }
+
+  /// The same motion from another time on [s].
+  TipPath begun_at(const Scalar& time) const {
+    TipPath result = *this;
+    for (TipPiece<Scalar>& piece : result.pieces_) piece.begin += time - begin();
+    return result;
   }
 
   /// The part up to a time [s] within the path; empty at its begin.
   TipPath until(double time) const {
     TipPath result;
     for (TipPiece<Scalar> piece : pieces_) {
-      if (all(piece.begin >= Scalar(time))) break;
+      if (piece.begin >= Scalar(time)) break;
       piece.duration = minimum(piece.duration, Scalar(Scalar(time) - piece.begin));
       result.pieces_.push_back(piece);
     }
@@ -135,8 +141,8 @@ class TipPath {
 
   const TipPiece<Scalar>& piece_at(const Scalar& time, std::size_t& hint) const {
     check();
-    if (hint >= pieces_.size() || any(pieces_[hint].begin > time)) hint = 0;
-    while (hint + 1 < pieces_.size() && all(pieces_[hint + 1].begin <= time)) ++hint;
+    if (hint >= pieces_.size() || pieces_[hint].begin > time) hint = 0;
+    while (hint + 1 < pieces_.size() && pieces_[hint + 1].begin <= time) ++hint;
     return pieces_[hint];
   }
 

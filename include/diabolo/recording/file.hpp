@@ -41,6 +41,20 @@ inline std::string read_file(const std::filesystem::path& path) {
   return content;
 }
 
+/// Where a file is that a symbolic link, or one behind it, leads to; there need be none. Throws
+/// RecordingError where they lead nowhere.
+inline std::filesystem::path behind_links(const std::filesystem::path& path) {
+  constexpr int kMostLinks = 40;
+  std::filesystem::path place = path;
+  std::error_code ignored;
+  for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(place, ignored)); ++i) {
+    if (i == kMostLinks)
+      throw RecordingError(path.string() + ": a symbolic link that leads to itself; expected a file");
+    place = place.parent_path() / std::filesystem::read_symlink(place, ignored);
+  }
+  return place;
+}
+
 /// Files that appear whole or not at all: each is written under a temporary name beside its place, and
 /// commit() renames them all. Without commit() nothing is left behind.
 class FilesToWrite {
@@ -61,8 +75,7 @@ class FilesToWrite {
       throw RecordingError(path.string() + ": a directory; expected a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
       throw RecordingError(path.string() + ": a device or a pipe; expected a file");
-    std::filesystem::path place = path;  // of a link, what it leads to
-    if (std::filesystem::is_symlink(path, ignored)) place = std::filesystem::weakly_canonical(path, ignored);
+    const std::filesystem::path place = behind_links(path);
     std::filesystem::path temporary = place;
     temporary += ".tmp" + std::to_string(std::random_device()());
     File file(std::fopen(temporary.c_str(), "wbx"));

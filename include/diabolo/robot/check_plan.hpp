@@ -70,8 +70,10 @@ inline PlanCheck check_plan(const StickPlanner& planner, const TipMotion<double>
   check.as_planned = plan.as_planned;
   check.as_played = plan.as_played;
   check.worst_factor = plan.worst_factor;
-  check.worst_at = std::min(motion.begin() + plan.worst_at, motion.end());
-  const double at = std::min(motion.begin() + plan.at, motion.end());
+  const double rest = planner.options().rest;
+  const RestClock clock{motion.begin(), motion.end(), rest, rest};
+  check.worst_at = clock.at(plan.worst_at);
+  const double at = clock.at(plan.at);
   if (plan.fault == PlanFault::kLimits)
     trouble(at, "both arms", "the limits of the joints ask for too slow a play", motion.at(at).left);
   if (plan.fault == PlanFault::kTip) {  // between the ticks above, where it starts up or comes to rest

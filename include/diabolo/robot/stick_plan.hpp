@@ -67,6 +67,7 @@ class StickPlanner {
   const StickMap& left() const { return left_; }
   const StickMap& right() const { return right_; }
   const JointLimits& limits() const { return limits_; }
+  const BlendOptions& options() const { return options_; }
 
   /// A motion played from rest at its first pose to rest at its last. Throws std::invalid_argument as
   /// tips_to_rest() does.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,9 +30,24 @@ inline void check_duration(const TipMotion<double>& motion) {
                                 shown(kLongestMotion) + " s at most");
 }
 
-/// A motion of the tips one tick apart, from its first instant to its last. For `rest` seconds its clock
-/// starts up from standstill, where `from_rest`, and always runs down to it at the end: arms that get nothing
-/// new come to rest on the motion's own curve. That takes half of `rest` longer at each of these ends. Throws
+/// The clock of a motion that is played between two of its times. For `rest` seconds it starts up from
+/// standstill, where `from_rest`, and always runs down to it at the end: arms that get nothing new come to
+/// rest on the motion's own curve. That takes half of `rest` longer at each of these ends.
+struct RestClock {
+  double from, to;        ///< times of the motion [s]
+  double rest, starting;  ///< [s]; starting: zero or rest
+
+  double duration() const { return to - from + 0.5 * (rest + starting); }  ///< [s]
+  /// The motion's time after so much of play [s].
+  double at(double time) const {
+    const double left_over = duration() - time;
+    if (left_over < rest) return to - rest * smooth_ramp(std::max(left_over, 0.0) / rest);
+    if (time < starting) return from + starting * smooth_ramp(time / starting);
+    return from + time - 0.5 * starting;
+  }
+};
+
+/// A motion of the tips one tick apart, from its first instant to its last, by a RestClock. Throws
 /// std::invalid_argument where the motion is shorter than that takes or longer than kLongestMotion, or the
 /// times do not fit.
 inline std::vector<TipPair> tips_to_rest(const TipMotion<double>& motion, double from, double rest,
@@ -45,15 +62,11 @@ inline std::vector<TipPair> tips_to_rest(const TipMotion<double>& motion, double
                                 " s; must last " + shown(0.5 * (rest + starting)) +
                                 " s or more, time to start and stop, and not begin before " +
                                 shown(motion.begin()) + " s");
-  const double duration = length + 0.5 * (rest + starting);
-  std::vector<TipPair> path(static_cast<std::size_t>(std::ceil(duration / kTick - 1e-9)) + 1);
+  const RestClock clock{from, motion.end(), rest, starting};
+  std::vector<TipPair> path(static_cast<std::size_t>(std::ceil(clock.duration() / kTick - 1e-9)) + 1);
   std::size_t hint = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const double time = static_cast<double>(i) * kTick, left_over = duration - time;
-    double clock = from + time - 0.5 * starting;
-    if (time < starting) clock = from + starting * smooth_ramp(time / starting);
-    if (left_over < rest) clock = motion.end() - rest * smooth_ramp(std::max(left_over, 0.0) / rest);
-    const Tips<double> tips = motion.at(clock, hint);
+    const Tips<double> tips = motion.at(clock.at(static_cast<double>(i) * kTick), hint);
     path[i] = {tips.left, tips.right};
   }
   return path;

@@ -28,29 +28,25 @@ def check_outputs(
         if not str(given):
             raise ValueError("an empty name of a file to read; expected a file")
         path = Path(given)
-        try:
-            path.resolve()
-        except RuntimeError:  # of Python before 3.13
-            raise ValueError(f"{path}: a symbolic link that leads to itself; expected a file") from None
-        taken[path.resolve()] = "read"
+        taken[_place(path)] = "this file is read"
         if path.name and path.suffix != ".json":  # a tidy recording's other half
-            taken[path.with_suffix(".json").resolve()] = "read"
+            taken[_place(path.with_suffix(".json"))] = "this file is read"
     for output in outputs:
         if output is None or output == STDOUT:
             continue
-        path = Path(output)
+        path, place = Path(output), _place(Path(output))
         if path.is_dir():
             raise ValueError(f"{path}: a directory; expected the name of a file to write")
         if path.exists() and not path.is_file():
             raise ValueError(f"{path}: a device or a pipe; expected a file ({STDOUT} is standard output)")
-        if path.parent != folder and not path.absolute().parent.is_dir():
-            raise ValueError(f"{path}: there is no folder {path.absolute().parent} to write into")
-        if path.resolve() in taken:
-            raise ValueError(f"{path}: this file is {taken[path.resolve()]} already; choose another name")
-        taken[path.resolve()] = "written"
-        with made_folder(path.parent), _said_of(path):
-            _temporary(path).touch()
-            _temporary(path).unlink()
+        if path.parent != folder and not place.parent.is_dir():
+            raise ValueError(f"{path}: there is no folder {place.parent} to write into")
+        if place in taken:
+            raise ValueError(f"{path}: {taken[place]}; choose another name")
+        taken[place] = "another output has this name"
+        with made_folder(place.parent), _said_of(path):
+            _temporary(place).touch()
+            _temporary(place).unlink()
 
 
 @contextmanager
@@ -71,7 +67,7 @@ def made_folder(folder: Path) -> Iterator[None]:
 def whole_file(path: str | Path) -> Iterator[Path]:
     """A temporary name of the same ending, which becomes `path`, or what it is a link to, once all is written
     to it."""
-    final = Path(os.path.realpath(path))
+    final = _place(Path(path))
     temporary = _temporary(final)
     try:
         with _said_of(final):
@@ -98,6 +94,14 @@ def write_json(path: str | Path | None, value: dict[str, Any]) -> None:
 
 def json_text(value: dict[str, Any]) -> str:
     return json.dumps(value, indent=2, allow_nan=False) + "\n"
+
+
+def _place(path: Path) -> Path:
+    """Where a file is, or what it is a link to."""
+    place = Path(os.path.realpath(path))
+    if place.is_symlink():
+        raise ValueError(f"{path}: a symbolic link that leads to itself; expected a file")
+    return place
 
 
 def _temporary(path: Path) -> Path:

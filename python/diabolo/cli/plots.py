@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,24 +81,35 @@ def draw_plan(path: str | Path, played: PlannedPlay) -> None:
     side.plot(played.states[:, 1], played.states[:, 2], label="diabolo", **MEASURED_STYLE)
     for goals in played.wanted:
         for goal in [*goals.waypoints, *([goals.final_state] if goals.final_state else [])]:
-            side.plot(goal.position[1], goal.position[2], "o", color="tab:green", ms=6)
+            side.plot(goal.position[1], goal.position[2], "o", color="tab:green", ms=6, label="wanted")
     side.set(title="seen from behind the player", xlabel="y, to the left [m]", ylabel="z, up [m]")
     side.set_aspect("equal", adjustable="datalim")
     side.invert_xaxis()
-    side.legend(fontsize="small")
+    handles, labels = side.get_legend_handles_labels()
+    once = dict(zip(labels, handles, strict=True))
+    side.legend(once.values(), once.keys(), fontsize="small")
     height.plot(time, played.states[:, 2], **MEASURED_STYLE)
-    flying = np.where(played.string_states == StringState.FLYING, played.states[:, 2], np.nan)
-    height.plot(time, flying, color="tab:orange", linewidth=3.0, label="flying")
+    flies = played.string_states == StringState.FLYING
+    if flies.any():
+        flying = np.where(flies, played.states[:, 2], np.nan)
+        height.plot(time, flying, color="tab:orange", linewidth=3.0, label="flying")
+        height.legend(fontsize="small")
     height.set(title="height", xlabel="time [s]", ylabel="z [m]")
-    height.legend(fontsize="small")
     instants = np.linspace(played.path.begin, played.path.end, 1000)
     motion = played.path.derivatives(instants)
     for name, columns, color in (("left", slice(0, 3), "tab:red"), ("right", slice(3, 6), "tab:blue")):
         speed.plot(instants, np.linalg.norm(motion[1][:, columns], axis=1), color=color, label=f"{name} tip")
         acceleration.plot(instants, np.linalg.norm(motion[2][:, columns], axis=1), color=color)
+    for panel, kind in ((speed, "speed"), (acceleration, "acceleration")):
+        uses = (use for plan in played.plans for use in plan.limits if use.name == f"left tip {kind}")
+        limit = next(uses, None)
+        if limit is not None and np.isfinite(limit.limit):
+            panel.axhline(limit.limit, color="0.4", linewidth=0.8, linestyle="--", label="limit")
+    speed.legend(fontsize="small")
     speed.set(title="speed of the tips", xlabel="time [s]", ylabel="[m/s]")
     acceleration.set(title="acceleration of the tips", xlabel="time [s]", ylabel="[m/s$^2$]")
-    figure.suptitle(f"{played.action}: {played.answer}")
+    title = textwrap.shorten(f"{played.action}: {played.answer}", 300, placeholder=" ...")
+    figure.suptitle(textwrap.fill(title, 150), fontsize="medium")
     _save(figure, path)
 
 
