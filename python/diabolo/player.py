@@ -121,8 +121,8 @@ def plan(
         [start] if isinstance(start, State) else list(start),
         seed,
         goals,
-        limits or TipLimits(),
-        freedom or Freedom(),
+        TipLimits() if limits is None else limits,
+        Freedom() if freedom is None else freedom,
         solver,
         whole_number("evaluations", evaluations, 1, 2**31 - 1),
         min(seconds, LONGEST_SEARCH),
@@ -247,7 +247,7 @@ def plan_action(
         try:
             piece, more, _ = planned(path, states_now)
         except ValueError as error:
-            ended = f"cycle {cycle}: {error}"
+            ended = f"cycle {cycle}: {str(error).removeprefix('plan: ')}"
             break
         if path.end + piece.end - piece.begin > LONGEST_PLAY:
             ended = f"cycle {cycle}: the play would last more than {LONGEST_PLAY:g} s"
@@ -306,8 +306,8 @@ def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
 def model_for(model: AnyModel, recording: Recording) -> Model:
     """The model with the string's length, mass and axle radius of the recording where it leaves them to it,
     as one that `diagnose` made does: to plan on it for the set-up that was recorded."""
-    (one,) = _models(model)
-    warn_of([recording])
+    one = Model(model) if isinstance(model, Parameters) else model_of("model", model)
+    warn_of([instance_of("recording", recording, Recording)])
     fields = one.to_dict()
     parameters = copy(one.parameters)
     if not one.own_string_length:
@@ -328,6 +328,7 @@ def best_guess(model: Model, result: Mapping[str, Any]) -> Model:
     result: `Diagnosis.result`, or what its file holds. Of an estimate that is z standard deviations away from
     zero the share 1 - 1 / z^2 counts; where z is below one, nothing.
     """
+    instance_of("model", model, Model)
     found = {entry["name"]: entry for entry in _rungs(result)}
 
     def claimed(name: str) -> bool:
@@ -349,6 +350,8 @@ def best_guess(model: Model, result: Mapping[str, Any]) -> Model:
 
 def _rungs(result: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The candidates of a diagnosis."""
+    if not isinstance(result, Mapping):
+        raise ValueError(f"result: {result!r:.60}; expected what a diagnosis found, as its file holds it")
     ladder = result.get("ladder")
     if not isinstance(ladder, list):
         raise ValueError(f"ladder: {ladder!r:.60}; expected a list of candidates, as a diagnosis has")

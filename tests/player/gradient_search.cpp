@@ -189,6 +189,19 @@ TEST_CASE("a spent budget ends a search with the best so far") {
   CHECK(keeps_all(none));
 }
 
+TEST_CASE("a motion of which nothing may be changed is its own plan") {
+  PlanProblem<> problem = problem_of("swing");
+  problem.seed.points = {problem.seed.points.front(), problem.seed.points.front()};
+  problem.seed.durations = {0.5};
+  problem.freedom.times = problem.freedom.last_point = false;
+  const Plan plan = GradientSearch{}(problem, {});
+  CHECK(plan.path.end() - plan.path.begin() == Approx(0.5).epsilon(0.2));
+  CHECK_FALSE(plan.reached);
+  problem.seed.points.assign(1001, problem.seed.points.front());
+  problem.seed.durations.assign(1000, 0.01);
+  CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("the seed has 1001 points; expected 1000"));
+}
+
 TEST_CASE("many control points are no reason to go on beyond the time") {
   PlanProblem<> problem = problem_of("swing");
   const TipColumn<double> home = problem.seed.points.front();

@@ -95,6 +95,16 @@ TEST_CASE("a throw that comes down too soon to be caught is the closest plan, an
   CHECK(both.path.end() == both.thrown.path.end());
 }
 
+TEST_CASE("a throw too high for the limits is the closest plan, whatever becomes of its catch") {
+  for (const double height : {3.0, 5.0}) {
+    const ThrowAndCatch both = plan_throw_and_catch(throwing("throw", height), GradientSearch{}, {});
+    INFO(height << " m: " << both.thrown.answer);
+    CHECK_FALSE(both.reached);
+    CHECK_FALSE(both.thrown.reached);
+    CHECK(both.path.end() >= both.thrown.path.end());
+  }
+}
+
 TEST_CASE("what does not fly is not caught") {
   const PlanProblem<> problem = throwing("throw", 0.6);
   const Seam seam{0.0, problem.seed.points.front(), {}, problem.seed.sticks, problem.start};
@@ -139,6 +149,10 @@ TEST_CASE("a plan that comes too late changes nothing, and the tips end at rest"
   CHECK_FALSE(horizon.join(seam, plan, seam.time + 0.01, 0.2));
   CHECK(horizon.path().end() == end);
   CHECK(horizon.seam(1.0).time == Approx(1.0 + 1.3 * 0.2));
+  State<double> seen = hanging;
+  Horizon<> observed = horizon;
+  observed.observe(seam.time + 0.5, seen);
+  CHECK_FALSE(observed.join(seam, plan, seam.time - 0.01, 0.02));  // what was seen is over
   CHECK(horizon.join(seam, plan, seam.time - 0.01, 0.02));
   CHECK(horizon.path().at(100.0).left_velocity.norm() == 0.0);
 }

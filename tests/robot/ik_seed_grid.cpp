@@ -163,6 +163,8 @@ TEST_CASE("a broken file is refused with its line") {
   std::string moved = text;
   moved.replace(moved.find("\n0.6") + 1, 3, "0.7");
   CHECK(message(moved) == "grid.csv: key point 36 is out of line; expected equal steps, z first and x last");
+  const std::string turned = text.substr(0, text.rfind(',') + 1) + "1e300\n";
+  CHECK(message(turned) == "grid.csv: key point 105 has a joint at 1e+300 rad; expected 7 rad at most");
 }
 
 TEST_CASE("the authors' table is what it is known to be") {

@@ -91,7 +91,9 @@ struct GradientSearch {
     least_squares(x, bounds, iterations, 2.0, least_gain, value, linearize, stop);
     // Limits that still give way become harder.
     const auto kept = [&] { return keeps(path_of(unknowns.motion(x)), problem.limits, length); };
+    std::vector<std::vector<LimitUse>> wanted{limit_uses(path_of(wanted_seed), problem.limits, length)};
     for (int round = 0; round < 3 && !budget.spent(evaluations) && !kept(); ++round) {
+      wanted.push_back(limit_uses(path_of(unknowns.motion(x)), problem.limits, length));
       residuals.weight *= 5.0;
       residuals.inside += 0.01;
       sum = least = share_off = INFINITY;
@@ -100,8 +102,7 @@ struct GradientSearch {
     const StickSpline<double> found = unknowns.motion(x);
     const auto towards = [&](double share) { return detail::between(seed, found, share); };
     const double share = detail::kept_share(problem.limits, length, towards);
-    const std::vector<std::vector<LimitUse>> wanted{limit_uses(path_of(wanted_seed), problem.limits, length),
-                                                    limit_uses(path_of(found), problem.limits, length)};
+    wanted.push_back(limit_uses(path_of(found), problem.limits, length));
     Plan plan = judged(problem, towards(share), evaluations, wanted);
     if (share == 1.0) return plan;
     Plan stayed = judged(problem, seed, evaluations, wanted);

@@ -83,8 +83,9 @@ class Horizon {
   }
 
   /// Joins a plan that was made from `seam` and is ready `now` [s], having taken `planning_time` [s]. False,
-  /// and the old motion goes on, where it comes too late. Throws std::invalid_argument where the plan does
-  /// not begin with the tips and velocities of the seam or not end at rest, or a time is none.
+  /// and the old motion goes on, where it comes too late: now, or by what was observed since. Throws
+  /// std::invalid_argument where the plan does not begin with the tips and velocities of the seam or not end
+  /// at rest, or a time is none.
   bool join(const Seam& seam, const Plan& plan, double now, double planning_time) {
     if (!std::isfinite(now) || !(planning_time >= 0.0 && std::isfinite(planning_time)))
       throw std::invalid_argument("horizon: times of a join must be finite, that of planning not negative");
@@ -97,7 +98,7 @@ class Horizon {
     if (!(seam.time >= path_.begin()))
       throw std::invalid_argument("horizon: a seam at " + shown(seam.time) + " s, before its begin at " +
                                   shown(path_.begin()) + " s");
-    if (now > seam.time) return false;
+    if (std::max(now, observed_time_) > seam.time) return false;
     TipPath<double> joined = path_.until(seam.time);
     if (const double gap = seam.time - path_.end(); gap > 1e-12)  // the tips have rested since
       joined.append(rest(path_.end(), gap, seam.tips));

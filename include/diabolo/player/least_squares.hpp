@@ -47,7 +47,7 @@ double least_squares(std::vector<double>& x, const std::vector<double>& bounds, 
                      double least_gain, const Value& value, const Linearize& linearize, const Stop& stop) {
   const Eigen::Index n = static_cast<Eigen::Index>(x.size());
   double sum = INFINITY;
-  for (int iteration = 0; iteration < iterations && !stop(); ++iteration) {
+  for (int iteration = 0; n > 0 && iteration < iterations && !stop(); ++iteration) {
     const Linearization at = linearize(x);
     if (stop()) return sum;
     sum = at.residuals.squaredNorm();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -24,6 +23,11 @@ struct LimitUse {
   double excess;  ///< how far beyond the limit, as a share of it or of a metre; <= 0 where it is kept
 };
 
+/// What can be asked how much a path uses up of its limits.
+template <class Look>
+concept LooksAtPaths = std::is_invocable_r_v < std::vector<LimitUse>,
+const Look&, const TipPath<double>& > ;
+
 /// Limits that a path uses up, from whatever can be called with a TipPath<double> and returns a vector of
 /// LimitUse, always the same ones in the same order, such as RobotLimits. If that has a function
 /// `near(path, beside, uses)` too, it looks at each limit only where the uses of a path beside this one say
@@ -33,11 +37,8 @@ class PathLimits {
   using Uses = std::vector<LimitUse>;
 
   PathLimits() = default;
-  template <class Look>
-  requires(!std::same_as<std::remove_cvref_t<Look>, PathLimits> &&
-           std::is_invocable_r_v<Uses, const std::remove_cvref_t<Look>&, const TipPath<double>&>)
-      PathLimits(Look&& look)
-      : look_(look) {  // NOLINT: whatever can be called is such limits
+  template <LooksAtPaths Look>
+  PathLimits(Look look) : look_(look) {  // NOLINT: whatever can be called is such limits
     using Path = TipPath<double>;
     if constexpr (requires(const Path& path, const Uses& uses) { look.near(path, path, uses); })
       near_ = [look](const Path& path, const Path& beside, const Uses& uses) {

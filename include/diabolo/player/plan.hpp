@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -116,8 +117,13 @@ inline StickSpline<double> between(const StickSpline<double>& a, const StickSpli
 
 }  // namespace detail
 
+/// From where the tips are no motion keeps the limits.
+class NoMotion : public std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 /// The seed, or where it breaks a limit one that keeps them all: the seed made slower, by half at most, or
-/// smaller. Throws std::invalid_argument that names the limit where nothing of it does.
+/// smaller. Throws NoMotion that names the limit where nothing of it does.
 inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipLimits& limits,
                                      double string_length) {
   if (keeps(path_of(seed), limits, string_length)) return seed;
@@ -139,7 +145,7 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
     text << "plan: no motion from this start keeps the limit of the " << broken.name << ", " << broken.limit
          << ' ' << broken.unit << ": it is " << broken.value
          << (seed.start ? " even where the tips come to rest at once" : " even where the tips stay");
-    throw std::invalid_argument(text.str());
+    throw NoMotion(text.str());
   }
   return scaled(detail::kept_share(limits, string_length, [&](double size) { return scaled(size, 1.0); }),
                 1.0);

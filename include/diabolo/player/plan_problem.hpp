@@ -34,6 +34,7 @@ struct PlanProblem {
 
   static constexpr double kReportedStep = 1e-3;  ///< [s]
   static constexpr double kFlight = 1.2;         ///< how long a flight is followed [s]
+  static constexpr std::size_t kMostPoints = 1000;
 
   /// The shortest that it may have [m]: the tips of a plan stay within it.
   double string_length() const {
@@ -63,6 +64,9 @@ struct PlanProblem {
                                     shown(kLeastGravity) + " m/s^2 at least for a throw or a catch");
     limits.validate();
     freedom.validate();
+    if (seed.points.size() > kMostPoints)
+      throw std::invalid_argument("plan: the seed has " + std::to_string(seed.points.size()) +
+                                  " points; expected " + std::to_string(kMostPoints) + " at most");
     double duration = 0.0;
     for (const double part : seed.durations) duration += part;
     if (duration > 60.0)

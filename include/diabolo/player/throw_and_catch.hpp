@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "diabolo/player/gradient_search.hpp"
@@ -57,6 +58,8 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
                            double catch_slack, double gravity,
                            const std::vector<State<double>>& others = {}) {
   const double level = 0.5 * (seam.tips[2] + seam.tips[5]);
+  check_state("catch: the diabolo", seam.state);
+  for (const State<double>& other : others) check_state("catch: the diabolo as it may be too", other);
   const detail::Fall nominal = detail::fall_to_catch(seam.state, level, gravity);
   double first = nominal.time, last = nominal.time;
   Vector3<double> lowest = nominal.place, highest = nominal.place;
@@ -150,7 +153,13 @@ ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, cons
   catching.seed = action.seed;
   catching.goals = action.goals;
   catching.freedom = action.freedom;
-  result.caught = search(catching, budget);
+  try {
+    result.caught = search(catching, budget);
+  } catch (const NoMotion& error) {  // such as tips that are too far apart after it
+    result.thrown.answer = std::string("nothing can catch it: ") + error.what();
+    result.thrown.reached = false;
+    return result;
+  }
   result.path.append(result.caught->path);
   result.reached = result.thrown.reached && result.caught->reached;
   return result;

@@ -151,13 +151,18 @@ class TipPath {
 
 /// Of samples [s].
 inline constexpr double kShortestInterval = 1e-5;
+inline constexpr double kMostSamples = 1e7;
 
 /// Poses of the path every `interval` [s] or less, for whatever reads tips at given instants.
 inline TipMotion<double> sampled(const TipPath<double>& path, double interval) {
   if (!(interval >= kShortestInterval && std::isfinite(interval)))
     throw std::invalid_argument("interval: " + shown(interval) + " s; must be finite and at least " +
                                 shown(kShortestInterval) + " s");
-  const auto count = static_cast<std::size_t>(std::ceil((path.end() - path.begin()) / interval - 1e-9));
+  const double intervals = std::max(1.0, std::ceil((path.end() - path.begin()) / interval - 1e-9));
+  if (intervals > kMostSamples)
+    throw std::invalid_argument("interval: " + shown(interval) + " s; would be " + shown(intervals) +
+                                " samples, expected " + shown(kMostSamples) + " at most");
+  const auto count = static_cast<std::size_t>(intervals);
   std::vector<double> times;
   std::vector<Vector3<double>> left, right, left_stick, right_stick;
   std::size_t hint = 0;

@@ -33,6 +33,9 @@ inline std::string write_seed_grid(const IkSeedGrid& grid) {
   return text;
 }
 
+/// No joint of an arm turns farther than a little more than once [rad].
+inline constexpr double kMostAngle = 7.0;
+
 /// Reads the text of write_seed_grid(). Throws RecordingError with the line, what was found and what was
 /// expected.
 inline IkSeedGrid read_seed_grid(std::string_view text, const std::string& file_name,
@@ -69,6 +72,10 @@ inline IkSeedGrid read_seed_grid(std::string_view text, const std::string& file_
                          std::to_string(plane) + " and lines of " + std::to_string(line) +
                          "; expected a full box");
   box.knots = {static_cast<int>(count / plane), static_cast<int>(plane / line), static_cast<int>(line)};
+  for (std::size_t i = 0; i < count; ++i)
+    if (const double most = joints[i].cwiseAbs().maxCoeff(); !(most <= kMostAngle))
+      throw RecordingError(file_name + ": key point " + std::to_string(i + 1) + " has a joint at " +
+                           shown(most) + " rad; expected " + shown(kMostAngle) + " rad at most");
   try {
     IkSeedGrid grid(box, std::move(joints), interpolation);
     for (std::size_t i = 0; i < count; ++i) {
