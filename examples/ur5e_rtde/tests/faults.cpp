@@ -243,7 +243,7 @@ TEST_CASE("settings that the controller would refuse are refused first") {
   ur5e::ArmSettings settings;
   settings.lookahead = 0.02;
   CHECK_THROWS_WITH(ur5e::RtdeArm("client", "127.0.0.1", settings),
-                    "lookahead: 0.020000; must be within 0.030000 and 0.200000");
+                    "lookahead: 0.02; must be within 0.03 and 0.2");
   CHECK_THROWS_WITH(ur5e::RtdeArm("client", ""), "host: ''; expected a name or an address");
   ur5e::RtdeArm arm("/nowhere/client", "127.0.0.1");
   arm.begin_connect();
