@@ -211,7 +211,7 @@ lint: check-tree $(VENV)/.package-with-tests $(VENV)/.tools ## Check floors and 
 
 check-tree:
 	@$(packages) build
-	@$(PYTHON) .ci/check_tree.py
+	@$(PYTHON) tools/check_tree.py
 
 generate_stubs = rm -rf $(BUILD)/stubs; $(VENV)/bin/pybind11-stubgen --exit-code -o $(BUILD)/stubs diabolo._core
 stubs: $(VENV)/.package-with-tests $(VENV)/.tools ## Write the type stubs of the compiled module anew

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/batch_kernels.hpp"
+#include "diabolo/batch/kernels.hpp"
 
 namespace diabolo {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/lanes.hpp"
+#include "diabolo/batch/lanes.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include <diabolo/batch.hpp>
-#include <diabolo/batch_kernels.hpp>
+#include <diabolo/batch/batch.hpp>
+#include <diabolo/batch/kernels.hpp>
 
 #include "support/job.hpp"
 #include "support/play.hpp"

@@ -9,9 +9,9 @@
 #include <memory>
 #include <string>
 
-#include "diabolo/recording/calibration.hpp"
-#include "diabolo/recording/motive.hpp"
-#include "diabolo/recording/tidy.hpp"
+#include "diabolo/recording/formats/calibration.hpp"
+#include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/formats/tidy.hpp"
 #include "support/job.hpp"
 
 namespace {

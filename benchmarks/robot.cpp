@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include <diabolo/robot/build_seed_grid.hpp>
-#include <diabolo/robot/inverse_near.hpp>
-#include <diabolo/robot/stick_map.hpp>
+#include <diabolo/robot/arm/build_seed_grid.hpp>
+#include <diabolo/robot/arm/inverse_near.hpp>
+#include <diabolo/robot/arm/stick_map.hpp>
 
 #include "support/job.hpp"
 

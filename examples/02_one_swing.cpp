@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "diabolo/batch.hpp"
+#include "diabolo/batch/batch.hpp"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "diabolo/dual.hpp"
-#include "diabolo/interop/json/recording_file.hpp"
-#include "diabolo/recording/start_state.hpp"
+#include "diabolo/evaluate/start_state.hpp"
+#include "diabolo/json/recording_file.hpp"
+#include "diabolo/math/dual.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/rollout.hpp"
 

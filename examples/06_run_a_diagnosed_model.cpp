@@ -10,9 +10,9 @@
 #include <exception>
 #include <filesystem>
 
-#include "diabolo/interop/json/model_file.hpp"
-#include "diabolo/interop/json/recording_file.hpp"
-#include "diabolo/recording/evaluation.hpp"
+#include "diabolo/evaluate/evaluation.hpp"
+#include "diabolo/json/model_file.hpp"
+#include "diabolo/json/recording_file.hpp"
 
 int main(int argc, char** argv) try {
   const std::filesystem::path here = std::filesystem::path(__FILE__).parent_path();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "diabolo/pack.hpp"
+#include "diabolo/math/pack.hpp"
 
 // One lane of a scalar, vector or mask as a plain number, and back; a plain scalar is its only lane.
 

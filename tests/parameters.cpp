@@ -6,8 +6,8 @@
 #include <string>
 
 #include "catch.hpp"
-#include "diabolo/dual.hpp"
-#include "diabolo/pack.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/math/pack.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;

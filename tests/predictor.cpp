@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "diabolo/pack.hpp"
+#include "diabolo/math/pack.hpp"
 #include "random.hpp"
 #include "smooth_tips.hpp"
 

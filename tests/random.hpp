@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "diabolo/spheroid.hpp"
+#include "diabolo/string/spheroid.hpp"
 
 /// Random numbers for tests: the same ones on every machine, unlike those of the standard distributions.
 class Random {

@@ -2,8 +2,8 @@
 #include "diabolo/state.hpp"
 
 #include "catch.hpp"
-#include "diabolo/dual.hpp"
-#include "diabolo/pack.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/math/pack.hpp"
 
 using namespace diabolo;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "diabolo/taut_string.hpp"
+#include "diabolo/string/taut_string.hpp"
 
 /// A StringStep together with everything that it refers to.
 struct StepCase {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "diabolo/dual.hpp"
-#include "diabolo/pack.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/math/pack.hpp"
 #include "random.hpp"
 
 using namespace diabolo;

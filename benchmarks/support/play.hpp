@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include <diabolo/dual.hpp>
-#include <diabolo/pack.hpp>
-#include <diabolo/spheroid.hpp>
+#include <diabolo/math/dual.hpp>
+#include <diabolo/math/pack.hpp>
 #include <diabolo/state.hpp>
 #include <diabolo/sticks.hpp>
+#include <diabolo/string/spheroid.hpp>
 
 namespace diabolo {
 

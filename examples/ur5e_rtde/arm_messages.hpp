@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "diabolo/robot/arm_link.hpp"
-#include "diabolo/robot/joint_limits.hpp"
+#include "diabolo/robot/arm/joint_limits.hpp"
+#include "diabolo/robot/control/arm_link.hpp"
 
 /// What goes between RtdeArm and the process that speaks to the arm's controller: whole messages on a local
 /// socket, of one program's two halves on one machine.

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "diabolo/robot/build_seed_grid.hpp"
-#include "diabolo/robot/two_arm_control.hpp"
+#include "diabolo/robot/arm/build_seed_grid.hpp"
+#include "diabolo/robot/control/two_arm_control.hpp"
 #include "rtde_arm.hpp"
 #include "session_recording.hpp"
 #include "tick_clock.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "diabolo/effects/string_friction.hpp"
-#include "diabolo/player/player.hpp"
+#include "diabolo/plan/player.hpp"
 
 namespace ur5e {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "diabolo/player/tip_path.hpp"
+#include "diabolo/plan/tip_path.hpp"
 
 namespace ur5e {
 

@@ -12,9 +12,9 @@
 
 #include "cell.hpp"
 #include "circular_motion.hpp"
-#include "diabolo/robot/check_plan.hpp"
-#include "diabolo/robot/servo_lag.hpp"
-#include "diabolo/robot/tip_plan_file.hpp"
+#include "diabolo/robot/control/servo_lag.hpp"
+#include "diabolo/robot/motion/check_plan.hpp"
+#include "diabolo/robot/motion/tip_plan_file.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "diabolo/interop/json/recording_file.hpp"
-#include "diabolo/robot/stick_arm.hpp"
+#include "diabolo/json/recording_file.hpp"
+#include "diabolo/robot/arm/stick_arm.hpp"
 
 namespace ur5e {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "diabolo/robot/joint_limits.hpp"
+#include "diabolo/robot/arm/joint_limits.hpp"
 
 namespace ur5e {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "diabolo/scalar.hpp"
+#include "diabolo/math/scalar.hpp"
 
 namespace diabolo {
 

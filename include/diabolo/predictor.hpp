@@ -3,16 +3,16 @@
 
 #include <cassert>
 
-#include "diabolo/advance_by_pull.hpp"
-#include "diabolo/advance_in_flight.hpp"
 #include "diabolo/effects/effect.hpp"
-#include "diabolo/factors.hpp"
-#include "diabolo/hold_between_tips.hpp"
-#include "diabolo/rotation.hpp"
-#include "diabolo/settle_on_string.hpp"
-#include "diabolo/slide_along_string.hpp"
-#include "diabolo/state_machine.hpp"
-#include "diabolo/taut_string.hpp"
+#include "diabolo/paper/advance_by_pull.hpp"
+#include "diabolo/paper/spin_rule.hpp"
+#include "diabolo/paper/step_factors.hpp"
+#include "diabolo/string/advance_in_flight.hpp"
+#include "diabolo/string/catch_and_release.hpp"
+#include "diabolo/string/hold_between_tips.hpp"
+#include "diabolo/string/settle_on_string.hpp"
+#include "diabolo/string/slide_along_string.hpp"
+#include "diabolo/string/taut_string.hpp"
 
 namespace diabolo {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "diabolo/scalar.hpp"
+#include "diabolo/math/scalar.hpp"
 
 namespace diabolo {
 

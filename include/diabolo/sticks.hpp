@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/scalar.hpp"
+#include "diabolo/math/scalar.hpp"
 
 namespace diabolo {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/types.hpp"
+#include "diabolo/math/vector3.hpp"
 
 namespace diabolo::python {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch.hpp"
 
-#include "diabolo/batch_kernels.hpp"
+#include "diabolo/batch/kernels.hpp"
 
 namespace diabolo::python {
 

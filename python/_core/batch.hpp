@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "diabolo/batch.hpp"
+#include "diabolo/batch/batch.hpp"
 
 namespace diabolo::python {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "diabolo/interop/json/rules.hpp"
+#include "diabolo/json/rules.hpp"
 
 namespace diabolo::python {
 

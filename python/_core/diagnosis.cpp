@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/interop/json/diagnosis_file.hpp"
+#include "diabolo/json/diagnosis_file.hpp"
 
 #include "bindings.hpp"
 #include "interrupt.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/recording/evaluation.hpp"
+#include "diabolo/evaluate/evaluation.hpp"
 
 #include <pybind11/stl.h>
 

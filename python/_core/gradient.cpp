@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/dual.hpp"
-#include "diabolo/parallel.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/math/parallel.hpp"
 #include "diabolo/rollout.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "diabolo/recording/model.hpp"
+#include "diabolo/model.hpp"
 #include "interrupt.hpp"
 
 #include "effects.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/recording/model.hpp"
+#include "diabolo/model.hpp"
 
 #include <pybind11/stl/filesystem.h>
 
-#include "diabolo/interop/json/model_file.hpp"
+#include "diabolo/json/model_file.hpp"
 
 #include "bindings.hpp"
 #include "choices.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/player/player.hpp"
+#include "diabolo/plan/player.hpp"
 
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/recording/model.hpp"
-#include "diabolo/recording/text.hpp"
-#include "diabolo/robot/plan_limits.hpp"
+#include "diabolo/model.hpp"
+#include "diabolo/robot/motion/plan_limits.hpp"
+#include "diabolo/text/shown.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"

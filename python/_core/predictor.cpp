@@ -7,7 +7,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "diabolo/recording/model.hpp"
+#include "diabolo/model.hpp"
 
 #include "effects.hpp"
 

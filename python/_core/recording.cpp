@@ -9,11 +9,11 @@
 #include <optional>
 #include <string>
 
-#include "diabolo/interop/json/calibration_file.hpp"
-#include "diabolo/interop/json/recording_file.hpp"
+#include "diabolo/json/calibration_file.hpp"
+#include "diabolo/json/recording_file.hpp"
+#include "diabolo/recording/plausibility/warnings.hpp"
 #include "diabolo/recording/resample.hpp"
 #include "diabolo/recording/spin.hpp"
-#include "diabolo/recording/warnings.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"

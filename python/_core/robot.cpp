@@ -10,12 +10,12 @@
 #include "bindings.hpp"
 #include "diabolo/diagnose/smooth_tips.hpp"
 #include "diabolo/recording/tip_motion.hpp"
-#include "diabolo/robot/build_seed_grid.hpp"
-#include "diabolo/robot/check_plan.hpp"
-#include "diabolo/robot/inverse_near.hpp"
-#include "diabolo/robot/plan_limits.hpp"
-#include "diabolo/robot/seed_grid_file.hpp"
-#include "diabolo/robot/tip_plan_file.hpp"
+#include "diabolo/robot/arm/build_seed_grid.hpp"
+#include "diabolo/robot/arm/inverse_near.hpp"
+#include "diabolo/robot/arm/seed_grid_file.hpp"
+#include "diabolo/robot/motion/check_plan.hpp"
+#include "diabolo/robot/motion/plan_limits.hpp"
+#include "diabolo/robot/motion/tip_plan_file.hpp"
 
 namespace diabolo::python {
 

@@ -10,7 +10,7 @@
 #include "arrays.hpp"
 #include "batch.hpp"
 #include "bindings.hpp"
-#include "diabolo/recording/model.hpp"
+#include "diabolo/model.hpp"
 #include "interrupt.hpp"
 
 #include "effects.hpp"

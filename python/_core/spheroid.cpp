@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/spheroid.hpp"
+#include "diabolo/string/spheroid.hpp"
 
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "diabolo/interop/json/calibration_file.hpp"
+#include "diabolo/json/calibration_file.hpp"
 
 /// A calibration file is refused with a sentence, or read into what can be written and read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "diabolo/recording/calibration.hpp"
-#include "diabolo/recording/motive.hpp"
+#include "diabolo/recording/formats/calibration.hpp"
+#include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/formats/tidy.hpp"
 #include "diabolo/recording/spin.hpp"
-#include "diabolo/recording/tidy.hpp"
 
 /// A Motive export is refused with a sentence, or becomes a recording that keeps its promises and can be
 /// written.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "diabolo/interop/json/recording_file.hpp"
+#include "diabolo/json/recording_file.hpp"
 
 /// The JSON beside a tidy CSV is refused with a sentence, or read into what can be written and read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "diabolo/recording/tidy.hpp"
+#include "diabolo/recording/formats/tidy.hpp"
 
 /// A tidy CSV is refused with a sentence, or read into a recording that is written and read again alike.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Derivatives of the consistent string's motion, across snaps, slack and catches.
 
-#include "rollout_derivatives.hpp"
+#include "laws/rollout_derivatives.hpp"
 
 using namespace rollout_derivatives;
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "diabolo/dual.hpp"
-#include "diabolo/effects/all.hpp"
+#include "diabolo/full_predictor.hpp"
+#include "diabolo/math/dual.hpp"
 #include "smooth_tips.hpp"
 
 using namespace diabolo;

@@ -3,8 +3,8 @@
 // too.
 
 #include "catch.hpp"
-#include "diabolo/dual.hpp"
 #include "diabolo/effects/string_elasticity.hpp"
+#include "diabolo/math/dual.hpp"
 #include "diabolo/predictor.hpp"
 #include "smooth_tips.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "diabolo/effects/all.hpp"
+#include "diabolo/full_predictor.hpp"
 #include "diabolo/rollout.hpp"
 
 namespace foreign {

@@ -5,9 +5,9 @@
 
 #include "catch.hpp"
 #include "count_allocations.hpp"
-#include "diabolo/dual.hpp"
-#include "diabolo/effects/all.hpp"
-#include "diabolo/pack.hpp"
+#include "diabolo/full_predictor.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/math/pack.hpp"
 #include "smooth_tips.hpp"
 
 using namespace diabolo;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Derivatives under the paper's and the published rules, within the smooth pieces of their motion.
 
-#include "rollout_derivatives.hpp"
+#include "laws/rollout_derivatives.hpp"
 
 using namespace rollout_derivatives;
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "diabolo/dual.hpp"
+#include "diabolo/math/dual.hpp"
 #include "diabolo/rollout.hpp"
 #include "smooth_tips.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One law, every scalar: what a rollout is does not depend on the numbers it is computed with.
 
-#include "diabolo/pack.hpp"
-#include "rollouts_of_scalar.hpp"
+#include "diabolo/math/pack.hpp"
+#include "laws/rollouts_of_scalar.hpp"
 
 using namespace diabolo;
 

@@ -3,9 +3,9 @@
 // else.
 
 #include "catch.hpp"
-#include "diabolo/interop/json/calibration_file.hpp"
-#include "diabolo/interop/json/recording_file.hpp"
-#include "support.hpp"
+#include "diabolo/json/calibration_file.hpp"
+#include "diabolo/json/recording_file.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 

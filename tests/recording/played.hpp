@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "../random.hpp"
-#include "diabolo/recording/evaluation.hpp"
+#include "diabolo/evaluate/evaluation.hpp"
+#include "random.hpp"
 
 namespace diabolo::test {
 

@@ -2,7 +2,7 @@
 #include "diabolo/recording/resample.hpp"
 
 #include "catch.hpp"
-#include "support.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 using test::complaint;

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/recording/error.hpp"
 #include "diabolo/recording/recording.hpp"
+#include "diabolo/text/error.hpp"
 
 namespace diabolo::test {
 

@@ -2,8 +2,8 @@
 #include "diabolo/recording/tip_motion.hpp"
 
 #include "catch.hpp"
-#include "played.hpp"
-#include "support.hpp"
+#include "recording/played.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 using test::complaint;

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "../catch.hpp"
-#include "../count_allocations.hpp"
-#include "diabolo/dual.hpp"
-#include "diabolo/robot/ease_posture.hpp"
-#include "diabolo/robot/inverse_near.hpp"
-#include "support.hpp"
+#include "catch.hpp"
+#include "count_allocations.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/robot/arm/ease_posture.hpp"
+#include "diabolo/robot/arm/inverse_near.hpp"
+#include "robot/support.hpp"
 
 using namespace diabolo;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "diabolo/robot/arm_link.hpp"
-#include "diabolo/robot/joint_limits.hpp"
+#include "diabolo/robot/arm/joint_limits.hpp"
+#include "diabolo/robot/control/arm_link.hpp"
 
 /// An arm with a servo that follows late, as a UR5e's does with its default gain: qdd = K (target - q - T
 /// qd), K gain, T lookahead. It trips a protective stop where speed or step are too large, or a number is

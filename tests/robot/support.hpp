@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../random.hpp"
-#include "diabolo/robot/inverse.hpp"
-#include "diabolo/robot/ur5e.hpp"
+#include "diabolo/robot/arm/inverse.hpp"
+#include "diabolo/robot/arm/ur5e.hpp"
+#include "random.hpp"
 
 /// Each joint within [-pi, pi].
 inline diabolo::Joints<double> random_joints(Random& random) {

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "diabolo/effects/all.hpp"
+#include "diabolo/full_predictor.hpp"
 #include "lane.hpp"
 #include "random.hpp"
 

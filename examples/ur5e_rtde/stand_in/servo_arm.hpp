@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diabolo/robot/joint_limits.hpp"
+#include "diabolo/robot/arm/joint_limits.hpp"
 
 namespace stand_in {
 

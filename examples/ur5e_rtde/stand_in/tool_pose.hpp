@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "diabolo/robot/inverse_near.hpp"
+#include "diabolo/robot/arm/inverse_near.hpp"
 #include "servo_arm.hpp"
 
 namespace stand_in {

@@ -6,7 +6,7 @@
 #include <future>
 
 #include "arms.hpp"
-#include "diabolo/robot/servo_lag.hpp"
+#include "diabolo/robot/control/servo_lag.hpp"
 
 using namespace arms;
 

@@ -12,8 +12,8 @@
 
 #include "../circular_motion.hpp"
 #include "arms.hpp"
-#include "diabolo/player/motions.hpp"
-#include "diabolo/robot/servo_lag.hpp"
+#include "diabolo/plan/motions.hpp"
+#include "diabolo/robot/control/servo_lag.hpp"
 
 using namespace arms;
 

@@ -7,7 +7,7 @@
 
 #include "diabolo/diagnose/stage.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
-#include "diabolo/recording/model.hpp"
+#include "diabolo/model.hpp"
 
 namespace diabolo {
 

@@ -24,8 +24,8 @@
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/sufficient.hpp"
 #include "diabolo/diagnose/unnamed_law.hpp"
-#include "diabolo/recording/odd_tracking.hpp"
-#include "diabolo/recording/swapped_bodies.hpp"
+#include "diabolo/recording/plausibility/odd_tracking.hpp"
+#include "diabolo/recording/plausibility/swapped_bodies.hpp"
 
 namespace diabolo {
 

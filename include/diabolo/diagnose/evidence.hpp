@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/fit.hpp"
-#include "diabolo/recording/solve_symmetric.hpp"
+#include "diabolo/math/solve_symmetric.hpp"
 
 namespace diabolo {
 

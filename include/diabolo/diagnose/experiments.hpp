@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/unknowns.hpp"
-#include "diabolo/recording/model.hpp"
+#include "diabolo/model.hpp"
 #include "diabolo/recording/recording.hpp"
 
 namespace diabolo {

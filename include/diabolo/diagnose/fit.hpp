@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "diabolo/diagnose/window_rollout.hpp"
-#include "diabolo/parallel.hpp"
-#include "diabolo/recording/bootstrap.hpp"
-#include "diabolo/recording/solve_symmetric.hpp"
+#include "diabolo/math/bootstrap.hpp"
+#include "diabolo/math/parallel.hpp"
+#include "diabolo/math/solve_symmetric.hpp"
 
 namespace diabolo {
 

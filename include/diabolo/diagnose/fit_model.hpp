@@ -12,10 +12,10 @@
 #include "diabolo/diagnose/latent_force.hpp"
 #include "diabolo/diagnose/stage.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
-#include "diabolo/dual.hpp"
 #include "diabolo/effects/all.hpp"
-#include "diabolo/predictor_in.hpp"
-#include "diabolo/recording/model.hpp"
+#include "diabolo/full_predictor.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/model.hpp"
 
 namespace diabolo {
 

@@ -11,7 +11,7 @@
 
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/evidence.hpp"
-#include "diabolo/recording/horizon_score.hpp"
+#include "diabolo/evaluate/horizon_score.hpp"
 
 namespace diabolo {
 

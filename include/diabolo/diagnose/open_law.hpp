@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/fit.hpp"
-#include "diabolo/recording/bootstrap.hpp"
+#include "diabolo/math/bootstrap.hpp"
 
 namespace diabolo {
 

@@ -8,7 +8,7 @@
 
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
-#include "diabolo/recording/solve_symmetric.hpp"
+#include "diabolo/math/solve_symmetric.hpp"
 
 namespace diabolo {
 

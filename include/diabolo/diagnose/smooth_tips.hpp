@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "diabolo/math/solve_symmetric.hpp"
 #include "diabolo/recording/recording.hpp"
-#include "diabolo/recording/solve_symmetric.hpp"
 
 namespace diabolo {
 

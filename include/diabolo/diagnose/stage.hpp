@@ -11,12 +11,12 @@
 
 #include "diabolo/diagnose/smooth_tips.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/evaluate/start_state.hpp"
+#include "diabolo/evaluate/windows.hpp"
+#include "diabolo/recording/plausibility/usual_path.hpp"
 #include "diabolo/recording/spin.hpp"
-#include "diabolo/recording/start_state.hpp"
 #include "diabolo/recording/stick_frames.hpp"
 #include "diabolo/recording/tip_motion.hpp"
-#include "diabolo/recording/usual_path.hpp"
-#include "diabolo/recording/windows.hpp"
 
 namespace diabolo {
 

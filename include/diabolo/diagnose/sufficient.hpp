@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/fit.hpp"
-#include "diabolo/recording/usual_path.hpp"
+#include "diabolo/recording/plausibility/usual_path.hpp"
 
 namespace diabolo {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "diabolo/recording/usual_path.hpp"
+#include "diabolo/recording/plausibility/usual_path.hpp"
 
 namespace diabolo {
 

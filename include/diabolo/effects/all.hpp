@@ -13,7 +13,6 @@
 #include "diabolo/effects/string_friction.hpp"
 #include "diabolo/effects/string_mass.hpp"
 #include "diabolo/effects/unnamed_force.hpp"
-#include "diabolo/predictor.hpp"
 
 namespace diabolo {
 
@@ -21,13 +20,6 @@ namespace diabolo {
 template <class Scalar>
 using AllEffects =
     EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
-
-/// The predictor with every effect of the library, for models that are chosen at run time (model files,
-/// Python). With all amplitudes at zero it gives the bits of the plain one.
-template <class Scalar>
-using FullPredictor =
-    Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
               StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
 
 }  // namespace diabolo

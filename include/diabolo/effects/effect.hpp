@@ -8,7 +8,7 @@
 #include "diabolo/parameters.hpp"
 #include "diabolo/state.hpp"
 #include "diabolo/sticks.hpp"
-#include "diabolo/taut_string.hpp"
+#include "diabolo/string/string_step.hpp"
 
 namespace diabolo {
 

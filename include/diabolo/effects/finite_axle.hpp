@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "diabolo/effects/effect.hpp"
-#include "diabolo/string_path.hpp"
+#include "diabolo/string/string_path.hpp"
 
 namespace diabolo {
 

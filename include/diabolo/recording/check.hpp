@@ -7,9 +7,9 @@
 #include <string>
 
 #include "diabolo/parameters.hpp"
-#include "diabolo/recording/error.hpp"
 #include "diabolo/recording/recording.hpp"
-#include "diabolo/recording/text.hpp"
+#include "diabolo/text/error.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 

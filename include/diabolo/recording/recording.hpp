@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/recording/error.hpp"
+#include "diabolo/text/error.hpp"
 
 namespace diabolo {
 

@@ -10,15 +10,17 @@
 #include <vector>
 
 #include "diabolo/recording/dropouts.hpp"
-#include "diabolo/recording/error.hpp"
-#include "diabolo/recording/evaluation_step.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/recording/resample.hpp"
 #include "diabolo/recording/stick_frames.hpp"
-#include "diabolo/recording/text.hpp"
 #include "diabolo/sticks.hpp"
+#include "diabolo/text/error.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
+
+/// Step of the published evaluation [s]; the per-step factors of the published rules belong to it.
+inline constexpr double kEvaluationStep = 1e-3;
 
 /// How much later than its instant a held pose sets in [s]. In the published evaluation a pose counts in the
 /// first step that begins strictly after its instant, while the predictor asks for the tips at the end of a

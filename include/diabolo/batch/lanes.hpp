@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "diabolo/full_predictor.hpp"
+#include "diabolo/math/pack.hpp"
+
+namespace diabolo {
+
+/// Most rollouts that one kernel call takes.
+inline constexpr int kMostLanes = 8;
+
+/// Some steps of a few rollouts at once, as plain data between the batch and its kernels. Every pointer is to
+/// one rollout's data; unused lanes repeat a used one.
+struct LaneBlock {
+  const Parameters<double>* parameters[kMostLanes];  ///< validated; rules equal in all lanes
+  const AllEffects<double>* effects[kMostLanes];
+  State<double>* states[kMostLanes];       ///< in and out
+  const Tips<double>* tips[kMostLanes];    ///< steps + 1 poses each; lanes may share them
+  double* records[kMostLanes];             ///< 7 numbers a record: position, velocity, spin; null: none
+  StringState* record_states[kMostLanes];  ///< one a record
+  bool shared_tips;                        ///< all lanes have the same tips
+  double dt;                               ///< [s]
+  std::size_t steps;
+  std::size_t first_step;    ///< number of steps done before this block
+  std::size_t record_every;  ///< a record after each so many steps; 0: none
+};
+
+/// Advances a LaneBlock of the kernel's number of lanes.
+struct BatchKernel {
+  int lanes;
+  void (*run)(const LaneBlock&);
+  const char* instruction_set;
+};
+
+namespace detail {
+
+template <class Pack, class Get>
+Pack gather(Get&& get) {
+  Pack pack;
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) pack.set(lane, get(lane));
+  return pack;
+}
+
+template <class Pack, class Get>
+Vector3<Pack> gather3(Get&& get) {
+  Vector3<Pack> v;
+  for (int k = 0; k < 3; ++k) v[k] = gather<Pack>([&](int lane) { return get(lane)[k]; });
+  return v;
+}
+
+/// Copies the numeric fields of a struct of doubles into one lane of a struct of packs.
+template <class From, class To>
+void gather_fields(const From& from, To& to, int lane) {
+  std::array<double, sizeof(From) / sizeof(double)> values{};  // room for all, whatever their number
+  std::size_t i = 0;
+  From::for_each(from, [&](const ParameterInfo&, const double& field) { values[i++] = field; });
+  i = 0;
+  To::for_each(to, [&](const ParameterInfo&, auto& field) { field.set(lane, values[i++]); });
+}
+
+template <class Pack>
+Parameters<Pack> gather_parameters(const LaneBlock& block) {
+  Parameters<Pack> packed;
+  packed.copy_rules(*block.parameters[0]);
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane)
+    gather_fields(*block.parameters[lane], packed, lane);
+  return packed;
+}
+
+template <class Pack>
+AllEffects<Pack> gather_effects(const LaneBlock& block) {
+  AllEffects<Pack> packed;
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
+    const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (gather_fields(std::get<I>(block.effects[lane]->members), std::get<I>(packed.members), lane), ...);
+    };
+    copy(std::make_index_sequence<std::tuple_size_v<decltype(packed.members)>>{});
+  }
+  return packed;
+}
+
+template <class Pack>
+void gather_tips(const LaneBlock& block, std::size_t i, Tips<Pack>& to) {
+  const auto fill = [&](auto&& get) {
+    for (int k = 0; k < 3; ++k) {
+      to.left[k] = get([k](const Tips<double>& tips) { return tips.left[k]; });
+      to.right[k] = get([k](const Tips<double>& tips) { return tips.right[k]; });
+      to.left_velocity[k] = get([k](const Tips<double>& tips) { return tips.left_velocity[k]; });
+      to.right_velocity[k] = get([k](const Tips<double>& tips) { return tips.right_velocity[k]; });
+      to.left_direction[k] = get([k](const Tips<double>& tips) { return tips.left_direction[k]; });
+      to.right_direction[k] = get([k](const Tips<double>& tips) { return tips.right_direction[k]; });
+    }
+  };
+  if (block.shared_tips)
+    fill([&](auto&& component) { return Pack(component(block.tips[0][i])); });
+  else
+    fill([&](auto&& component) {
+      return gather<Pack>([&](int lane) { return component(block.tips[lane][i]); });
+    });
+}
+
+template <class Pack>
+State<Pack> gather_state(const LaneBlock& block) {
+  State<Pack> state;
+  state.position = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->position; });
+  state.velocity = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->velocity; });
+  state.string_acceleration =
+      gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->string_acceleration; });
+  state.axis = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->axis; });
+  state.spin = gather<Pack>([&](int l) { return block.states[l]->spin; });
+  state.string_state.code =
+      gather<Pack>([&](int l) { return static_cast<double>(block.states[l]->string_state); });
+  return state;
+}
+
+template <class Pack>
+void scatter_state(const State<Pack>& state, const LaneBlock& block) {
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
+    State<double>& to = *block.states[lane];
+    for (int k = 0; k < 3; ++k) {
+      to.position[k] = state.position[k][lane];
+      to.velocity[k] = state.velocity[k][lane];
+      to.string_acceleration[k] = state.string_acceleration[k][lane];
+      to.axis[k] = state.axis[k][lane];
+    }
+    to.spin = state.spin[lane];
+    to.string_state = static_cast<StringState>(static_cast<int>(state.string_state.code[lane]));
+  }
+}
+
+template <class Pack>
+void scatter_record(const State<Pack>& state, const LaneBlock& block, std::size_t index) {
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
+    double* to = block.records[lane] + 7 * index;
+    for (int k = 0; k < 3; ++k) {
+      to[k] = state.position[k][lane];
+      to[3 + k] = state.velocity[k][lane];
+    }
+    to[6] = state.spin[lane];
+    block.record_states[lane][index] =
+        static_cast<StringState>(static_cast<int>(state.string_state.code[lane]));
+  }
+}
+
+template <class Pack, class P>
+void run_with(const P& predictor, const LaneBlock& block) {
+  State<Pack> state = gather_state<Pack>(block);
+  Tips<Pack> tips[2];
+  gather_tips(block, 0, tips[0]);
+  for (std::size_t i = 1; i <= block.steps; ++i) {
+    const Tips<Pack>& now = tips[(i - 1) % 2];
+    Tips<Pack>& next = tips[i % 2];
+    gather_tips(block, i, next);
+    predictor.step(state, now, next, Pack(block.dt));
+    const std::size_t done = block.first_step + i;
+    if (block.record_every > 0 && done % block.record_every == 0)
+      scatter_record(state, block, done / block.record_every - 1);
+  }
+  scatter_state(state, block);
+}
+
+}  // namespace detail
+
+/// The kernel for a Pack of doubles. Where no effect is at work a predictor that knows none does the same,
+/// bit for bit, and does not ask at every step.
+template <class Pack>
+void run_lanes(const LaneBlock& block) {
+  const Parameters<Pack> parameters = detail::gather_parameters<Pack>(block);
+  const AllEffects<Pack> effects = detail::gather_effects<Pack>(block);
+  if (effects.neutral())
+    detail::run_with<Pack>(Predictor<Pack>(parameters, {}, typename Predictor<Pack>::AlreadyValid{}), block);
+  else
+    detail::run_with<Pack>(
+        FullPredictor<Pack>(parameters, effects, typename FullPredictor<Pack>::AlreadyValid{}), block);
+}
+
+}  // namespace diabolo

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "diabolo/evaluate/baseline.hpp"
+#include "diabolo/evaluate/evaluation_step.hpp"
+#include "diabolo/evaluate/horizon_options.hpp"
+#include "diabolo/evaluate/start_noise.hpp"
+#include "diabolo/evaluate/start_state.hpp"
+#include "diabolo/evaluate/windows.hpp"
+#include "diabolo/model.hpp"
+#include "diabolo/recording/dropouts.hpp"
+#include "diabolo/recording/tip_motion.hpp"
+#include "diabolo/rollout.hpp"
+
+namespace diabolo {
+
+/// Error of one prediction at one horizon.
+struct WindowError {
+  bool comparable = false;  ///< the recording can tell; else nothing below counts
+  bool failed = false;      ///< the prediction diverged before; then `model` does not count
+  bool missed_catch = false;
+  double model = 0.0, baseline = 0.0;  ///< distance to the recorded diabolo [m]
+};
+
+/// What the predictions over one recording need, made once.
+class HorizonTask {
+ public:
+  /// Throws RecordingError, or std::invalid_argument where a parameter of the model is out of its range.
+  HorizonTask(const Recording& recording, const Model& model, const HorizonOptions& options)
+      : recording_(without_dropout_edges(recording)),
+        tips_(recording, model.interpolation),
+        starts_(recording_, has_signed_spin(model)),
+        baseline_(baseline_track(recording)),
+        predictor_(predictor_for(model, recording)),
+        windows_(
+            prediction_windows(recording_, starts_, tips_.times(), options.starts_every, options.horizons)),
+        start_(options.start) {}
+
+  std::size_t size() const { return windows_.size(); }
+
+  /// The errors at each horizon of the prediction from start number `index`.
+  std::vector<WindowError> errors(std::size_t index) const {
+    std::vector<WindowError> errors(windows_[index].rows.size());
+    predict(index, starts_.at(start_, windows_[index].start),
+            [&](std::size_t h, const Vector3<double>& predicted, const State<double>& after, bool in_world) {
+              errors[h] = compare(*windows_[index].rows[h], predicted, after);
+              errors[h].failed = !in_world;
+            });
+    return errors;
+  }
+
+  /// How far the predictions at each horizon are from each other that begin as start number `index` does and
+  /// as it might have: the mean distance [m] over some draws of a start with this noise. NaN where the
+  /// recording cannot tell.
+  std::vector<double> scatter(std::size_t index, const StartNoise& noise, std::uint64_t seed) const {
+    constexpr int kDraws = 4;
+    const State<double> start = starts_.at(start_, windows_[index].start);
+    std::vector<Vector3<double>> nominal(windows_[index].rows.size(), Vector3<double>::Zero());
+    std::vector<double> distance(nominal.size(), kNaN);
+    predict(index, start, [&](std::size_t h, const Vector3<double>& predicted, auto&&...) {
+      nominal[h] = predicted;
+      distance[h] = 0.0;
+    });
+    std::mt19937_64 generator(seed + index);
+    for (int draw = 0; draw < kDraws; ++draw)
+      predict(index, drawn_start(start, noise, generator),
+              [&](std::size_t h, const Vector3<double>& predicted, auto&&...) {
+                distance[h] += (predicted - nominal[h]).norm() / kDraws;
+              });
+    return distance;
+  }
+
+ private:
+  /// Calls `visit(h, position, state after it, whether it stayed in this world)` at each comparable horizon
+  /// `h` of the prediction of a window from a start.
+  template <class Visit>
+  void predict(std::size_t index, const State<double>& start, Visit&& visit) const {
+    const PredictionWindow& window = windows_[index];
+    const Eigen::VectorXd& times = tips_.times();
+    const double begin = times[window.start];
+    const auto motion = tips_.motion(window.start, window.last);
+    bool in_world = true;
+    State<double> before = start;
+    const Steps steps{begin, kEvaluationStep, steps_until(times[window.last] - begin)};
+    rollout(predictor_, start, *motion, steps,
+            [&](std::size_t step, double, const State<double>& state, const StepStatus<double>&) {
+              in_world = in_world && is_in_world(state.position);
+              for (std::size_t h = 0; h < window.rows.size(); ++h) {
+                if (!window.rows[h]) continue;
+                const double elapsed = times[*window.rows[h]] - begin;
+                if (steps_until(elapsed) != step) continue;
+                const double fraction = elapsed / kEvaluationStep - static_cast<double>(step) + 1.0;
+                const Vector3<double> there = before.position + (state.position - before.position) * fraction;
+                visit(h, there, state, in_world);
+              }
+              before = state;
+            });
+  }
+
+  /// Compares a predicted position with a row; `after` is the state of the step that ends behind it.
+  WindowError compare(Eigen::Index row, const Vector3<double>& predicted, const State<double>& after) const {
+    const Vector3<double> recorded = recording_.diabolo.position.col(row);
+    const Vector3<double> left = recording_.left.position.col(row),
+                          right = recording_.right.position.col(row);
+    WindowError error;
+    error.comparable = true;
+    error.model = (predicted - recorded).norm();
+    error.baseline = (baseline_.position.col(row) - recorded).norm();
+    error.missed_catch = after.string_state == StringState::kFlying && recording_.left.valid[row] &&
+                         recording_.right.valid[row] && height_above_tips(predicted, left, right) < 0.0;
+    return error;
+  }
+
+  Recording recording_;
+  RecordedTips tips_;
+  StartStates starts_;
+  Track baseline_;
+  FullPredictor<double> predictor_;
+  std::vector<PredictionWindow> windows_;
+  Start start_;
+};
+
+}  // namespace diabolo

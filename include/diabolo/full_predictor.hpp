@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "diabolo/effects/all.hpp"
+#include "diabolo/predictor.hpp"
+
+namespace diabolo {
+
+/// The predictor with every effect of the library, for models that are chosen at run time (model files,
+/// Python). With all amplitudes at zero it gives the bits of the plain one.
+template <class Scalar>
+using FullPredictor =
+    Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
+              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
+
+/// Every number of one set of parameters or of one effect, given to another Scalar's.
+template <class From, class To>
+void copy_fields(const From& from, To& to) {
+  std::vector<double> values;
+  From::for_each(from, [&](const ParameterInfo&, double value) { values.push_back(value); });
+  std::size_t next = 0;
+  To::for_each(to, [&](const ParameterInfo&, auto& field) {
+    field = std::remove_reference_t<decltype(field)>(values[next++]);
+  });
+}
+
+/// The same for each effect of `from` that `to` has as well.
+template <class From, class To>
+void copy_effects(const From& from, To& to) {
+  const auto copy = []<class One, class Other>(const One& one, Other& other) {
+    if constexpr (One::kName == Other::kName) copy_fields(one, other);
+  };
+  const auto to_all = [&](const auto& one) {
+    std::apply([&](auto&... other) { (copy(one, other), ...); }, to.members);
+  };
+  std::apply([&](const auto&... one) { (to_all(one), ...); }, from.members);
+}
+
+/// The same predictor in another Scalar, such as a dual number.
+template <class To, template <class> class... Effects>
+Predictor<To, Effects...> predictor_in(const Predictor<double, Effects...>& from) {
+  Parameters<To> parameters;
+  parameters.copy_rules(from.parameters());
+  copy_fields(from.parameters(), parameters);
+  EffectSet<To, Effects...> effects;
+  copy_effects(from.effects(), effects);
+  using Result = Predictor<To, Effects...>;
+  return Result(parameters, effects, typename Result::AlreadyValid{});
+}
+
+/// The same state in another Scalar.
+template <class To>
+State<To> state_in(const State<double>& from) {
+  State<To> to;
+  to.position = from.position.cast<To>();
+  to.velocity = from.velocity.cast<To>();
+  to.spin = To(from.spin);
+  to.string_state = from.string_state;
+  to.axis = from.axis.cast<To>();
+  to.string_acceleration = from.string_acceleration.cast<To>();
+  return to;
+}
+
+}  // namespace diabolo

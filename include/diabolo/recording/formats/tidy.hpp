@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diabolo/recording/check.hpp"
+#include "diabolo/recording/recording.hpp"
+#include "diabolo/text/csv.hpp"
+#include "diabolo/text/error.hpp"
+
+namespace diabolo {
+
+/// What a tidy CSV leaves to the JSON file beside it.
+struct TidyMetadata {
+  DiaboloProperties properties = kRedDiabolo;
+  double string_length = kPublishedStringLength;  ///< [m]
+  double rate = 0.0;                              ///< nominal sampling rate [Hz]
+};
+
+/// The columns of a tidy CSV: s, m, unit quaternions; world frame, body x = spin axis or along the stick
+/// outwards. The last eight, the orientation of the sticks, may be left out, each stick's four together.
+inline constexpr std::array<std::string_view, 22> kTidyColumns{
+    "time",      "left_x",    "left_y",     "left_z",     "right_x",    "right_y",    "right_z", "diabolo_x",
+    "diabolo_y", "diabolo_z", "diabolo_qx", "diabolo_qy", "diabolo_qz", "diabolo_qw", "left_qx", "left_qy",
+    "left_qz",   "left_qw",   "right_qx",   "right_qy",   "right_qz",   "right_qw"};
+
+/// One pass over a tidy CSV; use read_tidy().
+class TidyReader {
+ public:
+  TidyReader(std::string_view text, const std::string& file_name) : csv_(text, file_name) {}
+
+  Recording read(const TidyMetadata& metadata) && {
+    read_header();
+    csv_.drop_blank_end();
+    if (csv_.at_end()) csv_.fail("the file ends here; expected at least one line of data");
+    // A row of C cells has C bytes at least: a file with wrong rows cannot make this large.
+    const Eigen::Index size =
+        std::min(csv_.lines_left(), static_cast<std::ptrdiff_t>(csv_.bytes_left() / row_.size()) + 1);
+    Recording result;
+    result.name = std::filesystem::path(csv_.file()).stem().string();
+    result.rate = metadata.rate;
+    result.properties = metadata.properties;
+    result.string_length = metadata.string_length;
+    result.time.resize(size);
+    result.left = result.right = result.diabolo = Track::missing(size);
+    result.diabolo_orientation = OrientationTrack::missing(size);
+    if (has(kLeftOrientation)) result.left_orientation = OrientationTrack::missing(size);
+    if (has(kRightOrientation)) result.right_orientation = OrientationTrack::missing(size);
+    for (Eigen::Index i = 0; !csv_.at_end(); ++i) {
+      csv_.next_numbers(row_);
+      read_time(result, i);
+      read_position(result.left, 1, i);
+      read_position(result.right, 4, i);
+      read_position(result.diabolo, 7, i);
+      read_orientation(result.diabolo_orientation, 10, i);
+      if (has(kLeftOrientation)) read_orientation(result.left_orientation, kLeftOrientation, i);
+      if (has(kRightOrientation)) read_orientation(result.right_orientation, kRightOrientation, i);
+    }
+    check_rate(result.rate, result.time, csv_.file());
+    check_properties(result.properties, result.string_length, csv_.file());
+    for (const double time : result.time) result.frame.push_back(std::lround(time * result.rate));
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t kLeftOrientation = 14, kRightOrientation = 18;
+  static constexpr std::size_t kAbsent = kTidyColumns.size();
+
+  bool has(std::size_t column) const { return at_[column] != kAbsent; }
+
+  void read_header() {
+    const std::vector<std::string_view> cells = csv_.next_cells();
+    at_.fill(kAbsent);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const auto column = std::ranges::find(kTidyColumns, cells[c]);
+      if (column == kTidyColumns.end())
+        csv_.fail("column " + std::to_string(c + 1) + " is " + shown(cells[c]) +
+                  ", which a tidy recording lacks");
+      std::size_t& at = at_[static_cast<std::size_t>(column - kTidyColumns.begin())];
+      if (at != kAbsent) csv_.fail("column " + shown(cells[c]) + " is there twice");
+      at = c;
+    }
+    for (std::size_t k = 0; k < kTidyColumns.size(); ++k) {
+      const std::size_t group = k < kLeftOrientation    ? k
+                                : k < kRightOrientation ? kLeftOrientation
+                                                        : kRightOrientation;
+      const bool expected =
+          k < kLeftOrientation || std::any_of(at_.begin() + static_cast<std::ptrdiff_t>(group),
+                                              at_.begin() + static_cast<std::ptrdiff_t>(group + 4),
+                                              [](std::size_t at) { return at != kAbsent; });
+      if (expected && !has(k)) csv_.fail("column " + shown(kTidyColumns[k]) + " is missing");
+    }
+    row_.resize(cells.size());
+  }
+
+  double value(std::size_t column) const { return row_[at_[column]]; }
+
+  void read_time(Recording& recording, Eigen::Index i) const {
+    const double time = value(0);
+    if (!(std::abs(time) <= kLargestTime))
+      csv_.fail("time " + shown(time) + " s; expected a number within 1e9 s");
+    if (i > 0 && time <= recording.time[i - 1])
+      csv_.fail("time " + shown(time) + " s does not come after " + shown(recording.time[i - 1]) + " s");
+    if (i > 0 && time - recording.time[i - 1] > kLongestGap)
+      csv_.fail("time " + shown(time) + " s comes more than an hour after " + shown(recording.time[i - 1]) +
+                " s; expected one play a file");
+    if (i > 0 && time - recording.time[0] > kLongestRecording)
+      csv_.fail("time " + shown(time) + " s comes more than a day after the first, " +
+                shown(recording.time[0]) + " s; expected one play a file");
+    recording.time[i] = time;
+  }
+
+  /// Whether the `count` cells from a column on are empty; RecordingError where only some are.
+  bool all_empty(std::size_t column, std::size_t count) const {
+    std::size_t empty = 0;
+    for (std::size_t k = 0; k < count; ++k) empty += std::isnan(value(column + k));
+    if (empty != 0 && empty != count)
+      csv_.fail(std::to_string(empty) + " of " + std::to_string(count) + " cells from " +
+                shown(kTidyColumns[column]) + " on are empty; expected none, or all in a dropout");
+    return empty != 0;
+  }
+
+  void read_position(Track& track, std::size_t column, Eigen::Index i) const {
+    if (all_empty(column, 3)) return;
+    track.valid[i] = true;
+    track.position.col(i) << value(column), value(column + 1), value(column + 2);
+    if (track.position.col(i).cwiseAbs().maxCoeff() > kLargestCoordinate)
+      csv_.fail(shown(kTidyColumns[column]) +
+                " and on: " + shown(track.position.col(i).cwiseAbs().maxCoeff()) +
+                " m; expected positions within 100 m (other units?)");
+  }
+
+  void read_orientation(OrientationTrack& track, std::size_t column, Eigen::Index i) const {
+    if (all_empty(column, 4)) return;
+    track.valid[i] = true;
+    track.quaternion.col(i) << value(column), value(column + 1), value(column + 2), value(column + 3);
+    if (!normalize_quaternion(track.quaternion.col(i)))
+      csv_.fail(shown(kTidyColumns[column]) + " and on: quaternion of norm " +
+                shown(track.quaternion.col(i).norm()) + "; expected 1 within 0.001");
+  }
+
+  CsvReader csv_;
+  std::array<std::size_t, kTidyColumns.size()> at_{};
+  std::vector<double> row_;
+};
+
+/// Reads the text of a tidy CSV: kTidyColumns in any order, empty cells for dropouts. `frame` is time * rate,
+/// rounded; the recording is named after the file. Throws RecordingError with file, line and what was
+/// expected.
+inline Recording read_tidy(std::string_view text, const std::string& file_name,
+                           const TidyMetadata& metadata) {
+  return TidyReader(text, file_name).read(metadata);
+}
+
+/// The text of a tidy CSV, numbers in their shortest form that reads back as the same double.
+/// Throws RecordingError where `recording` is not what its type promises.
+inline std::string write_tidy(const Recording& recording) {
+  check_recording(recording);
+  if (recording.size() == 0)
+    throw RecordingError("recording " + shown(recording.name) + ": no samples to write");
+  const bool left = !recording.left_orientation.empty(), right = !recording.right_orientation.empty();
+  std::string text;
+  for (std::size_t k = 0; k < kTidyColumns.size(); ++k)
+    if (k < 14 || (k < 18 ? left : right)) text.append(k == 0 ? "" : ",").append(kTidyColumns[k]);
+  text += '\n';
+  const auto put = [&text](const auto& track, const auto& values, Eigen::Index i) {
+    const bool valid = i < track.valid.size() && track.valid[i];
+    for (Eigen::Index k = 0; k < values.rows(); ++k) {
+      text += ',';
+      if (valid) text += shown(values(k, i));
+    }
+  };
+  for (Eigen::Index i = 0; i < recording.size(); ++i) {
+    text += shown(recording.time[i]);
+    put(recording.left, recording.left.position, i);
+    put(recording.right, recording.right.position, i);
+    put(recording.diabolo, recording.diabolo.position, i);
+    put(recording.diabolo_orientation, recording.diabolo_orientation.quaternion, i);
+    if (left) put(recording.left_orientation, recording.left_orientation.quaternion, i);
+    if (right) put(recording.right_orientation, recording.right_orientation.quaternion, i);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "diabolo/recording/plausibility/odd_stretches.hpp"
+#include "diabolo/recording/plausibility/odd_tracking.hpp"
+#include "diabolo/recording/plausibility/usual_path.hpp"
+#include "diabolo/recording/recording.hpp"
+
+namespace diabolo {
+
+/// Longest time [s] for which a tip may be unseen: half a beat of a player's hands, more than which no curve
+/// through what was seen before and after can make up for.
+inline constexpr double kLongestUnseen = 0.25;
+
+/// Longest time [s] for which a body may seem to rest to the last digit.
+inline constexpr double kLongestRest = 0.1;
+
+/// Longest time without rows [s] (beyond one period), and the largest share of rows that may be missing.
+inline constexpr double kLongestWithoutRows = 0.1, kMostMissingRows = 0.05;
+
+/// What is odd about a recording that is well formed: each a clause that says what is found and what it
+/// means. Whatever is computed from such a recording deserves a second look.
+inline std::vector<std::string> warnings(const Recording& recording) {
+  std::vector<std::string> result;
+  for (std::string clause :
+       {odd_path_length(recording), odd_height(recording), odd_axle(recording), odd_names(recording)})
+    if (!clause.empty()) result.push_back(std::move(clause));
+  const Track* const tips[2] = {&recording.left, &recording.right};
+  const Track* const none[2] = {nullptr, nullptr};
+  for (const auto& [side, tip] : {std::pair{"left", tips[0]}, std::pair{"right", tips[1]}})
+    if (const Stretches gap = unseen(*tip, recording.time, kLongestUnseen); gap.count > 0)
+      result.push_back(std::string("the ") + side + " tip is not seen for " + gap.text() +
+                       "; a prediction across it goes by a guess");
+  if (const MissingRows missing(recording);
+      missing.stretches.length > kLongestWithoutRows + 1.0 / recording.rate ||
+      missing.share > kMostMissingRows)
+    result.push_back(std::to_string(std::lround(100.0 * missing.share)) +
+                     " % of the rows are missing: none for " + missing.stretches.text());
+  for (const auto& [name, track, hangs_on] :
+       {std::tuple{"left tip", tips[0], &none}, std::tuple{"right tip", tips[1], &none},
+        std::tuple{"diabolo", &recording.diabolo, &tips}})
+    if (const Stretches rest = frozen(recording, *track, kLongestRest, *hangs_on); rest.count > 0)
+      result.push_back(std::string("the ") + name + " does not move by a digit for " + rest.text() +
+                       ": frozen tracking");
+  return result;
+}
+
+}  // namespace diabolo

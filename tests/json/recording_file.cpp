@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/json/recording_file.hpp"
+
+#include <fstream>
+
+#include "catch.hpp"
+#include "recording/support.hpp"
+
+using namespace diabolo;
+using test::complaint;
+using test::replaced;
+
+namespace {
+
+const std::string kMetadata = R"({"schema": "diabolo.recording/1",
+  "diabolo": {"mass": 0.2845, "diameter": 0.127, "length": 0.143, "axle_radius": 0.0065},
+  "string_length": 1.46, "rate": 100, "units": "SI", "frame": "x forward, y left, z up"})";
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string says_of(const std::string& from, const std::string& to) {
+  return complaint([&] { read_metadata(replaced(kMetadata, from, to), "play.json"); });
+}
+
+}  // namespace
+
+TEST_CASE("Metadata is read as it stands and written back") {
+  const TidyMetadata metadata = read_metadata(kMetadata, "play.json");
+  CHECK(metadata.properties.mass == 0.2845);
+  CHECK(metadata.properties.axle_radius == 0.0065);
+  CHECK(metadata.string_length == 1.46);
+  CHECK(metadata.rate == 100.0);
+  const TidyMetadata again = read_metadata(write_metadata(metadata), "play.json");
+  CHECK(again.properties.diameter == metadata.properties.diameter);
+  CHECK(again.properties.length == metadata.properties.length);
+  CHECK(again.rate == metadata.rate);
+  CHECK_NOTHROW(read_metadata(replaced(kMetadata, "\"rate\"", "\"note\": [1, {}], \"rate\""), "play.json"));
+}
+
+TEST_CASE("Missing and wrong metadata are named") {
+  CHECK(says_of("recording/1", "calibration/1") ==
+        "play.json: field \"schema\" is \"diabolo.calibration/1\"; expected \"diabolo.recording/1\"");
+  CHECK(says_of("\"SI\"", "\"mm\"") == "play.json: field \"units\" is \"mm\"; expected \"SI\"");
+  CHECK(says_of("y left", "y up") ==
+        "play.json: field \"frame\" is \"x forward, y up, z up\"; expected \"x forward, y left, z up\"");
+  CHECK(says_of("\"rate\": 100, ", "") == "play.json: field \"rate\" is missing");
+  CHECK(says_of("100", "\"fast\"") == "play.json: field \"rate\" is \"fast\"; expected a number");
+  CHECK(says_of("0.2845", "-1") == "play.json: field \"diabolo.mass\" is -1; expected a number > 0");
+  CHECK(says_of("\"mass\": 0.2845, ", "") == "play.json: field \"diabolo.mass\" is missing");
+  CHECK(says_of("\"mass\"", "\"length\": 1, \"mass\"") == "play.json: field \"length\" is there twice");
+  CHECK(complaint([] {
+          write_metadata({kRedDiabolo, kNaN, 100.0});
+        }) == "recording: string_length [m] nan; expected 0.05 to 20");
+}
+
+TEST_CASE("Motive and tidy recordings are told apart by content") {
+  const test::TemporaryFolder folder;
+  write(folder / "take.txt", test::motive_text());
+  write(folder / "play.csv", test::tidy_text());
+  write(folder / "play.json", kMetadata);
+  write(folder / "quoted.csv",
+        "\xef\xbb\xbf" + replaced(test::motive_text(), "Format Version", "\"Format Version\""));
+  const Recording take = load_recording(folder / "take.txt", published_calibration());
+  CHECK(take.name == "take");
+  CHECK(take.rate == 120.0);
+  CHECK(test::same(load_recording(folder / "quoted.csv"), take));
+  const Recording play = load_recording(folder / "play.csv", published_calibration());
+  CHECK(play.name == "play");
+  CHECK(play.rate == 100.0);
+  CHECK(play.left.position.col(0) == Eigen::Vector3d(0.1, 0.3, 1.0));
+}
+
+TEST_CASE("Files of other kinds are refused") {
+  const test::TemporaryFolder folder;
+  const auto says = [&folder](const std::string& text) {
+    write(folder / "x.csv", text);
+    return replaced(complaint([&] { load_recording(folder / "x.csv"); }), (folder / "x").string(), "x");
+  };
+  CHECK(says("t,error\n0,1\n") ==
+        "x.csv, line 1: starts with \"t,error\"; expected a Motive export (\"Format "
+        "Version,...\") or a tidy recording (\"time,...\")");
+  CHECK(says("") == "x.csv: the file is empty");
+  CHECK(says(test::tidy_text()) == "x.csv: expected " + (folder / "x.json").string() +
+                                       " beside it, which says the string's length, the rate and what the "
+                                       "diabolo is like");
+  write(folder / "x.json", "{");
+  CHECK(says(test::tidy_text()) == "x.json, line 1, column 2: this is not JSON (or the file is cut off)");
+  write(folder / "x.json", kMetadata);
+  CHECK(says(replaced(test::tidy_text(), "\n", "\r")).starts_with("x.csv, line 1: a CR inside the line"));
+  CHECK(complaint([&] { load_recording(folder / "y.csv"); }).ends_with("y.csv: there is no such file"));
+  CHECK(complaint([&] { load_recording(folder / ""); }).ends_with(": a directory; expected a file"));
+}
+
+TEST_CASE("What is saved loads again, bit for bit") {
+  const std::uint32_t seed = test::fresh_seed();
+  INFO("seed " << seed);
+  const test::TemporaryFolder folder;
+  for (std::uint32_t k = 0; k < 20; ++k) {
+    Recording recording = test::random_recording(seed + k);
+    recording.properties = kGreenDiabolo;
+    recording.string_length = 1.0 / 3.0;
+    save_tidy(recording, folder / "random.csv");
+    CHECK(test::same(load_recording(folder / "random.csv"), recording));
+    CHECK(folder.entries() == 2);
+  }
+}
+
+TEST_CASE("A recording that cannot be saved leaves everything as it was") {
+  const test::TemporaryFolder folder;
+  Recording recording = test::random_recording(3);
+  save_tidy(recording, folder / "play.csv");
+  const std::string before = read_file(folder / "play.csv");
+  recording.left = Track::missing(0);
+  CHECK(complaint([&] {
+          save_tidy(recording, folder / "play.csv");
+        }).starts_with("recording \"random\", left tip:"));
+  CHECK(read_file(folder / "play.csv") == before);
+  CHECK(folder.entries() == 2);
+  recording = test::random_recording(3);
+  CHECK(complaint([&] {
+          save_tidy(recording, folder / "play.json");
+        }).ends_with("expected a name that ends in .csv"));
+  std::filesystem::create_directory(folder / "taken.csv");
+  CHECK(complaint([&] {
+          save_tidy(recording, folder / "taken.csv");
+        }).ends_with("a directory; expected a file"));
+  CHECK(folder.entries() == 3);
+}
+
+TEST_CASE("Every published take loads, saved ones the same") {
+  const auto recordings =
+      test::recordings_folder("loading published takes and saving them as tidy recordings");
+  if (!recordings) return;
+  const test::TemporaryFolder folder;
+  for (const char* name : {"2020-07-11_basic_physics/throw_1", "2020-06-18/deceleration_diabolo_red_2",
+                           "2020-09-14_motion_extraction/circular_accel_stick_motion"}) {
+    INFO(name);
+    const Recording recording = load_recording(*recordings / (std::string(name) + ".csv"));
+    save_tidy(recording, folder / "copy.csv");
+    CHECK(test::same(load_recording(folder / "copy.csv"), recording));
+  }
+}
