@@ -70,7 +70,7 @@ class PlayJob : public Job {
               shares.add(state, status);
             });
     // The published rules let a diabolo that hangs on the string come loose again and again.
-    const bool always_held = predictor_.parameters().flight_rule != FlightRule::kPublished;
+    const bool always_held = predictor_.parameters().pull.flight_rule != FlightRule::kPublished;
     if (play_.name.starts_with("beat") && always_held && shares.on_string < 0.9 * shares.steps)
       throw std::runtime_error("the diabolo is on the string for less than 90 % of the steps");
     if (play_.name == "flight" && shares.flying < 0.9 * shares.steps)

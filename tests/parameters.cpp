@@ -47,23 +47,23 @@ TEST_CASE("the published preset is the recipe of the published evaluation") {
   CHECK(p.string_length == 1.46);
   CHECK(p.gravity == 9.8);
   CHECK(p.axle_radius == 0.0065);
-  CHECK(p.pull_scale == 0.13);
-  CHECK(p.cap_scale == 0.13);
-  CHECK(p.pull_scale_after_cap == 0.07);
-  CHECK(std::exp(-p.dissipation_rate * p.reference_step) == Approx(0.9999).epsilon(1e-15));
-  CHECK(p.spin_coupling * p.reference_step == Approx(0.00015));
+  CHECK(p.pull.pull_scale == 0.13);
+  CHECK(p.pull.cap_scale == 0.13);
+  CHECK(p.pull.pull_scale_after_cap == 0.07);
+  CHECK(std::exp(-p.dissipation_rate * p.pull.reference_step) == Approx(0.9999).epsilon(1e-15));
+  CHECK(p.spin_coupling * p.pull.reference_step == Approx(0.00015));
   CHECK(p.catch_slack == 0.03);
   CHECK(p.catch_distance == 0.10);
-  CHECK(p.thin_slack == 0.03);
-  CHECK(p.per_step);
-  CHECK(p.release_when_overstretched);
+  CHECK(p.pull.thin_slack == 0.03);
+  CHECK(p.pull.per_step);
+  CHECK(p.pull.release_when_overstretched);
   CHECK(p.string_law == StringLaw::kPullVelocity);
-  CHECK(p.projection == Projection::kRadial);
-  CHECK(p.normal_rule == NormalRule::kPublished);
-  CHECK(p.flight_rule == FlightRule::kPublished);
-  CHECK(p.thin_rule == ThinRule::kPublished);
-  CHECK(p.spin_rule == SpinRule::kSlip);
-  CHECK(p.integrator == Integrator::kParabolic);
+  CHECK(p.pull.projection == Projection::kRadial);
+  CHECK(p.pull.normal_rule == NormalRule::kPublished);
+  CHECK(p.pull.flight_rule == FlightRule::kPublished);
+  CHECK(p.pull.thin_rule == ThinRule::kPublished);
+  CHECK(p.pull.spin_rule == SpinRule::kSlip);
+  CHECK(p.pull.integrator == Integrator::kParabolic);
 }
 
 TEST_CASE("the paper's preset is the paper's text") {
@@ -71,16 +71,16 @@ TEST_CASE("the paper's preset is the paper's text") {
   CHECK(p.string_length == 1.45);
   CHECK(p.loose_distance == 0.01);
   CHECK(p.flying_distance == 0.05);
-  CHECK(p.thin_slack == 0.05);
-  CHECK(p.mu_acceleration == 154.0);
-  CHECK(p.mu_deceleration == 154.0);
+  CHECK(p.pull.thin_slack == 0.05);
+  CHECK(p.pull.mu_acceleration == 154.0);
+  CHECK(p.pull.mu_deceleration == 154.0);
   CHECK(p.string_law == StringLaw::kPullVelocity);
-  CHECK(p.projection == Projection::kClosestPoint);
-  CHECK(p.normal_rule == NormalRule::kTrue);
-  CHECK(p.flight_rule == FlightRule::kPaper);
-  CHECK(p.thin_rule == ThinRule::kPaper);
-  CHECK(p.spin_rule == SpinRule::kLengthChange);
-  CHECK(p.integrator == Integrator::kEuler);
+  CHECK(p.pull.projection == Projection::kClosestPoint);
+  CHECK(p.pull.normal_rule == NormalRule::kTrue);
+  CHECK(p.pull.flight_rule == FlightRule::kPaper);
+  CHECK(p.pull.thin_rule == ThinRule::kPaper);
+  CHECK(p.pull.spin_rule == SpinRule::kLengthChange);
+  CHECK(p.pull.integrator == Integrator::kEuler);
 }
 
 TEST_CASE("the consistent preset has standard gravity and no dissipation, and its factors are rates") {
@@ -88,7 +88,7 @@ TEST_CASE("the consistent preset has standard gravity and no dissipation, and it
   CHECK(p.gravity == 9.80665);
   CHECK(p.dissipation_rate == 0.0);
   CHECK(p.string_law == StringLaw::kInextensible);
-  CHECK_FALSE(p.per_step);
+  CHECK_FALSE(p.pull.per_step);
 }
 
 TEST_CASE("every number has a name of its own, a meaning and a range that its default lies in") {
@@ -130,7 +130,7 @@ TEST_CASE("slip that a published step would overshoot is refused") {
   Numbers parameters = Numbers::published();
   parameters.spin_coupling = 1e3;
   CHECK_NOTHROW(parameters.validate());
-  parameters.reference_step = 2e-3;
+  parameters.pull.reference_step = 2e-3;
   CHECK_THROWS_WITH(parameters.validate(), Contains("spin_coupling") && Contains("reference_step"));
 }
 

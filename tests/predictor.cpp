@@ -262,7 +262,7 @@ TEST_CASE("the paper's spin knows how much string has passed, and nothing of mot
     predictor.step(swinging, tips, tips, kStep);
     REQUIRE(swinging.string_state == kOn);
     const double change = (swinging.position - tips.right).norm() - start;
-    CHECK(swinging.spin == Approx(parameters.mu_acceleration * change).margin(1e-9));
+    CHECK(swinging.spin == Approx(parameters.pull.mu_acceleration * change).margin(1e-9));
     farthest = std::max(farthest, std::abs(change));
   }
   CHECK(farthest > 0.1);
@@ -278,7 +278,7 @@ TEST_CASE("tips farther apart than the string: the diabolo is held between them,
     State<double> state = at_rest({0.0, 0.2, 0.95}, kOn);
     const StepStatus<double> status = predictor.step(state, begin, end, kStep);
     CHECK(status.overstretched);
-    if (parameters.release_when_overstretched) {
+    if (parameters.pull.release_when_overstretched) {
       CHECK(state.velocity.z() == Approx(-parameters.gravity * kStep));
       CHECK(state.string_state == kLoose);
       continue;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <tuple>
 #include <type_traits>
-#include <vector>
 
 #include "diabolo/effects/all.hpp"
 #include "diabolo/predictor.hpp"
@@ -18,18 +16,7 @@ using FullPredictor =
     Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
               StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
 
-/// Every number of one set of parameters or of one effect, given to another Scalar's.
-template <class From, class To>
-void copy_fields(const From& from, To& to) {
-  std::vector<double> values;
-  From::for_each(from, [&](const ParameterInfo&, double value) { values.push_back(value); });
-  std::size_t next = 0;
-  To::for_each(to, [&](const ParameterInfo&, auto& field) {
-    field = std::remove_reference_t<decltype(field)>(values[next++]);
-  });
-}
-
-/// The same for each effect of `from` that `to` has as well.
+/// Gives each effect of `to` the values that it has in `from`, which may know fewer.
 template <class From, class To>
 void copy_effects(const From& from, To& to) {
   const auto copy = []<class One, class Other>(const One& one, Other& other) {
@@ -41,16 +28,22 @@ void copy_effects(const From& from, To& to) {
   std::apply([&](const auto&... one) { (to_all(one), ...); }, from.members);
 }
 
+/// The same parameters in another Scalar.
+template <class To>
+Parameters<To> parameters_in(const Parameters<double>& from) {
+  Parameters<To> to;
+  to.copy_rules(from);
+  copy_fields(from, to);
+  return to;
+}
+
 /// The same predictor in another Scalar, such as a dual number.
 template <class To, template <class> class... Effects>
 Predictor<To, Effects...> predictor_in(const Predictor<double, Effects...>& from) {
-  Parameters<To> parameters;
-  parameters.copy_rules(from.parameters());
-  copy_fields(from.parameters(), parameters);
   EffectSet<To, Effects...> effects;
   copy_effects(from.effects(), effects);
   using Result = Predictor<To, Effects...>;
-  return Result(parameters, effects, typename Result::AlreadyValid{});
+  return Result(parameters_in<To>(from.parameters()), effects, typename Result::AlreadyValid{});
 }
 
 /// The same state in another Scalar.

@@ -1,64 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
-#include <string>
-#include <string_view>
+#include <tuple>
 
-#include "diabolo/math/scalar.hpp"
+#include "diabolo/math/fields.hpp"
+#include "diabolo/rules.hpp"
 
 namespace diabolo {
-
-/// How the string acts on the diabolo.
-enum class StringLaw {
-  kPullVelocity,  ///< the paper's: put back on the spheroid, a capped part of the correction becomes velocity
-  kInextensible,  ///< a massless string that does not stretch: velocity consistent with the constraint
-};
-/// Where a diabolo outside the spheroid is put back.
-enum class Projection { kRadial, kClosestPoint };
-/// Which direction counts as the spheroid's normal.
-enum class NormalRule { kPublished, kTrue };
-/// When the diabolo leaves the string and comes back to it.
-enum class FlightRule {
-  kPublished,  ///< the authors' program: above the plane of the tips and between them
-  kPaper,      ///< the paper's c_L and c_F on the signed distance
-  kSlack,      ///< ours: as the paper, on the slack of the string, and caught inside the spheroid only
-};
-/// What happens to the pull when the spheroid is thin.
-enum class ThinRule {
-  kPublished,  ///< loses its component along (left - right) x z and keeps its magnitude
-  kPaper,      ///< acts along x cross (left - right) only
-};
-/// How passing string drives the spin.
-enum class SpinRule {
-  kSlip,          ///< in proportion to the slip between string and axle
-  kLengthChange,  ///< the paper's mu times the change of the distance to the right tip
-};
-enum class Integrator { kEuler, kParabolic };
-
-/// Name, unit and range of a numeric parameter.
-struct ParameterInfo {
-  std::string_view name, unit;
-  double minimum, maximum;
-  std::string_view meaning;
-};
-
-/// Throws std::invalid_argument naming the first field of `Fields::for_each` that is out of its range, its
-/// value and the range.
-template <class Scalar, class Fields>
-void validate_fields(const Fields& fields, const std::string& prefix = {}) {
-  Fields::for_each(fields, [&](const ParameterInfo& info, const Scalar& field) {
-    if (all(field >= Scalar(info.minimum)) && all(field <= Scalar(info.maximum))) return;
-    std::ostringstream text;
-    text << prefix << info.name << ": ";
-    if constexpr (std::floating_point<Scalar>) text << field << ' ' << info.unit << "; ";
-    text << "must be within [" << info.minimum << ", " << info.maximum << "] " << info.unit;
-    throw std::invalid_argument(text.str());
-  });
-}
 
 /// Everything that the predictor can be told. Start from a preset, change fields, hand it to a Predictor,
 /// which checks it once.
@@ -69,36 +22,17 @@ struct Parameters {
   Scalar mass = Scalar(0.2845);               ///< of the diabolo [kg]; default: the paper's red one
   Scalar axle_radius = Scalar(0.0065);        ///< r [m]
   Scalar wraps = Scalar(0);  ///< whole turns of the string around the axle beyond the pass under it
-  Scalar spin_coupling = Scalar(0.15);     ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
-  Scalar mu_acceleration = Scalar(154.0);  ///< spin per string length, while the right strand grows [rad/m]
-  Scalar mu_deceleration = Scalar(154.0);  ///< the same, while it shrinks [rad/m]
-  Scalar dissipation_rate = Scalar(0.0);   ///< decay of the velocity while ON_STRING [1/s]
-  Scalar pull_scale = Scalar(0.13);        ///< part of the correction that becomes velocity, before the cap
-  Scalar cap_scale = Scalar(0.13);         ///< part of the spheroid's own motion that caps it
-  Scalar pull_scale_after_cap = Scalar(0.07);  ///< per reference step
-  Scalar loose_distance = Scalar(0.01);        ///< c_L [m]
-  Scalar flying_distance = Scalar(0.05);       ///< c_F [m]
-  Scalar catch_slack = Scalar(0.03);           ///< a catch needs tips no closer than L minus this [m]
-  Scalar catch_distance = Scalar(0.10);        ///< and the diabolo no farther from the line of the tips [m]
-  Scalar thin_slack =
-      Scalar(0.05);  ///< the spheroid is thin when the tips are farther apart than L minus this [m]
-  Scalar reference_step = Scalar(1e-3);  ///< the step that the paper's per-step factors were found at [s]
+  Scalar spin_coupling = Scalar(0.15);    ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
+  Scalar dissipation_rate = Scalar(0.0);  ///< decay of the velocity while ON_STRING [1/s]
+  Scalar loose_distance = Scalar(0.01);   ///< c_L [m]
+  Scalar flying_distance = Scalar(0.05);  ///< c_F [m]
+  Scalar catch_slack = Scalar(0.03);      ///< a catch needs tips no closer than L minus this [m]
+  Scalar catch_distance = Scalar(0.10);   ///< and the diabolo no farther from the line of the tips [m]
   StringLaw string_law = StringLaw::kInextensible;
-  Projection projection = Projection::kClosestPoint;
-  NormalRule normal_rule = NormalRule::kTrue;
-  FlightRule flight_rule = FlightRule::kSlack;
-  ThinRule thin_rule = ThinRule::kPaper;
-  SpinRule spin_rule = SpinRule::kSlip;
-  Integrator integrator = Integrator::kParabolic;
-  /// Apply dissipation, spin coupling and pull as if every step were a reference step (the published rules),
-  /// so that the motion depends on the step. false: the same factors in time constants.
-  bool per_step = false;
-  /// Tips farther apart than the string: let go for that step (published program) instead of holding the
-  /// diabolo.
-  bool release_when_overstretched = false;
   /// Keep position and velocity in the plane through the start position with the normal `plane_normal`.
   bool planar = false;
   Vector3<double> plane_normal = Vector3<double>::UnitX();
+  PullRules<Scalar> pull;  ///< of the paper's string, which alone they concern
 
   /// Inextensible massless string without friction; results converge as the step goes to zero. The default.
   static Parameters consistent() { return {}; }
@@ -109,10 +43,10 @@ struct Parameters {
     p.gravity = Scalar(9.8);
     p.dissipation_rate = Scalar(kPublishedDissipationRate);
     p.string_law = StringLaw::kPullVelocity;
-    p.flight_rule = FlightRule::kPaper;
-    p.spin_rule = SpinRule::kLengthChange;
-    p.integrator = Integrator::kEuler;
-    p.per_step = true;
+    p.pull.flight_rule = FlightRule::kPaper;
+    p.pull.spin_rule = SpinRule::kLengthChange;
+    p.pull.integrator = Integrator::kEuler;
+    p.pull.per_step = true;
     return p;
   }
 
@@ -120,41 +54,60 @@ struct Parameters {
   static Parameters published() {
     Parameters p = paper();
     p.string_length = Scalar(1.46);
-    p.thin_slack = Scalar(0.03);
-    p.projection = Projection::kRadial;
-    p.normal_rule = NormalRule::kPublished;
-    p.flight_rule = FlightRule::kPublished;
-    p.thin_rule = ThinRule::kPublished;
-    p.spin_rule = SpinRule::kSlip;
-    p.integrator = Integrator::kParabolic;
-    p.release_when_overstretched = true;
+    p.pull.thin_slack = Scalar(0.03);
+    p.pull.projection = Projection::kRadial;
+    p.pull.normal_rule = NormalRule::kPublished;
+    p.pull.flight_rule = FlightRule::kPublished;
+    p.pull.thin_rule = ThinRule::kPublished;
+    p.pull.spin_rule = SpinRule::kSlip;
+    p.pull.integrator = Integrator::kParabolic;
+    p.pull.release_when_overstretched = true;
     return p;
+  }
+
+  /// What is not numeric, in the order of rules_of().
+  static constexpr std::array<RuleInfo, 11> kRules{{
+      {"string_law", "how the string acts on the diabolo"},
+      {"projection", "where a diabolo outside the spheroid is put back"},
+      {"normal_rule", "which direction counts as the spheroid's normal"},
+      {"flight_rule", "when the diabolo leaves the string and comes back to it"},
+      {"thin_rule", "what happens to the pull when the spheroid is thin"},
+      {"spin_rule", "how passing string drives the spin"},
+      {"integrator", "of the free motion"},
+      {"per_step",
+       "apply the factors as if every step were a reference step, so that the motion depends on the step"},
+      {"release_when_overstretched",
+       "let go where the tips are farther apart than the string, instead of holding the diabolo"},
+      {"planar", "keep the diabolo in the plane through its start square to plane_normal"},
+      {"plane_normal", "unit vector, shape (3,)"},
+  }};
+
+  /// References to everything that is not numeric.
+  template <class Self>
+  static auto rules_of(Self& self) {
+    auto& pull = self.pull;
+    return std::tie(self.string_law, pull.projection, pull.normal_rule, pull.flight_rule, pull.thin_rule,
+                    pull.spin_rule, pull.integrator, pull.per_step, pull.release_when_overstretched,
+                    self.planar, self.plane_normal);
+  }
+
+  /// Calls `visit(info, field)` for everything that is not numeric: choices, bools, and the plane's normal.
+  template <class Self, class Visitor>
+  static void for_each_rule(Self& self, Visitor&& visit) {
+    std::size_t next = 0;
+    std::apply([&](auto&... rule) { (visit(kRules[next++], rule), ...); }, rules_of(self));
   }
 
   /// Takes over everything that is not numeric.
   template <class Other>
   void copy_rules(const Parameters<Other>& other) {
-    string_law = other.string_law;
-    projection = other.projection;
-    normal_rule = other.normal_rule;
-    flight_rule = other.flight_rule;
-    thin_rule = other.thin_rule;
-    spin_rule = other.spin_rule;
-    integrator = other.integrator;
-    per_step = other.per_step;
-    release_when_overstretched = other.release_when_overstretched;
-    planar = other.planar;
-    plane_normal = other.plane_normal;
+    rules_of(*this) = Parameters<Other>::rules_of(other);
   }
 
   /// Whether everything that is not numeric agrees.
   template <class Other>
   bool same_rules(const Parameters<Other>& other) const {
-    return string_law == other.string_law && projection == other.projection &&
-           normal_rule == other.normal_rule && flight_rule == other.flight_rule &&
-           thin_rule == other.thin_rule && spin_rule == other.spin_rule && integrator == other.integrator &&
-           per_step == other.per_step && release_when_overstretched == other.release_when_overstretched &&
-           planar == other.planar && plane_normal == other.plane_normal;
+    return rules_of(*this) == Parameters<Other>::rules_of(other);
   }
 
   /// Calls `visit(info, field)` for every numeric field.
@@ -171,19 +124,19 @@ struct Parameters {
     visit(Info{"spin_coupling", "1/s", 0.0, 1e3, "rate at which slip on the axle is worn off"},
           self.spin_coupling);
     visit(Info{"mu_acceleration", "rad/m", 0.0, 1e4, "paper: spin per growth of the right strand"},
-          self.mu_acceleration);
+          self.pull.mu_acceleration);
     visit(Info{"mu_deceleration", "rad/m", 0.0, 1e4, "paper: spin per shrinking of the right strand"},
-          self.mu_deceleration);
+          self.pull.mu_deceleration);
     visit(Info{"dissipation_rate", "1/s", 0.0, 1e3, "decay of the velocity while on the string"},
           self.dissipation_rate);
     visit(Info{"pull_scale", "1", 0.0, 1.0,
                "paper: part of the correction that becomes velocity, before the cap"},
-          self.pull_scale);
+          self.pull.pull_scale);
     visit(Info{"cap_scale", "1", 0.0, 1.0, "paper: part of the spheroid's motion that caps the pull"},
-          self.cap_scale);
+          self.pull.cap_scale);
     visit(Info{"pull_scale_after_cap", "1", 0.0, 1.0,
                "paper: damping of the pull after the cap, per reference step"},
-          self.pull_scale_after_cap);
+          self.pull.pull_scale_after_cap);
     visit(Info{"loose_distance", "m", 0.0, 1.0, "paper's c_L"}, self.loose_distance);
     visit(Info{"flying_distance", "m", 0.0, 1.0, "paper's c_F"}, self.flying_distance);
     visit(
@@ -194,15 +147,15 @@ struct Parameters {
         self.catch_distance);
     visit(Info{"thin_slack", "m", 0.0, 20.0,
                "the spheroid is thin when the tips are farther apart than L minus this"},
-          self.thin_slack);
+          self.pull.thin_slack);
     visit(Info{"reference_step", "s", 1e-6, 0.1, "step that the per-step factors are stated for"},
-          self.reference_step);
+          self.pull.reference_step);
   }
 
   /// Throws std::invalid_argument naming the first field that is out of its range, its value and the range.
   void validate() const {
     validate_fields<Scalar>(*this);
-    if (!all(spin_coupling * reference_step <= Scalar(1)))
+    if (!all(spin_coupling * pull.reference_step <= Scalar(1)))
       throw std::invalid_argument("spin_coupling: times reference_step must not exceed 1");
     if (planar && !(std::abs(plane_normal.norm() - 1.0) < 1e-9))
       throw std::invalid_argument("plane_normal: must be a unit vector");

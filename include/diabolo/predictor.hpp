@@ -83,17 +83,7 @@ class Predictor {
     if (plane_.active || !all(is(state.string_state, StringState::kOnString))) return false;
     const PlaneProjector<Scalar> no_plane;
     const Vector3<Scalar> outer = effects_.acceleration(state, begin, dt, parameters_);
-    const StringStep<Scalar> step{state.position,
-                                  state.velocity,
-                                  outer,
-                                  begin,
-                                  end,
-                                  dt,
-                                  string.length,
-                                  state.string_acceleration,
-                                  string.compliance,
-                                  string.damping_time,
-                                  no_plane};
+    const StringStep<Scalar> step = step_on(string, state, state.velocity, outer, begin, end, dt, no_plane);
     if (any(step.overstretched())) return false;
     StringStepResult<Scalar> result;
     if (!(elastic(string) ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
@@ -109,17 +99,7 @@ class Predictor {
     StepStatus<Scalar> status;
     const Vector3<Scalar> velocity = plane_(state.velocity);
     const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, dt, parameters_));
-    const StringStep<Scalar> step{state.position,
-                                  velocity,
-                                  outer,
-                                  begin,
-                                  end,
-                                  dt,
-                                  string.length,
-                                  state.string_acceleration,
-                                  string.compliance,
-                                  string.damping_time,
-                                  plane_};
+    const StringStep<Scalar> step = step_on(string, state, velocity, outer, begin, end, dt, plane_);
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
     const StringStepResult<Scalar> result =
         any(flying) ? advance_in_flight<kMayStretch>(state, step, parameters_, status.caught)
@@ -172,19 +152,9 @@ class Predictor {
                        was_flying = is(state.string_state, StringState::kFlying);
     const Vector3<Scalar> velocity = plane_(state.velocity);
     const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, dt, parameters_));
-    const StringStep<Scalar> step{state.position,
-                                  velocity,
-                                  outer,
-                                  begin,
-                                  end,
-                                  dt,
-                                  string.length,
-                                  state.string_acceleration,
-                                  string.compliance,
-                                  string.damping_time,
-                                  plane_};
+    const StringStep<Scalar> step = step_on(string, state, velocity, outer, begin, end, dt, plane_);
     const StringStepResult<Scalar> result = advance_by_pull(state.string_state, step, parameters_);
-    const Mask<Scalar> passes = parameters_.spin_rule == SpinRule::kLengthChange
+    const Mask<Scalar> passes = parameters_.pull.spin_rule == SpinRule::kLengthChange
                                     ? is(state.string_state, StringState::kOnString)
                                     : result.taut;
     const Scalar change =
@@ -204,9 +174,27 @@ class Predictor {
     status.overstretched = norm<Scalar>(end.left - end.right) >= string.length;
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     status.caught = was_flying && captured;
-    if (!parameters_.release_when_overstretched && any(status.overstretched))
+    if (!parameters_.pull.release_when_overstretched && any(status.overstretched))
       hold(state, end, dt, captured && status.overstretched, string);
     return status;
+  }
+
+  /// A step of the given string; refers to all vectors and the plane.
+  [[gnu::always_inline]] static inline StringStep<Scalar> step_on(
+      const StringNow<Scalar>& string, const State<Scalar>& state, const Vector3<Scalar>& velocity,
+      const Vector3<Scalar>& acceleration, const Tips<Scalar>& begin, const Tips<Scalar>& end,
+      const Scalar& dt, const PlaneProjector<Scalar>& plane) {
+    return {.position = state.position,
+            .velocity = velocity,
+            .acceleration = acceleration,
+            .begin = begin,
+            .end = end,
+            .dt = dt,
+            .string_length = string.length,
+            .string_acceleration = state.string_acceleration,
+            .compliance = string.compliance,
+            .damping_time = string.damping_time,
+            .plane = plane};
   }
 
   static bool elastic(const StringNow<Scalar>& string) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +41,11 @@ enum class Interpolation {
   kLinear,  ///< straight lines
   kSpline,  ///< natural cubic spline: continuous velocity and acceleration
 };
+
+/// Their names, in the order of their numbers from 0.
+inline constexpr std::array<std::string_view, 3> names_of(Interpolation) {
+  return {"held", "linear", "spline"};
+}
 
 /// Tip motion given at any increasing instants; before the first and after the last one the tips rest.
 template <class Scalar>

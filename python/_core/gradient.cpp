@@ -29,14 +29,6 @@ using namespace py::literals;
 constexpr int kChunk = 8;  // derivatives carried along at once
 using D = Dual<double, kChunk>;
 
-template <class From, class To>
-void copy_numbers(const From& from, To& to) {
-  std::vector<double> values;
-  From::for_each(from, [&](const ParameterInfo&, double value) { values.push_back(value); });
-  auto value = values.begin();
-  To::for_each(to, [&](const ParameterInfo&, D& field) { field = *value++; });
-}
-
 /// Everything that a rollout depends on, in numbers that carry derivatives.
 struct Inputs {
   Parameters<D> parameters;
@@ -52,17 +44,9 @@ struct Inputs {
       left_directions.push_back(pose.left_direction.cast<D>());
       right_directions.push_back(pose.right_direction.cast<D>());
     }
-    parameters.copy_rules(model.parameters);
-    copy_numbers(model.parameters, parameters);
-    const auto copy_effects = [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (copy_numbers(std::get<I>(model.effects.members), std::get<I>(effects.members)), ...);
-    };
-    copy_effects(std::make_index_sequence<std::tuple_size_v<decltype(effects.members)>>{});
-    state.position = initial.position.cast<D>();
-    state.velocity = initial.velocity.cast<D>();
-    state.axis = initial.axis.cast<D>();
-    state.spin = initial.spin;
-    state.string_state = initial.string_state;
+    parameters = parameters_in<D>(model.parameters);
+    copy_effects(model.effects, effects);
+    state = state_in<D>(initial);
   }
 
   /// Shape of the named input, () for a number. Throws std::invalid_argument where there is none.

@@ -36,12 +36,12 @@ void from_python(py::handle value, const std::string& name, Enum& field) {
 py::dict to_dict(const P& parameters) {
   py::dict fields;
   add_numbers(parameters, fields);
-  for_each_rule_member([&](const char* name, auto member, const char*) {
-    const py::object value = to_python(parameters.*member);
-    if constexpr (std::is_same_v<decltype(member), Vector3<double> P::*>)
-      fields[name] = value.attr("tolist")();
+  P::for_each_rule(parameters, [&]<class Rule>(const RuleInfo& info, const Rule& rule) {
+    const py::object value = to_python(rule);
+    if constexpr (std::is_same_v<Rule, Vector3<double>>)
+      fields[info.name] = value.attr("tolist")();
     else
-      fields[name] = py::isinstance<py::str>(value) ? value.attr("value") : value;
+      fields[info.name] = py::isinstance<py::str>(value) ? value.attr("value") : value;
   });
   return fields;
 }
@@ -51,31 +51,36 @@ P with_fields(P parameters, const py::kwargs& fields) {
   return parameters;
 }
 
+template <std::size_t I>
+void bind_rule(py::class_<P>& cls) {
+  using Rule = std::remove_reference_t<std::tuple_element_t<I, decltype(P::rules_of(std::declval<P&>()))>>;
+  static constexpr RuleInfo kInfo = P::kRules[I];
+  const auto set = [](P& p, const py::object& value) {
+    P changed = p;
+    from_python(value, kInfo.name, std::get<I>(P::rules_of(changed)));
+    changed.validate();
+    p = changed;
+  };
+  if constexpr (std::is_enum_v<Rule>) {
+    std::string doc = std::string(kInfo.meaning) + ", as in diabolo." + enum_class(Rule{}) + ":";
+    for (const std::string_view choice : names_of(Rule{})) doc += " '" + std::string(choice) + "'";
+    cls.def_property(
+        kInfo.name, [](const P& p) { return choice_to_python(std::get<I>(P::rules_of(p))); },
+        [set](P& p, const py::str& value) { set(p, value); }, doc.c_str());
+  } else if constexpr (std::is_same_v<Rule, bool>) {
+    cls.def_property(
+        kInfo.name, [](const P& p) -> bool { return std::get<I>(P::rules_of(p)); },
+        [set](P& p, const py::bool_& value) { set(p, value); }, kInfo.meaning);
+  } else {
+    cls.def_property(
+        kInfo.name, [](const P& p) { return from_vector3(std::get<I>(P::rules_of(p))); },
+        [set](P& p, const Array& value) { set(p, value); }, kInfo.meaning);
+  }
+}
+
 void bind_rules(py::class_<P>& cls) {
-  for_each_rule_member([&](const char* name, auto member, const char* meaning) {
-    using Field = std::remove_reference_t<decltype(std::declval<P&>().*member)>;
-    const auto set = [name = std::string(name), member](P& p, const py::object& value) {
-      P changed = p;
-      from_python(value, name, changed.*member);
-      changed.validate();
-      p = changed;
-    };
-    if constexpr (std::is_enum_v<Field>) {
-      std::string doc = std::string(meaning) + ", as in diabolo." + enum_class(Field{}) + ":";
-      for (const std::string_view choice : names_of(Field{})) doc += " '" + std::string(choice) + "'";
-      cls.def_property(
-          name, [member](const P& p) { return choice_to_python(p.*member); },
-          [set](P& p, const py::str& value) { set(p, value); }, doc.c_str());
-    } else if constexpr (std::is_same_v<Field, bool>) {
-      cls.def_property(
-          name, [member](const P& p) { return p.*member; },
-          [set](P& p, const py::bool_& value) { set(p, value); }, meaning);
-    } else {
-      cls.def_property(
-          name, [member](const P& p) { return from_vector3(p.*member); },
-          [set](P& p, const Array& value) { set(p, value); }, meaning);
-    }
-  });
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (bind_rule<I>(cls), ...); }
+  (std::make_index_sequence<P::kRules.size()>{});
 }
 
 }  // namespace
@@ -86,9 +91,9 @@ void assign_fields(Parameters<double>& parameters, const py::kwargs& fields) {
     double* const number = find_number(parameters, name);
     if (number) *number = cast_to<double>(value, name, "a number");
     bool found = number != nullptr;
-    for_each_rule_member([&](const char* rule, auto member, const char*) {
-      if (name != rule) return;
-      from_python(value, name, parameters.*member);
+    P::for_each_rule(parameters, [&](const RuleInfo& info, auto& rule) {
+      if (name != info.name) return;
+      from_python(value, name, rule);
       found = true;
     });
     if (!found) throw py::type_error("Parameters has no field '" + name + "'");

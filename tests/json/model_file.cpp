@@ -36,9 +36,9 @@ Model random_model(Random& random) {
   Parameters<double>::for_each(model.parameters, [&](const ParameterInfo& info, double& field) {
     if (random.chance(0.3)) field = random.uniform(info.minimum, info.maximum);
   });
-  model.parameters.spin_coupling = random.uniform(0.0, 1.0) / model.parameters.reference_step;
+  model.parameters.spin_coupling = random.uniform(0.0, 1.0) / model.parameters.pull.reference_step;
   model.parameters.spin_coupling = std::min(model.parameters.spin_coupling, 1000.0);
-  for_each_rule(model.parameters, [&]<class Rule>(const char*, Rule& rule) {
+  Parameters<double>::for_each_rule(model.parameters, [&]<class Rule>(const RuleInfo&, Rule& rule) {
     if (random.chance(0.6)) return;
     if constexpr (std::is_enum_v<Rule>)
       rule = static_cast<Rule>(random.index(static_cast<int>(names_of(Rule{}).size())));
@@ -97,7 +97,7 @@ TEST_CASE("A file changes what it names") {
   CHECK(model.own_string_length);
   CHECK(!model.own_mass);
   CHECK(model.parameters.gravity == 9.8);
-  CHECK(model.parameters.spin_rule == SpinRule::kLengthChange);
+  CHECK(model.parameters.pull.spin_rule == SpinRule::kLengthChange);
   CHECK(model.parameters.planar);
   CHECK(model.parameters.plane_normal == Vector3<double>(0.0, 0.6, 0.8));
   CHECK(model.effects.get<StringElasticity>().compliance_per_newton == 1.0 / 600.0);

@@ -43,7 +43,7 @@ TEST_CASE("dissipation as a rate takes the same from every step's motion") {
 TEST_CASE("dissipation per step takes exactly the published factor in each step") {
   Numbers parameters = weightless(Numbers::consistent());
   parameters.dissipation_rate = Numbers::published().dissipation_rate;
-  parameters.per_step = true;
+  parameters.pull.per_step = true;
   for (const int steps : {300, 1500, 6000}) {
     const double speed = Vector(0.0, 1.0, 0.5).norm() * std::pow(0.9999, steps);
     CHECK(circle(parameters, 1.5, steps).velocity.norm() == Approx(speed).epsilon(1e-6));
@@ -63,7 +63,7 @@ TEST_CASE("the slip of the axle wears off at its rate, whatever the step") {
 TEST_CASE("the slip of the axle per step is that of a reference step") {
   Numbers parameters = weightless(Numbers::consistent());
   parameters.spin_coupling = 20.0;
-  parameters.per_step = true;
+  parameters.pull.per_step = true;
   const double first = circle(parameters, 1.5, 300).spin;
   CHECK(first == Approx(100.0 * std::exp(-20.0 * 1e-3 * 300)).epsilon(1e-3));
   CHECK(circle(parameters, 0.5, 300).spin == Approx(first).epsilon(1e-12));
@@ -111,7 +111,7 @@ TEST_CASE("a pull in time constants is the same for every step, per step it is n
   // steps.
   const auto speed_after = [](bool per_step, int steps) {
     Numbers parameters = Numbers::published();
-    parameters.per_step = per_step;
+    parameters.pull.per_step = per_step;
     parameters.dissipation_rate = 0.0;
     const Predictor<double> predictor(parameters);
     const auto tips_at = [](double t) {

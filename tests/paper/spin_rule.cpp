@@ -17,8 +17,8 @@ Parameters<double> with_coupling(double rate) {
 
 TEST_CASE("the paper's spin grows by mu per metre, whatever the spin") {
   Parameters<double> parameters;
-  parameters.mu_acceleration = 100.0;
-  parameters.mu_deceleration = 30.0;
+  parameters.pull.mu_acceleration = 100.0;
+  parameters.pull.mu_deceleration = 30.0;
   for (const double spin : {-200.0, 0.0, 200.0, 1e4}) {
     CHECK(spin_after_length_change(spin, 0.01, parameters) == Approx(spin + 1.0));
     CHECK(spin_after_length_change(spin, -0.01, parameters) == Approx(spin - 0.3));
@@ -72,6 +72,6 @@ TEST_CASE("the published rule in the published numbers: 0.00015 / r of the slip 
   Parameters<double> parameters = Parameters<double>::published();
   const double spin = 80.0, speed = 1.7, r = parameters.axle_radius;
   const double expected = spin + (speed - spin * r) * 0.00015 / r;
-  CHECK(spin_after_slip_explicit(spin, speed, parameters.reference_step, parameters) ==
+  CHECK(spin_after_slip_explicit(spin, speed, parameters.pull.reference_step, parameters) ==
         Approx(expected).epsilon(1e-14));
 }

@@ -149,9 +149,9 @@ Parameters<Scalar> random_parameters(Random& random, int preset) {
     }
   });
   // Their product must not exceed 1.
-  parameters.reference_step =
-      minimum(parameters.reference_step, Scalar(Scalar(0.9) / (parameters.spin_coupling + Scalar(1e-3))));
-  parameters.per_step = random.chance(0.5);
+  parameters.pull.reference_step = minimum(parameters.pull.reference_step,
+                                           Scalar(Scalar(0.9) / (parameters.spin_coupling + Scalar(1e-3))));
+  parameters.pull.per_step = random.chance(0.5);
   parameters.planar = random.chance(0.2);
   parameters.plane_normal = random.direction();
   return parameters;

@@ -56,11 +56,7 @@ Vector3<Pack> gather3(Get&& get) {
 /// Copies the numeric fields of a struct of doubles into one lane of a struct of packs.
 template <class From, class To>
 void gather_fields(const From& from, To& to, int lane) {
-  std::array<double, sizeof(From) / sizeof(double)> values{};  // room for all, whatever their number
-  std::size_t i = 0;
-  From::for_each(from, [&](const ParameterInfo&, const double& field) { values[i++] = field; });
-  i = 0;
-  To::for_each(to, [&](const ParameterInfo&, auto& field) { field.set(lane, values[i++]); });
+  copy_fields(from, to, [lane](auto& field, double value) { field.set(lane, value); });
 }
 
 template <class Pack>

@@ -93,19 +93,23 @@ struct NeutralEffect {
   }
 };
 
+/// Whether an effect hides a hook of NeutralEffect: `hides(&Effect::contact,
+/// &NeutralEffect<Scalar>::contact)`.
+template <class Own, class Neutral>
+constexpr bool hides(Own, Neutral) {
+  return !std::is_same_v<Own, Neutral>;
+}
+
 /// Any number of effects at once; the predictor asks the set, the set asks those effects that have the hook,
 /// so that a hook that nobody uses costs nothing.
 template <class Scalar, template <class> class... Effects>
 struct EffectSet {
   using Neutral = NeutralEffect<Scalar>;
-  static constexpr bool kChangesTips =
-      (!std::is_same_v<decltype(&Effects<Scalar>::tip_shift), decltype(&Neutral::tip_shift)> || ...);
+  static constexpr bool kChangesTips = (hides(&Effects<Scalar>::tip_shift, &Neutral::tip_shift) || ...);
 
-  static constexpr bool kTouches =
-      (!std::is_same_v<decltype(&Effects<Scalar>::contact), decltype(&Neutral::contact)> || ...);
+  static constexpr bool kTouches = (hides(&Effects<Scalar>::contact, &Neutral::contact) || ...);
 
-  static constexpr bool kTurnsAxle =
-      (!std::is_same_v<decltype(&Effects<Scalar>::axis_rate), decltype(&Neutral::axis_rate)> || ...);
+  static constexpr bool kTurnsAxle = (hides(&Effects<Scalar>::axis_rate, &Neutral::axis_rate) || ...);
 
   std::tuple<Effects<Scalar>...> members;
 
@@ -123,7 +127,7 @@ struct EffectSet {
                                const Parameters<Scalar>& parameters) const {
     Vector3<Scalar> sum(Scalar(0), Scalar(0), Scalar(-parameters.gravity));
     each([&]<class Effect>(const Effect& effect) {
-      if constexpr (!std::is_same_v<decltype(&Effect::acceleration), decltype(&Neutral::acceleration)>)
+      if constexpr (hides(&Effect::acceleration, &Neutral::acceleration))
         sum = sum + effect.acceleration(state, given, dt, parameters);
     });
     return sum;
@@ -153,17 +157,13 @@ struct EffectSet {
   /// Whether any effect moves the tips.
   bool moves_tips() const {
     bool moves = false;
-    each([&]<class Effect>(const Effect&) {
-      moves = moves || !std::is_same_v<decltype(&Effect::tip_shift), decltype(&Neutral::tip_shift)>;
-    });
+    each([&]<class Effect>(const Effect&) { moves |= hides(&Effect::tip_shift, &Neutral::tip_shift); });
     return moves;
   }
   /// Whether any effect has a contact impulse.
   bool touches() const {
     bool touches = false;
-    each([&]<class Effect>(const Effect&) {
-      touches = touches || !std::is_same_v<decltype(&Effect::contact), decltype(&Neutral::contact)>;
-    });
+    each([&]<class Effect>(const Effect&) { touches |= hides(&Effect::contact, &Neutral::contact); });
     return touches;
   }
   /// The string with what makes it softer wherever the diabolo is.
@@ -186,7 +186,7 @@ struct EffectSet {
                const Parameters<Scalar>& parameters) const {
     Scalar pull_difference{0};
     each([&]<class Effect>(const Effect& effect) {
-      if constexpr (!std::is_same_v<decltype(&Effect::contact), decltype(&Neutral::contact)>) {
+      if constexpr (hides(&Effect::contact, &Neutral::contact)) {
         const Contact<Scalar> own = effect.contact(state, given, result, dt, parameters);
         velocity = velocity + own.impulse;
         spin += own.spin;
@@ -200,7 +200,7 @@ struct EffectSet {
                  const StringStepResult<Scalar>& result, const Scalar& pull_difference,
                  const Scalar& dt) const {
     each([&]<class Effect>(const Effect& effect) {
-      if constexpr (!std::is_same_v<decltype(&Effect::axis_rate), decltype(&Neutral::axis_rate)>) {
+      if constexpr (hides(&Effect::axis_rate, &Neutral::axis_rate)) {
         const Vector3<Scalar> turned = axis + effect.axis_rate(state, given, result, pull_difference) * dt;
         axis = turned * Scalar(norm(axis) / norm(turned));
       }
@@ -210,8 +210,7 @@ struct EffectSet {
   Scalar after_torques(Scalar spin, const State<Scalar>& state, const Scalar& dt,
                        const Parameters<Scalar>& parameters) const {
     each([&]<class Effect>(const Effect& effect) {
-      if constexpr (!std::is_same_v<decltype(&Effect::spin_acceleration),
-                                    decltype(&Neutral::spin_acceleration)>)
+      if constexpr (hides(&Effect::spin_acceleration, &Neutral::spin_acceleration))
         spin += effect.spin_acceleration(spin, state, dt, parameters) * dt;
     });
     return spin;

@@ -63,8 +63,9 @@ inline Model read_model(std::string_view text, const std::string& file_name) {
   if (file.has("rules")) {
     const JsonFields rules = file.object("rules");
     std::vector<std::string> names;
-    for_each_rule(model.parameters, [&]<class Rule>(const char* name, Rule& rule) {
-      names.emplace_back(name);
+    Parameters<double>::for_each_rule(model.parameters, [&]<class Rule>(const RuleInfo& info, Rule& rule) {
+      const std::string name = info.name;
+      names.push_back(name);
       if (rules.has(name)) rule = rule_from_json<Rule>(json.at("rules"), rules, name);
     });
     expect_only(json.at("rules"), names, file_name, "rules.");
@@ -114,10 +115,11 @@ inline nlohmann::ordered_json changes_from_base(const Model& model, const std::s
     if (!(model.*own)) from_recording.push_back(name);
   }
   nlohmann::ordered_json rules = nlohmann::ordered_json::object(), base_rules = rules;
-  for_each_rule(model.parameters,
-                [&](const char* name, const auto& rule) { rules[name] = rule_to_json(rule); });
-  for_each_rule(base.parameters, [&](const char* name, const auto& rule) {
-    if (rules[name] == rule_to_json(rule)) rules.erase(name);
+  Parameters<double>::for_each_rule(model.parameters, [&](const RuleInfo& info, const auto& rule) {
+    rules[info.name] = rule_to_json(rule);
+  });
+  Parameters<double>::for_each_rule(base.parameters, [&](const RuleInfo& info, const auto& rule) {
+    if (rules[info.name] == rule_to_json(rule)) rules.erase(info.name);
   });
   if (!numbers.empty()) json["parameters"] = numbers;
   if (!rules.empty()) json["rules"] = rules;

@@ -1,52 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <type_traits>
 
 #include "diabolo/json/fields.hpp"
 #include "diabolo/parameters.hpp"
-#include "diabolo/sticks.hpp"
 
 namespace diabolo {
-
-// Names of the values of each choice, in the order of their numbers from 0.
-inline constexpr std::array<std::string_view, 2> names_of(StringLaw) {
-  return {"pull_velocity", "inextensible"};
-}
-inline constexpr std::array<std::string_view, 2> names_of(Projection) { return {"radial", "closest_point"}; }
-inline constexpr std::array<std::string_view, 2> names_of(NormalRule) { return {"published", "true"}; }
-inline constexpr std::array<std::string_view, 3> names_of(FlightRule) {
-  return {"published", "paper", "slack"};
-}
-inline constexpr std::array<std::string_view, 2> names_of(ThinRule) { return {"published", "paper"}; }
-inline constexpr std::array<std::string_view, 2> names_of(SpinRule) { return {"slip", "length_change"}; }
-inline constexpr std::array<std::string_view, 2> names_of(Integrator) { return {"euler", "parabolic"}; }
-inline constexpr std::array<std::string_view, 3> names_of(Interpolation) {
-  return {"held", "linear", "spline"};
-}
-
-/// Calls `visit(name, field)` for every field of Parameters that is not numeric: choices, bools, and the
-/// plane's normal.
-template <class Self, class Visitor>
-void for_each_rule(Self& parameters, Visitor&& visit) {
-  visit("string_law", parameters.string_law);
-  visit("projection", parameters.projection);
-  visit("normal_rule", parameters.normal_rule);
-  visit("flight_rule", parameters.flight_rule);
-  visit("thin_rule", parameters.thin_rule);
-  visit("spin_rule", parameters.spin_rule);
-  visit("integrator", parameters.integrator);
-  visit("per_step", parameters.per_step);
-  visit("release_when_overstretched", parameters.release_when_overstretched);
-  visit("planar", parameters.planar);
-  visit("plane_normal", parameters.plane_normal);
-}
 
 /// A choice by name, a bool, or a direction [x, y, z] of norm 1.
 template <class Rule>

@@ -13,17 +13,17 @@ namespace detail {
 template <class Scalar>
 Vector3<Scalar> normal_at(const Spheroid<Scalar>& spheroid, const Vector3<Scalar>& point,
                           const Parameters<Scalar>& parameters) {
-  return parameters.normal_rule == NormalRule::kPublished ? spheroid.published_normal(point)
-                                                          : spheroid.normal(point);
+  return parameters.pull.normal_rule == NormalRule::kPublished ? spheroid.published_normal(point)
+                                                               : spheroid.normal(point);
 }
 
 /// Where a diabolo outside the spheroid is put: onto it, less what an elastic string gives.
 template <class Scalar>
 Vector3<Scalar> put_on_spheroid(const StringStep<Scalar>& step, const Spheroid<Scalar>& spheroid,
                                 const Vector3<Scalar>& position, const Parameters<Scalar>& parameters) {
-  const Vector3<Scalar> target = step.plane.on(step.position, parameters.projection == Projection::kRadial
-                                                                  ? spheroid.radial_point(position)
-                                                                  : spheroid.closest_point(position));
+  const Vector3<Scalar> target = step.plane.on(
+      step.position, parameters.pull.projection == Projection::kRadial ? spheroid.radial_point(position)
+                                                                       : spheroid.closest_point(position));
   const Vector3<Scalar> gradient = spheroid.path_gradient(target);
   const Scalar give =
       step.compliance /
@@ -39,15 +39,16 @@ Vector3<Scalar> pull_velocity(const StringStep<Scalar>& step, const Spheroid<Sca
   const Tips<Scalar>& tips = step.end;
   const Spheroid<Scalar> before(step.begin.left, step.begin.right, step.string_length);
   const Vector3<Scalar> facing = normal_at(spheroid, position, p);
-  const Vector3<Scalar> cap = facing * Scalar(-p.cap_scale * pull_cap(before, spheroid, facing, step.dt));
-  const Vector3<Scalar> pull = capped_pull<Scalar>(put - position, normal, cap, step.dt, p.pull_scale);
-  const Mask<Scalar> thin = spheroid.tip_distance() >= step.string_length - p.thin_slack;
+  const Vector3<Scalar> cap =
+      facing * Scalar(-p.pull.cap_scale * pull_cap(before, spheroid, facing, step.dt));
+  const Vector3<Scalar> pull = capped_pull<Scalar>(put - position, normal, cap, step.dt, p.pull.pull_scale);
+  const Mask<Scalar> thin = spheroid.tip_distance() >= step.string_length - p.pull.thin_slack;
   const Vector3<Scalar> bounded = select<Scalar>(
       thin,
-      p.thin_rule == ThinRule::kPublished ? pull_in_vertical_plane<Scalar>(pull, tips.left, tips.right)
-                                          : pull_across_plane<Scalar>(pull, tips.left, tips.right),
+      p.pull.thin_rule == ThinRule::kPublished ? pull_in_vertical_plane<Scalar>(pull, tips.left, tips.right)
+                                               : pull_across_plane<Scalar>(pull, tips.left, tips.right),
       pull);
-  const Scalar share = p.pull_scale_after_cap * factor_time(p, step.dt) / p.reference_step;
+  const Scalar share = p.pull.pull_scale_after_cap * factor_time(p, step.dt) / p.pull.reference_step;
   return step.plane(bounded) * share;
 }
 
@@ -60,10 +61,10 @@ StringStepResult<Scalar> advance_by_pull(StringStateOf<Scalar>& string_state, co
                                          const Parameters<Scalar>& parameters) {
   const Scalar& dt = step.dt;
   Vector3<Scalar> position = step.position + step.velocity * dt;
-  if (parameters.integrator == Integrator::kParabolic)
+  if (parameters.pull.integrator == Integrator::kParabolic)
     position += step.acceleration * (Scalar(0.5) * dt * dt);
   const Spheroid<Scalar> spheroid(step.end.left, step.end.right, step.string_length);
-  string_state = parameters.flight_rule == FlightRule::kPublished
+  string_state = parameters.pull.flight_rule == FlightRule::kPublished
                      ? published_string_state(string_state, position, spheroid, parameters)
                      : paper_string_state(string_state, position, spheroid, parameters);
   const Mask<Scalar> on_string = is(string_state, StringState::kOnString);

@@ -12,8 +12,8 @@ namespace diabolo {
 template <class Scalar>
 Scalar spin_after_length_change(const Scalar& spin, const Scalar& length_change,
                                 const Parameters<Scalar>& parameters) {
-  return spin + length_change *
-                    select(length_change > Scalar(0), parameters.mu_acceleration, parameters.mu_deceleration);
+  return spin + length_change * select(length_change > Scalar(0), parameters.pull.mu_acceleration,
+                                       parameters.pull.mu_deceleration);
 }
 
 /// The published program's axle slip, stated as a rate: r dw/dt = k (u - r w) with u the speed of the string
@@ -31,11 +31,11 @@ Scalar spin_after_slip_explicit(const Scalar& spin, const Scalar& string_speed, 
 template <class Scalar>
 Scalar spin_after_passing(const Scalar& spin, const Scalar& length_change, const Scalar& dt,
                           const Parameters<Scalar>& parameters) {
-  if (parameters.spin_rule == SpinRule::kLengthChange)
+  if (parameters.pull.spin_rule == SpinRule::kLengthChange)
     return spin_after_length_change(spin, length_change, parameters);
   const Scalar speed = length_change / dt, duration = factor_time(parameters, dt);
-  return parameters.per_step ? spin_after_slip_explicit(spin, speed, duration, parameters)
-                             : spin_after_slip(spin, speed, duration, parameters);
+  return parameters.pull.per_step ? spin_after_slip_explicit(spin, speed, duration, parameters)
+                                  : spin_after_slip(spin, speed, duration, parameters);
 }
 
 }  // namespace diabolo

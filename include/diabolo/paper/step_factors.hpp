@@ -8,7 +8,7 @@ namespace diabolo {
 /// Time that the factors of a step stand for [s]: the step, or the reference step of the published rules.
 template <class Scalar>
 Scalar factor_time(const Parameters<Scalar>& parameters, const Scalar& dt) {
-  return parameters.per_step ? parameters.reference_step : dt;
+  return parameters.pull.per_step ? parameters.pull.reference_step : dt;
 }
 
 /// The share of the velocity that dissipation leaves over a step, in the lanes `where`.

@@ -50,10 +50,7 @@ template <bool kMayStretch, class Scalar>
   const Scalar t = fraction * step.dt;
   const Tips<Scalar> tips = step.tips_at(fraction);
   const Vector3<Scalar> position = step.free_position(t), velocity = step.free_velocity(t);
-  const StringStep<Scalar> rest{
-      position,        velocity,          step.acceleration,  tips,
-      step.end,        step.dt - t,       step.string_length, step.string_acceleration,
-      step.compliance, step.damping_time, step.plane};
+  const StringStep<Scalar> rest = step.rest(position, velocity, tips, step.dt - t);
   assign_where(caught, state.string_state, StringState::kLoose);
   StringStepResult<Scalar> result =
       advance_captured<kMayStretch>(rest, !is(state.string_state, StringState::kFlying));

@@ -43,6 +43,14 @@ struct StringStep {
     return velocity + acceleration * t;
   }
 
+  /// What is left of the step from another state and tips on, `left` [s] before its end. Refers to them too.
+  [[gnu::always_inline]] inline StringStep rest(const Vector3<Scalar>& position_there,
+                                                const Vector3<Scalar>& velocity_there,
+                                                const Tips<Scalar>& tips_there, const Scalar& left) const {
+    return {position_there, velocity_there,      acceleration, tips_there,   end,  left,
+            string_length,  string_acceleration, compliance,   damping_time, plane};
+  }
+
   /// Whether the string is straight from tip to tip at the end, or shorter than their distance.
   [[gnu::always_inline]] inline Mask<Scalar> overstretched() const {
     return squared_norm<Scalar>(end.left - end.right) >= string_length * string_length;

@@ -146,13 +146,8 @@ template <bool kElastic, class Scalar>
   const Vector3<Scalar> position = step.free_position(t), arriving = step.free_velocity(t);
   const Vector3<Scalar> leaving = velocity_after_catch(step, position, arriving, tips);
   const Vector3<Scalar> velocity = select<Scalar>(where, leaving, arriving);
-  const StringStep<Scalar> rest{
-      position,           velocity,
-      step.acceleration,  tips,
-      step.end,           maximum(Scalar(step.dt - t), Scalar(Scalar(1e-6) * step.dt)),
-      step.string_length, step.string_acceleration,
-      step.compliance,    step.damping_time,
-      step.plane};
+  const StringStep<Scalar> rest =
+      step.rest(position, velocity, tips, maximum(Scalar(step.dt - t), Scalar(Scalar(1e-6) * step.dt)));
   const Scalar passed_before = StringPath<Scalar>(position, tips).imbalance() -
                                StringPath<Scalar>(step.position, step.begin).imbalance();
   StringStepResult<Scalar> result = advance_on_string<kElastic>(rest, captured);

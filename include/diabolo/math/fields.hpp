@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "diabolo/math/scalar.hpp"
+
+namespace diabolo {
+
+/// Name, unit and range of a numeric parameter.
+struct ParameterInfo {
+  std::string_view name, unit;
+  double minimum, maximum;
+  std::string_view meaning;
+};
+
+/// Throws std::invalid_argument naming the first field of `Fields::for_each` that is out of its range, its
+/// value and the range.
+template <class Scalar, class Fields>
+void validate_fields(const Fields& fields, const std::string& prefix = {}) {
+  Fields::for_each(fields, [&](const ParameterInfo& info, const Scalar& field) {
+    if (all(field >= Scalar(info.minimum)) && all(field <= Scalar(info.maximum))) return;
+    std::ostringstream text;
+    text << prefix << info.name << ": ";
+    if constexpr (std::floating_point<Scalar>) text << field << ' ' << info.unit << "; ";
+    text << "must be within [" << info.minimum << ", " << info.maximum << "] " << info.unit;
+    throw std::invalid_argument(text.str());
+  });
+}
+
+/// Calls `put(field, value)` for every field of `to` with the value of that field in `from`, a struct of
+/// doubles with the same for_each.
+template <class From, class To, class Put>
+void copy_fields(const From& from, To& to, Put&& put) {
+  std::array<double, sizeof(From) / sizeof(double)> values{};  // room for all, whatever their number
+  std::size_t next = 0;
+  From::for_each(from, [&](const ParameterInfo&, double value) { values[next++] = value; });
+  next = 0;
+  To::for_each(to, [&](const ParameterInfo&, auto& field) { put(field, values[next++]); });
+}
+
+/// The value of every field of `from`, given to another Scalar's.
+template <class From, class To>
+void copy_fields(const From& from, To& to) {
+  copy_fields(from, to,
+              [](auto& field, double value) { field = std::remove_reference_t<decltype(field)>(value); });
+}
+
+}  // namespace diabolo
