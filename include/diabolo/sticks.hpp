@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/math/cubic_spline.hpp"
 #include "diabolo/math/scalar.hpp"
 
 namespace diabolo {
@@ -57,9 +58,12 @@ class TipMotion {
             const std::vector<Vector3<Scalar>>& right, Interpolation interpolation)
       : interpolation_(interpolation), times_(std::move(times)) {
     check(left, right);
-    knots_.resize(times_.size());
-    for (std::size_t i = 0; i < knots_.size(); ++i) knots_[i].value << left[i], right[i];
-    if (interpolation_ == Interpolation::kSpline) solve_spline();
+    values_.resize(times_.size());
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] << left[i], right[i];
+    if (interpolation_ != Interpolation::kSpline) return;
+    std::vector<double> steps;
+    for (std::size_t i = 0; i + 1 < times_.size(); ++i) steps.push_back(times_[i + 1] - times_[i]);
+    curvatures_ = spline_curvatures(steps, values_);
   }
 
   /// Gives the sticks' directions at the instants, unit vectors, or zero where not known; in between, unit
@@ -87,8 +91,8 @@ class TipMotion {
   /// What was given for instant number `i`, as tips at rest.
   Tips<Scalar> pose(std::size_t i) const {
     Tips<Scalar> tips;
-    tips.left = knots_[i].value.template head<3>();
-    tips.right = knots_[i].value.template tail<3>();
+    tips.left = values_[i].template head<3>();
+    tips.right = values_[i].template tail<3>();
     if (directions_.empty()) return tips;
     tips.left_direction = directions_[i].template head<3>();
     tips.right_direction = directions_[i].template tail<3>();
@@ -121,50 +125,27 @@ class TipMotion {
 
  private:
   using Vector6 = Eigen::Matrix<Scalar, 6, 1>;  ///< left tip over right tip
-  struct Knot {
-    Vector6 value, curvature = Vector6::Constant(Scalar(0));
-  };
 
   static Vector3<Scalar> unit_or_zero(const Vector3<Scalar>& v) { return v * Scalar(Scalar(1) / norm(v)); }
 
   Tips<Scalar> between(std::size_t i, double time) const {
     const double h = times_[i + 1] - times_[i];
     const double v = (time - times_[i]) / h, u = 1.0 - v;
-    const Knot &a = knots_[i], &b = knots_[i + 1];
-    Vector6 value = a.value * Scalar(u) + b.value * Scalar(v);
-    Vector6 rate = (b.value - a.value) * Scalar(1.0 / h);
-    if (interpolation_ == Interpolation::kSpline) {
-      const double h2 = h * h / 6.0;
-      value += a.curvature * Scalar((u * u - 1.0) * u * h2) + b.curvature * Scalar((v * v - 1.0) * v * h2);
-      rate += a.curvature * Scalar((1.0 - 3.0 * u * u) * h / 6.0) +
-              b.curvature * Scalar((3.0 * v * v - 1.0) * h / 6.0);
-    }
+    const Vector6 &a = values_[i], &b = values_[i + 1];
+    const SplinePoint<Vector6> point =
+        interpolation_ == Interpolation::kSpline
+            ? spline_point(a, b, curvatures_[i], curvatures_[i + 1], h, v)
+            : SplinePoint<Vector6>{a * Scalar(u) + b * Scalar(v), (b - a) * Scalar(1.0 / h)};
     Tips<Scalar> tips;
-    tips.left = value.template head<3>();
-    tips.right = value.template tail<3>();
-    tips.left_velocity = rate.template head<3>();
-    tips.right_velocity = rate.template tail<3>();
+    tips.left = point.value.template head<3>();
+    tips.right = point.value.template tail<3>();
+    tips.left_velocity = point.rate.template head<3>();
+    tips.right_velocity = point.rate.template tail<3>();
     if (directions_.empty()) return tips;
     const Vector6 direction = directions_[i] * Scalar(u) + directions_[i + 1] * Scalar(v);
     tips.left_direction = unit_or_zero(direction.template head<3>());
     tips.right_direction = unit_or_zero(direction.template tail<3>());
     return tips;
-  }
-
-  /// Second derivatives of the natural cubic spline (tridiagonal system, Thomas's algorithm).
-  void solve_spline() {
-    const std::size_t n = times_.size();
-    if (n < 3) return;
-    std::vector<double> upper(n, 0.0);
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-      const double h0 = times_[i] - times_[i - 1], h1 = times_[i + 1] - times_[i];
-      const double pivot = 2.0 * (h0 + h1) - h0 * upper[i - 1];
-      upper[i] = h1 / pivot;
-      const Vector6 slope1 = (knots_[i + 1].value - knots_[i].value) * Scalar(6.0 / h1);
-      const Vector6 slope0 = (knots_[i].value - knots_[i - 1].value) * Scalar(6.0 / h0);
-      knots_[i].curvature = (slope1 - slope0 - knots_[i - 1].curvature * Scalar(h0)) * Scalar(1.0 / pivot);
-    }
-    for (std::size_t i = n - 1; i-- > 1;) knots_[i].curvature -= knots_[i + 1].curvature * Scalar(upper[i]);
   }
 
   void check(const std::vector<Vector3<Scalar>>& left, const std::vector<Vector3<Scalar>>& right) const {
@@ -188,8 +169,8 @@ class TipMotion {
 
   Interpolation interpolation_;
   std::vector<double> times_;
-  std::vector<Knot> knots_;
-  std::vector<Vector6> directions_;  ///< of the sticks, left over right; empty where not given
+  std::vector<Vector6> values_, curvatures_;  ///< second derivatives [m/s^2]; of a spline only
+  std::vector<Vector6> directions_;           ///< of the sticks, left over right; empty where not given
 };
 
 }  // namespace diabolo

@@ -6,7 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "diabolo/json/rules.hpp"
+#include "diabolo/rules.hpp"
+#include "diabolo/sticks.hpp"
 
 namespace diabolo::python {
 

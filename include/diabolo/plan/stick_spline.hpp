@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/math/cubic_spline.hpp"
 #include "diabolo/plan/ranges.hpp"
 #include "diabolo/plan/tip_path.hpp"
 #include "diabolo/text/shown.hpp"
@@ -90,31 +91,6 @@ namespace detail {
 template <class Scalar>
 using SplineColumn = Eigen::Matrix<Scalar, 7, 1>;
 
-/// Second derivatives at the points of the cubic spline with given end slopes (Thomas's algorithm).
-template <class Scalar>
-std::vector<SplineColumn<Scalar>> curvatures(const std::vector<Scalar>& h,
-                                             const std::vector<SplineColumn<Scalar>>& y,
-                                             const SplineColumn<Scalar>& first_slope,
-                                             const SplineColumn<Scalar>& last_slope) {
-  const std::size_t n = y.size();
-  std::vector<Scalar> upper(n, Scalar(0));
-  std::vector<SplineColumn<Scalar>> m(n);
-  SplineColumn<Scalar> before = first_slope;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Scalar left = i > 0 ? h[i - 1] : Scalar(0), right = i + 1 < n ? h[i] : Scalar(0);
-    const SplineColumn<Scalar> after =
-        i + 1 < n ? SplineColumn<Scalar>((y[i + 1] - y[i]) * Scalar(Scalar(1) / h[i])) : last_slope;
-    const Scalar inverse =
-        Scalar(1) / (Scalar(2) * (left + right) - (i > 0 ? Scalar(left * upper[i - 1]) : Scalar(0)));
-    m[i] = (after - before) * Scalar(Scalar(6) * inverse);
-    if (i > 0) m[i] -= m[i - 1] * Scalar(left * inverse);
-    upper[i] = right * inverse;
-    before = after;
-  }
-  for (std::size_t i = n - 1; i-- > 0;) m[i] -= m[i + 1] * upper[i];
-  return m;
-}
-
 template <class Scalar>
 SplineColumn<Scalar> spline_column(const TipColumn<Scalar>& tips, double seventh) {
   SplineColumn<Scalar> result;
@@ -145,7 +121,7 @@ TipPath<Scalar> path_of(const StickSpline<Scalar>& spline) {
         spline.points[0] + TipColumn<Scalar>(spline.points[1] - spline.points[0]) * share_of;
     y.insert(y.begin() + 1, detail::spline_column<Scalar>(between, 1.0));
   }
-  std::vector<Column> m = detail::curvatures(h, y, first, last);
+  std::vector<Column> m = spline_curvatures(h, y, std::optional(EndSlopes<Column>{first, last}));
   // The seventh spline takes care of one condition: of a loop, the same acceleration at both ends, by their
   // common velocity; of one that goes on, its first acceleration, by the point in between.
   TipColumn<Scalar> share = zero;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/math/cubic_spline.hpp"
 #include "diabolo/robot/arm/joint_limits.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -30,15 +31,7 @@ class JointPath {
         if (!(std::abs(angle) <= kMostTurn))
           throw std::invalid_argument("joint path, point " + std::to_string(i) + ": " + shown(angle) +
                                       " rad; expected " + shown(kMostTurn) + " rad at most");
-    // Curvatures over kTick^2 / 6: m[i-1] + 4 m[i] + m[i+1] = the second difference, zero at the ends.
-    bends_.assign(n, PairJoints::Zero());
-    std::vector<double> factor(n, 0.0);
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-      const double pivot = 4 - factor[i - 1];
-      factor[i] = 1 / pivot;
-      bends_[i] = (points_[i + 1] - 2 * points_[i] + points_[i - 1] - bends_[i - 1]) / pivot;
-    }
-    for (std::size_t i = n - 2; i > 0; --i) bends_[i] -= factor[i] * bends_[i + 1];
+    curvatures_ = spline_curvatures(std::vector<double>(n - 1, kTick), points_);
   }
 
   double length() const { return static_cast<double>(points_.size() - 1) * kTick; }  ///< [s]
@@ -49,13 +42,13 @@ class JointPath {
     const double last = static_cast<double>(points_.size() - 1);
     const double place = std::clamp(time / kTick, 0.0, last);
     const std::size_t i = static_cast<std::size_t>(std::min(place, last - 1));
-    const double v = place - static_cast<double>(i), u = 1 - v;
-    return u * points_[i] + v * points_[i + 1] + (u * u * u - u) * bends_[i] +
-           (v * v * v - v) * bends_[i + 1];
+    return spline_point(points_[i], points_[i + 1], curvatures_[i], curvatures_[i + 1], kTick,
+                        place - static_cast<double>(i))
+        .value;
   }
 
  private:
-  std::vector<PairJoints> points_, bends_;
+  std::vector<PairJoints> points_, curvatures_;
 };
 
 }  // namespace diabolo
