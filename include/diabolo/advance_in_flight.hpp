@@ -52,7 +52,7 @@ template <bool kMayStretch, class Scalar>
   const StringStep<Scalar> rest{
       position,        velocity,          step.acceleration,  tips,
       step.end,        step.dt - t,       step.string_length, step.string_acceleration,
-      step.compliance, step.damping_time, step.plane};
+      step.compliance, step.damping_time, step.plane,         step.restitution};
   assign_where(caught, state.string_state, StringState::kLoose);
   StringStepResult<Scalar> result =
       advance_captured<kMayStretch>(rest, !is(state.string_state, StringState::kFlying));

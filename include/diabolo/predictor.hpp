@@ -119,7 +119,8 @@ class Predictor {
                                   state.string_acceleration,
                                   string.compliance,
                                   string.damping_time,
-                                  plane_};
+                                  plane_,
+                                  string.restitution};
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
     const StringStepResult<Scalar> result =
         any(flying) ? advance_in_flight<kMayStretch>(state, step, parameters_, status.caught)

@@ -33,6 +33,7 @@ struct StringStep {
   Scalar compliance;    ///< of the string times the diabolo's mass: extension per tension/mass [s^2]
   Scalar damping_time;  ///< string damping over its stiffness [s]
   const PlaneProjector<Scalar>& plane;
+  Scalar restitution{0};  ///< of a catch: share of the path's rate that is given back
 
   /// Position of the free motion after the time `t` [s].
   [[gnu::always_inline]] inline Vector3<Scalar> free_position(const Scalar& t) const {
