@@ -194,7 +194,8 @@ class Predictor {
             .string_acceleration = state.string_acceleration,
             .compliance = string.compliance,
             .damping_time = string.damping_time,
-            .plane = plane};
+            .plane = plane,
+            .restitution = string.restitution};
   }
 
   static bool elastic(const StringNow<Scalar>& string) {

@@ -512,3 +512,114 @@ def test_the_progress_bar_is_for_terminals(tidy: Path) -> None:
     shown = os.read(watching, 100_000).decode()
     os.close(watching)
     assert "evaluating" in shown and "%" in shown
+
+
+# ---- how it ends ----
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("plan", "hop", "--goal=--"),
+        ("plan", "hop", "--spin=--"),
+        ("evaluate", "played.csv", "--starts=--"),
+        ("simulate", "out.csv", "--motion=--"),
+        ("demo", "--out=--"),
+        ("info", "played.csv", "--json=--"),
+    ],
+    ids=" ".join,
+)
+def test_an_option_without_its_value_is_told(
+    command: Command, tidy: Path, arguments: tuple[str, ...]
+) -> None:
+    done = command(*arguments)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert f"{arguments[-1]}: expected a value" in done.stderr
+    assert names_in(tidy.parent) == ["played.csv", "played.json"]
+
+
+@pytest.mark.parametrize("spin", ["-1e5", "-1E+5", "-.4e6", "-inf"])
+def test_a_negative_number_with_an_exponent_is_no_option(command: Command, spin: str) -> None:
+    done = command("simulate", "out.csv", "--motion", "hold", "--spin", spin)
+    assert done.returncode == 2 and f"--spin {float(spin):g}: expected less than 377" in done.stderr
+    done = command("simulate", "out.csv", "--motion", "hold", "--duration", "0.5", "--spin", "-1e2")
+    assert done.returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [("MemoryError", "out of memory"), ("RecursionError('deep')", "nested too deeply")],
+)
+def test_what_the_machine_lacks_is_told_in_a_sentence(tmp_path: Path, error: str, said: str) -> None:
+    text = (
+        "import sys, diabolo.cli.info as info\n"
+        "def run(arguments): raise " + error + "\n"
+        "info.run = run\n"
+        "from diabolo.cli import main; sys.exit(main(['info', 'take.csv']))"
+    )
+    done = subprocess.run([sys.executable, "-c", text], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert said in done.stderr
+
+
+def test_too_little_memory_is_told_in_a_sentence(tidy: Path) -> None:
+    limit = (
+        "import resource, sys, diabolo.cli\n"
+        "used = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (used + (20 << 20), resource.RLIM_INFINITY))\n"
+        "sys.exit(diabolo.cli.main(['simulate', 'out.csv', '--motion', 'swing', '--duration', '3000']))"
+    )
+    done = subprocess.run([sys.executable, "-c", limit], cwd=tidy.parent, capture_output=True, text=True)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith("diabolo: out of memory") and done.stderr.count("\n") == 1
+    assert names_in(tidy.parent) == ["played.csv", "played.json"]
+
+
+def test_sigterm_stops_it_and_leaves_nothing(tidy: Path) -> None:
+    process = subprocess.Popen(
+        long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(3.0)
+    process.send_signal(signal.SIGTERM)
+    output, errors = process.communicate(timeout=20)
+    assert (process.returncode, output, errors) == (143, "", "diabolo: terminated\n")
+    assert names_in(tidy.parent) == ["played.csv", "played.json"]
+
+
+def test_sigterm_while_a_file_is_written_leaves_nothing(tidy: Path) -> None:
+    text = (
+        "import os, signal, sys, diabolo.cli.convert as convert\n"
+        "from diabolo.cli import files, main\n"
+        "def run(arguments):\n"
+        "    with files.whole_file('new/out.csv') as temporary:\n"
+        "        temporary.write_text('half')\n"
+        "        os.kill(os.getpid(), signal.SIGTERM)\n"
+        "        os.kill(os.getpid(), signal.SIGTERM)\n"
+        "convert.run = run\n"
+        "os.mkdir('new')\n"
+        "sys.exit(main(['convert', 'played.csv', 'out.csv']))"
+    )
+    done = subprocess.run([sys.executable, "-c", text], cwd=tidy.parent, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (143, "diabolo: terminated\n")
+    assert names_in(tidy.parent / "new") == []
+
+
+@pytest.mark.parametrize("start", [("-m", "diabolo"), ("diabolo",)], ids=" ".join)
+def test_ctrl_c_while_it_loads_shows_no_traceback(tmp_path: Path, start: tuple[str, ...]) -> None:
+    (tmp_path / "numpy.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    (tmp_path / "diabolo").write_text("from diabolo.cli import main\n")
+    path = f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"
+    done = subprocess.run(
+        [sys.executable, *start],
+        cwd=tmp_path.parent if start[0] == "-m" else tmp_path,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
+
+
+def test_importing_the_package_leaves_ctrl_c_alone() -> None:
+    text = "import signal, diabolo; print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)"
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
+    assert done.stdout == "True\n"

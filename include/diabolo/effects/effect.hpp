@@ -31,6 +31,7 @@ struct StringNow {
   Scalar length;           ///< in the strands [m]
   Scalar compliance{0};    ///< extension of the path length per tension/mass [s^2]
   Scalar damping_time{0};  ///< damping over stiffness [s]
+  Scalar restitution{0};   ///< share of the path's rate that a catch gives back
 
   void add(const Spring<Scalar>& spring, const Scalar& mass) {
     const Scalar own = spring.compliance * mass, sum = compliance + own;
@@ -74,6 +75,8 @@ struct NeutralEffect {
   Spring<Scalar> spring() const { return {}; }
   /// Where it is at the beginning of a step; beside spring(), for effects that have a tip_shift().
   Spring<Scalar> spring_at(const State<Scalar>&, const Tips<Scalar>&) const { return {}; }
+  /// Share of the path's rate that a catch gives back, from 0 to 1.
+  Scalar restitution() const { return Scalar(0); }
   /// Of what goes with the string's tension, such as friction along the string.
   Contact<Scalar> contact(const State<Scalar>&, const Tips<Scalar>&, const StringStepResult<Scalar>&,
                           const Scalar& /*dt*/, const Parameters<Scalar>&) const {
@@ -169,7 +172,10 @@ struct EffectSet {
   /// The string with what makes it softer wherever the diabolo is.
   StringNow<Scalar> string(const Parameters<Scalar>& parameters) const {
     StringNow<Scalar> string{parameters.string_length};
-    each([&](const auto& effect) { string.add(effect.spring(), parameters.mass); });
+    each([&](const auto& effect) {
+      string.add(effect.spring(), parameters.mass);
+      string.restitution += effect.restitution();
+    });
     return string;
   }
   /// The same, and what depends on where it is; `tips` are shifted.

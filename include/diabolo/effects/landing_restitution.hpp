@@ -18,12 +18,9 @@ struct LandingRestitution : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(coefficient); }
 
-  /// The catch took all of that rate by its impulse; as much of it again throws the diabolo back.
-  Contact<Scalar> contact(const State<Scalar>&, const Tips<Scalar>&, const StringStepResult<Scalar>& result,
-                          const Scalar& dt, const Parameters<Scalar>&) const {
-    const Scalar share = select(result.snapped_taut, coefficient, Scalar(0));
-    return {result.string_acceleration * Scalar(share * dt), Scalar(0)};
-  }
+  /// At the instant of the catch; the rest of the step is flight, or the taut string where the bounce is over
+  /// before the step is. Energy never rises while the tips rest.
+  Scalar restitution() const { return coefficient; }
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>

@@ -33,6 +33,7 @@ struct StringStep {
   Scalar compliance;    ///< of the string times the diabolo's mass: extension per tension/mass [s^2]
   Scalar damping_time;  ///< string damping over its stiffness [s]
   const PlaneProjector<Scalar>& plane;
+  Scalar restitution{0};  ///< of a catch: share of the path's rate that is given back
 
   /// Position of the free motion after the time `t` [s].
   [[gnu::always_inline]] inline Vector3<Scalar> free_position(const Scalar& t) const {
@@ -47,8 +48,8 @@ struct StringStep {
   [[gnu::always_inline]] inline StringStep rest(const Vector3<Scalar>& position_there,
                                                 const Vector3<Scalar>& velocity_there,
                                                 const Tips<Scalar>& tips_there, const Scalar& left) const {
-    return {position_there, velocity_there,      acceleration, tips_there,   end,  left,
-            string_length,  string_acceleration, compliance,   damping_time, plane};
+    return {position_there, velocity_there,      acceleration, tips_there,   end,   left,
+            string_length,  string_acceleration, compliance,   damping_time, plane, restitution};
   }
 
   /// Whether the string is straight from tip to tip at the end, or shorter than their distance.

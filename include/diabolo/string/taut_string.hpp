@@ -184,8 +184,8 @@ template <bool kElastic, class Scalar>
 ///
 /// The step is the energy-momentum method: T acts along the discrete gradient of S, so that with resting tips
 /// it does no work; then the velocity loses what is left of the rate of S, which can only take energy away.
-/// Second order in dt. A string that comes taut within the step is located, and its catch is inelastic
-/// (restitution 0 along the string). An elastic string extends by `compliance` per tension/mass, less
+/// Second order in dt. A string that comes taut within the step is located; its catch is inelastic but
+/// for `restitution`. An elastic string extends by `compliance` per tension/mass, less
 /// `damping_time` times its rate.
 ///
 /// `kElastic` false leaves the spring out; the result is the same, bit for bit, as with a compliance of zero.

@@ -5,11 +5,15 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
+import signal
 import sys
+import threading
 import warnings
-from collections.abc import Sequence
-from contextlib import suppress
-from typing import NoReturn, TextIO
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from types import FrameType
+from typing import Any, NoReturn, TextIO
 
 from .. import __version__
 from ..checks import RecordingWarning
@@ -32,8 +36,16 @@ begin here:
 """
 
 
+NEGATIVE_NUMBER = re.compile(r"-((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf|nan)$", re.IGNORECASE)
+TERMINATED = 128 + signal.SIGTERM  # the exit status that a shell gives such a program
+
+
 class Parser(argparse.ArgumentParser):
-    """Complains in one sentence."""
+    """Complains in one sentence, and takes -1e5 for a number."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._negative_number_matcher = NEGATIVE_NUMBER
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}; see {self.prog} --help\n")
@@ -55,31 +67,74 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns its exit status: 0, 1 where a plan misses its goal, 2 for bad input, 130
-    after Ctrl-C."""
+    """Run the command; returns its exit status: 0, 1 where a plan misses its goal, 2 for bad input, 3 where
+    robots change what is played, 130 after Ctrl-C, 143 after SIGTERM."""
     try:
-        if sys.stdout is None:
-            raise ValueError("standard output is closed; there would be nowhere to print to")
-        parser = make_parser()
-        for given in sys.argv[1:] if arguments is None else arguments:
-            if given != given.encode(errors="replace").decode():
-                parser.error(f"{given!r}: not UTF-8; rename the file to pass it here")
-        parsed = parser.parse_args(arguments)
-        with warnings.catch_warnings():
-            warnings.simplefilter("once", RecordingWarning)
-            warnings.showwarning = _show_warning
-            status: int = parsed.run(parsed) or 0
-        sys.stdout.flush()
+        with _signals_raise():
+            return _run(sys.argv[1:] if arguments is None else arguments)
     except (ValueError, ArithmeticError, OSError) as error:
         if isinstance(error, OSError) and error.filename is None:  # of what is printed
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if isinstance(error, BrokenPipeError):  # such as `diabolo info TAKE.csv | head -1`
             return 0
-        print(f"diabolo: {_sentence(error)}", file=sys.stderr)
-        return 2
+        return _end(_sentence(error), 2)
+    except MemoryError:
+        return _end("out of memory; expected fewer or shorter recordings, or fewer starts", 2)
+    except RecursionError:
+        return _end("nested too deeply; expected a file or expression of a few levels", 2)
     except KeyboardInterrupt:
-        print("diabolo: interrupted", file=sys.stderr)
-        return 130
+        return _end("interrupted", 130)
+    except _Terminated:
+        return _end("terminated", TERMINATED)
+
+
+def _run(arguments: Sequence[str]) -> int:
+    if sys.stdout is None:
+        raise ValueError("standard output is closed; there would be nowhere to print to")
+    parser = make_parser()
+    for given in arguments:
+        if given != given.encode(errors="replace").decode():
+            parser.error(f"{given!r}: not UTF-8; rename the file to pass it here")
+    options = arguments[: arguments.index("--")] if "--" in arguments else arguments
+    for given in options:
+        if re.fullmatch(r"--[^=]+=--", given):
+            parser.error(f"{given}: expected a value, and a name that begins so as ./--")
+    parsed = parser.parse_args(arguments)
+    with warnings.catch_warnings():
+        warnings.simplefilter("once", RecordingWarning)
+        warnings.showwarning = _show_warning
+        status: int = parsed.run(parsed) or 0
+    sys.stdout.flush()
+    return status
+
+
+class _Terminated(BaseException):
+    """SIGTERM, as KeyboardInterrupt is Ctrl-C: what is being written is removed on the way out."""
+
+
+@contextmanager
+def _signals_raise() -> Iterator[None]:
+    """SIGTERM raises _Terminated; Ctrl-C raises KeyboardInterrupt from now on, see diabolo.quiet_start."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def terminate(number: int, frame: FrameType | None) -> None:
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once is enough
+        raise _Terminated
+
+    if signal.getsignal(signal.SIGINT) == signal.SIG_DFL:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    before = signal.signal(signal.SIGTERM, terminate)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _end(sentence: str, status: int) -> int:
+    if sys.stderr is not None:
+        print(f"diabolo: {sentence}", file=sys.stderr)
     return status
 
 

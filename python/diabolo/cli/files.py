@@ -44,9 +44,8 @@ def check_outputs(
         if place in taken:
             raise ValueError(f"{path}: {taken[place]}; choose another name")
         taken[place] = "another output has this name"
-        with made_folder(place.parent), _said_of(path):
-            _temporary(place).touch()
-            _temporary(place).unlink()
+        with made_folder(place.parent), _said_of(path), _removed(_temporary(place)) as trial:
+            trial.touch()
 
 
 @contextmanager
@@ -68,13 +67,9 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     """A temporary name of the same ending, which becomes `path`, or what it is a link to, once all is written
     to it."""
     final = _place(Path(path))
-    temporary = _temporary(final)
-    try:
-        with _said_of(final):
-            yield temporary
-            os.replace(temporary, final)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with _said_of(final), _removed(_temporary(final)) as temporary:
+        yield temporary
+        os.replace(temporary, final)
 
 
 def write_texts(texts: Mapping[Path, str]) -> None:
@@ -106,6 +101,16 @@ def _place(path: Path) -> Path:
 
 def _temporary(path: Path) -> Path:
     return path.with_name(f".{path.stem}.{os.getpid()}.tmp{path.suffix}")
+
+
+@contextmanager
+def _removed(temporary: Path) -> Iterator[Path]:
+    """A name that is free again in the end, whatever ends it: an error, Ctrl-C or SIGTERM."""
+    try:
+        yield temporary
+    finally:
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
 
 
 @contextmanager
