@@ -67,8 +67,9 @@ def add_parser(commands: Any) -> None:
         metavar="NAME=X",
         action="append",
         default=[],
-        help="of the tips: speed (4 m/s), acceleration (60 m/s^2), jerk (none); with --robots also joint_speed "
-        "(2.98 rad/s), joint_acceleration (15 rad/s^2), joint_jerk (500 rad/s^3); may be repeated",
+        help="of the tips: speed (4 m/s), acceleration (60 m/s^2), jerk (none); with --robots also "
+        "joint_speed (2.98 rad/s), joint_acceleration (15 rad/s^2), joint_jerk (500 rad/s^3); "
+        "may be repeated",
     )
     parser.add_argument(
         "--robots",
@@ -84,7 +85,8 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--recording",
         metavar="TAKE.csv",
-        help="a take of the set-up: its string length, mass and axle radius, which a diagnosed model leaves open",
+        help="a take of the set-up: its string length, mass and axle radius, which a diagnosed model "
+        "leaves open",
     )
     parser.add_argument(
         "--diagnosis",
