@@ -14,7 +14,7 @@ FUZZ_SECONDS ?= 60
 DIABOLO_WARNINGS_AS_ERRORS ?= OFF# of the Python extension; elsewhere they always are
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-packages := PYTHON=$(PYTHON) .ci/system_packages.sh
+packages := PYTHON=$(PYTHON) tools/system_packages.sh
 pip := $(VENV)/bin/python -m pip install --quiet
 cmake := cmake -G Ninja
 ifneq ($(shell command -v ccache),)
@@ -30,17 +30,17 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
 .PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove prove-player mujoco browser sanitize \
-  fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
+  fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 26
 
 # ---- set-up ----
 
-$(VENV)/.created: .ci/build-requirements.txt
+$(VENV)/.created: tools/build-requirements.txt
 	@$(packages) build
 	@$(PYTHON) -m venv $(VENV)
-	@$(pip) -r .ci/build-requirements.txt
+	@$(pip) -r tools/build-requirements.txt
 	@touch $@
 
 # Without build isolation, so that a second build compiles only what changed.
@@ -57,8 +57,8 @@ $(VENV)/.package-with-tests: $(VENV)/.created $(package_sources)
 	@$(install_package) '.[plot,test]'
 	@touch $(VENV)/.package $@
 
-$(VENV)/.tools: $(VENV)/.created .ci/tool-requirements.txt
-	@$(pip) -r .ci/tool-requirements.txt
+$(VENV)/.tools: $(VENV)/.created tools/tool-requirements.txt
+	@$(pip) -r tools/tool-requirements.txt
 	@touch $@
 
 # ---- what a person runs ----
@@ -88,16 +88,16 @@ test-plant: # The simulator behind the demonstration recordings is a CMake proje
 
 # The C++ library of ur_rtde's published source, in a prefix of its own: no Python bindings, no examples.
 ur_rtde := $(BUILD)/ur_rtde
-$(ur_rtde)/source/.fetched: .ci/ur-rtde-requirements.txt $(VENV)/.created
+$(ur_rtde)/source/.fetched: tools/ur-rtde-requirements.txt $(VENV)/.created
 	@rm -rf $(@D)
 	@$(VENV)/bin/python -m pip download --quiet --no-deps --no-binary ur_rtde -d $(@D) -r $<
 	@tar xzf $(@D)/*.tar.gz -C $(@D) --strip-components=1
 	@touch $@
 
-$(ur_rtde)/.installed: $(ur_rtde)/source/.fetched .ci/ur_rtde.cmake
+$(ur_rtde)/.installed: $(ur_rtde)/source/.fetched tools/ur_rtde.cmake
 	@$(packages) build ur-rtde
 	@$(cmake) -S $(<D) -B $(ur_rtde)/build -DCMAKE_BUILD_TYPE=Release -DPYTHON_BINDINGS=OFF -DEXAMPLES=OFF \
-	  -DCMAKE_PROJECT_ur_rtde_INCLUDE=$(abspath .ci/ur_rtde.cmake) \
+	  -DCMAKE_PROJECT_ur_rtde_INCLUDE=$(abspath tools/ur_rtde.cmake) \
 	  -DCMAKE_INSTALL_PREFIX=$(abspath $(ur_rtde)/prefix) >/dev/null 2>&1
 	@cmake --build $(ur_rtde)/build -j $(JOBS) -- --quiet
 	@cmake --install $(ur_rtde)/build >/dev/null
@@ -165,7 +165,7 @@ fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	  -DDIABOLO_SANITIZE=address,undefined -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF \
 	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
 	@cmake --build $(BUILD)/fuzz -j $(JOBS)
-	@BUILD=$(BUILD) .ci/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
+	@BUILD=$(BUILD) tools/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
 stress: # Long random runs: with assertions, but optimised in full.
 	@$(packages) build test
@@ -212,6 +212,10 @@ lint: check-tree $(VENV)/.package-with-tests $(VENV)/.tools ## Check floors and 
 check-tree:
 	@$(packages) build
 	@$(PYTHON) tools/check_tree.py
+
+check-prose: # Sentences of the pages are short.
+	@$(packages) build
+	@$(PYTHON) tools/count_sentences.py README.md CONTRIBUTING.md docs/*.md
 
 generate_stubs = rm -rf $(BUILD)/stubs; $(VENV)/bin/pybind11-stubgen --exit-code -o $(BUILD)/stubs diabolo._core
 stubs: $(VENV)/.package-with-tests $(VENV)/.tools ## Write the type stubs of the compiled module anew

@@ -11,7 +11,12 @@ using namespace py::literals;
 
 using Elasticity = StringElasticity<double>;
 
-// A new effect needs a text here, and shortcuts where its fields alone are awkward.
+// A new effect may have a text here, and shortcuts where its fields alone are awkward.
+
+template <class Effect>
+const char* doc_of(const Effect&) {
+  return "An effect; fields() lists its parameters.";
+}
 
 const char* doc_of(const Elasticity&) {
   return R"(A string that stretches.

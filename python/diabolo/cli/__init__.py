@@ -30,8 +30,8 @@ EXAMPLES = """\
 begin here:
   diabolo demo --out demo              evaluate on the recordings that come with the package; draw pictures
   diabolo info TAKE.csv                what is in a recording
-  diabolo evaluate TAKE.csv            how far the models are off on it
-  diabolo diagnose TAKE.csv --out out  what they leave out, and how much better they get with it
+  diabolo evaluate TAKE.csv            the error of the models on it
+  diabolo diagnose TAKE.csv --out out  what physics is missing; a report and a better model
   diabolo plan throw_and_catch         stick motions for a figure of play
 """
 

@@ -27,14 +27,14 @@ SHORTEST_BETWEEN_STARTS = 1e-3  # a step of the prediction [s]
 
 TABLE_NOTE = """\
 mean distance between predicted and recorded diabolo [m]; one prediction from the first row, as in the paper
-baseline: the diabolo rests at the lowest point of the string; a model that loses to it explains nothing"""
+baseline: the diabolo rests at the lowest point of the string; a model that is worse explains nothing"""
 
 PAPER_NOTE = "program: the authors' program, run again on the same rows; printed: the figure in the paper"
 
 HORIZON_NOTE = """\
 distance between predicted and recorded diabolo [m] at a time after the start, over many starts
 baseline: the diabolo rests at the lowest point of the string; intervals: of the mean, by block bootstrap
-too few starts: their errors are alike for so long that fewer than five stretches stand alone"""
+too few starts: fewer than five are statistically independent"""
 
 
 def add_parser(commands: Any) -> None:
@@ -42,9 +42,8 @@ def add_parser(commands: Any) -> None:
         commands,
         "evaluate",
         run=run,
-        summary="show how far models are off on recordings",
-        text="Predict the diabolo of each recording from the motion of its stick tips, and show how far the\n"
-        "predictions are off.",
+        summary="measure the error of models on recordings",
+        text="Predict the diabolo of each recording from its stick tips, and measure the error.",
         example="  diabolo evaluate throw_1.csv z_hop_1.csv:0-180\n"
         "  diabolo evaluate *.csv --starts every=0.1 --model consistent --plot errors.png",
     )
@@ -53,16 +52,14 @@ def add_parser(commands: Any) -> None:
         "--model",
         metavar="NAME",
         action="append",
-        help="published, paper, consistent or a model file; may be repeated; default: the three names",
+        help="published, paper, consistent or a model file; repeat it to compare; default: those three",
     )
     parser.add_argument(
         "--starts",
         metavar="WHERE",
         default="first",
-        help="first: one prediction from the first row, as in the paper's table (default); every=0.1: "
-        "predictions from a start each 0.1 s, compared after "
-        + ", ".join(f"{h:g}" for h in DEFAULT_HORIZONS)
-        + " s",
+        help="first (default): one prediction from the first row, as in the paper's table; every=0.1: one "
+        "from a start each 0.1 s, evaluated after " + ", ".join(f"{h:g}" for h in DEFAULT_HORIZONS) + " s",
     )
     add_calibration(parser)
     parser.add_argument("--json", metavar="FILE", help="write the figures as JSON; - is standard output")
@@ -72,9 +69,9 @@ def add_parser(commands: Any) -> None:
         type=output_name,
         help="draw error against time after the start (.png, .pdf, .svg)",
     )
-    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default 0: all cores")
+    parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
     parser.add_argument(
-        "--seed", metavar="N", type=int, default=1, help="of the bootstrap intervals; default 1"
+        "--seed", metavar="N", type=int, default=1, help="seed of the bootstrap intervals; default 1"
     )
 
 

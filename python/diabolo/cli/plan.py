@@ -45,10 +45,10 @@ def add_parser(commands: Any) -> None:
         "plan",
         run=run,
         summary="find stick motions for a figure of play",
-        text="Find a motion of the stick tips that makes the diabolo do what is wanted, and write it with\n"
-        "what it leads to: as a tidy recording, a picture and a page.\n\n"
-        "exit status: 0 where every goal is reached, 1 where one is missed (the plan that comes closest is\n"
-        "written all the same), 2 for bad input.",
+        text="Find a motion of the stick tips that makes the diabolo do a figure. Write it, with the\n"
+        "predicted play, as a tidy recording, a picture and a page.\n\n"
+        "exit status: 0 where every goal is reached, 1 where one is missed (the closest plan is written),\n"
+        "2 for bad input.",
         example="  diabolo plan throw_and_catch --goal height=0.6 --out throw.csv --html throw.html\n"
         "  diabolo plan throw --model d/model.json --diagnosis d/diagnosis.json --recording TAKE.csv\n"
         "  diabolo plan swing --robots",
@@ -59,58 +59,64 @@ def add_parser(commands: Any) -> None:
         metavar="NAME=X",
         action="append",
         default=[],
-        help="height of a throw's apex above the tips or of a hop [m], sideways (to the left, [m]), "
-        "spin gained by a cycle [rad/s]; may be given again",
+        help="height: of a throw's apex above the tips, or of a hop [m]; sideways: to the left [m]; "
+        "spin: gained by a cycle [rad/s]; may be repeated",
     )
     parser.add_argument(
         "--limit",
         metavar="NAME=X",
         action="append",
         default=[],
-        help="of the tips: speed (4 m/s), acceleration (60 m/s^2), jerk (none); with --robots also of the "
-        "joints: joint_speed (2.98 rad/s), joint_acceleration (15 rad/s^2), joint_jerk (500 rad/s^3); may be "
-        "given again",
+        help="of the tips: speed (4 m/s), acceleration (60 m/s^2), jerk (none); with --robots also "
+        "joint_speed (2.98 rad/s), joint_acceleration (15 rad/s^2), joint_jerk (500 rad/s^3); "
+        "may be repeated",
     )
     parser.add_argument(
         "--robots",
         action="store_true",
-        help="only what two UR5e, mounted as in the paper, can play: reach, joints, 0.1 m between the arms",
+        help="keep to what two UR5e mounted as in the paper can play: reach, joints, 0.1 m between the arms",
     )
     parser.add_argument(
         "--model",
         metavar="NAME",
         default="consistent",
-        help="what the diabolo does: consistent (default), paper, published or a model file",
+        help="the model to plan on: consistent (default), paper, published or a model file",
     )
     parser.add_argument(
         "--recording",
         metavar="TAKE.csv",
-        help="of the set-up: its string length, mass and axle radius count where the model leaves them to a "
-        "recording, as a diagnosed one does",
+        help="a take of the set-up: its string length, mass and axle radius, which a diagnosed model "
+        "leaves open",
     )
     parser.add_argument(
         "--diagnosis",
         metavar="FILE.json",
-        help="what `diabolo diagnose` wrote beside the model: the string's length as it found it, and its "
-        "best guess of the air where it was too unsure to claim any",
+        help="what `diabolo diagnose` wrote beside the model: corrects the string's length, and adds the "
+        "drag and lift that it estimated but did not claim",
     )
-    parser.add_argument("--cycles", metavar="N", type=int, default=1, help="so many in a row; default 1")
+    parser.add_argument("--cycles", metavar="N", type=int, default=1, help="cycles in a row; default 1")
     parser.add_argument(
-        "--spin", metavar="W", type=float, default=100.0, help="at the start [rad/s]; default 100"
+        "--spin", metavar="W", type=float, default=100.0, help="spin at the start [rad/s]; default 100"
     )
-    parser.add_argument("--size", metavar="X", type=float, default=1.0, help="of the seed motion; default 1")
-    parser.add_argument("--pace", metavar="X", type=float, default=1.0, help="of the seed motion; default 1")
-    parser.add_argument("--solver", choices=("gradient", "walk"), default="gradient", help="default gradient")
     parser.add_argument(
-        "--seconds", metavar="S", type=float, default=10.0, help="for a plan at most; default 10"
+        "--size", metavar="X", type=float, default=1.0, help="scale of the seed motion; default 1"
     )
-    parser.add_argument("--random-seed", metavar="N", type=int, default=1, help="of the walk; default 1")
     parser.add_argument(
-        "--out", metavar="FILE.csv", type=output_name, help="tips and diabolo, with FILE.json beside it"
+        "--pace", metavar="X", type=float, default=1.0, help="pace of the seed motion; default 1"
     )
-    parser.add_argument("--plot", metavar="FILE", type=output_name, help="a picture: .png, .pdf or .svg")
     parser.add_argument(
-        "--html", metavar="FILE", type=output_name, help="a page that shows it in three dimensions"
+        "--solver", choices=("gradient", "walk"), default="gradient", help="default: gradient"
+    )
+    parser.add_argument(
+        "--seconds", metavar="S", type=float, default=10.0, help="budget of each search [s]; default 10"
+    )
+    parser.add_argument("--random-seed", metavar="N", type=int, default=1, help="seed of the walk; default 1")
+    parser.add_argument(
+        "--out", metavar="FILE.csv", type=output_name, help="write tips and diabolo, with FILE.json beside it"
+    )
+    parser.add_argument("--plot", metavar="FILE", type=output_name, help="draw a picture (.png, .pdf, .svg)")
+    parser.add_argument(
+        "--html", metavar="FILE", type=output_name, help="write a page that shows it in three dimensions"
     )
     parser.add_argument("--json", metavar="FILE", help="write a summary as JSON; - is standard output")
 

@@ -62,19 +62,21 @@ def _add_check(actions: Any) -> None:
         nargs=3,
         type=float,
         default=[0.0, 0.0, 0.0],
-        help="move the whole plan by that much [m]",
+        help="shift of the whole plan [m]",
     )
     parser.add_argument(
-        "--speed", metavar="W", type=float, help="of the joints at most [rad/s]; default 0.95 pi"
+        "--speed", metavar="W", type=float, help="limit of the joints [rad/s]; default 0.95 pi"
     )
-    parser.add_argument("--acceleration", metavar="A", type=float, help="at most [rad/s^2]; default 15")
-    parser.add_argument("--jerk", metavar="J", type=float, help="at most [rad/s^3]; default 500")
+    parser.add_argument(
+        "--acceleration", metavar="A", type=float, help="limit of the joints [rad/s^2]; default 15"
+    )
+    parser.add_argument("--jerk", metavar="J", type=float, help="limit of the joints [rad/s^3]; default 500")
     parser.add_argument(
         "--clearance",
         metavar="D",
         type=float,
         default=0.10,
-        help="between the arms at least [m]; default 0.1",
+        help="least distance between the arms [m]; default 0.1",
     )
     parser.add_argument("--json", metavar="FILE", help="write what was found as JSON; - is standard output")
 
@@ -84,22 +86,22 @@ def _add_grid(actions: Any) -> None:
         actions,
         "grid",
         run=run_grid,
-        summary="build an arm's IK seed grid, and tell how fast it lets the tip go",
+        summary="build an arm's IK seed grid, and print how fast the tip may go",
         text="Build the IK seed grid of an arm over the paper's box, and print how fast the tip may go\n"
         "before a joint exceeds pi rad/s, height by height: in the slowest direction, and along x, y and z.",
         example="  diabolo robot grid right --out right.csv",
     )
     parser.add_argument("side", choices=("left", "right"), help="which arm")
     _add_mounts(parser)
-    parser.add_argument("--out", metavar="GRID.csv", type=output_name, help="write its key points there")
+    parser.add_argument("--out", metavar="GRID.csv", type=output_name, help="write the key points")
 
 
 def _add_mounts(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--height", metavar="H", type=float, default=0.70, help="of the bases [m]; default 0.7"
+        "--height", metavar="H", type=float, default=0.70, help="height of the bases [m]; default 0.7"
     )
     parser.add_argument(
-        "--spacing", metavar="S", type=float, default=1.10, help="between the bases [m]; default 1.1"
+        "--spacing", metavar="S", type=float, default=1.10, help="distance between the bases [m]; default 1.1"
     )
     parser.add_argument(
         "--forward", metavar="X", type=float, default=0.0, help="x of the bases [m]; default 0"
