@@ -42,16 +42,16 @@ void assign_where(const Mask<Scalar>& condition, LaneStringState<Scalar>& state,
   state.code = select(condition, Scalar(static_cast<double>(next)), state.code);
 }
 
-/// State of the diabolo, a point mass that spins. (Position and velocity are no neighbours, so that no
-/// compiler stores the last component of one with the first of the next, which slows down reading them.)
+/// State of the diabolo, a point mass that spins. (No vector stands before the velocity, so that no compiler
+/// stores the last component of one with the first of the next, which slows down reading them.)
 template <class Scalar>
 struct State {
   Vector3<Scalar> position = Vector3<Scalar>::Constant(Scalar(0));  ///< centre [m], world frame
+  StringStateOf<Scalar> string_state{StringState::kLoose};
+  Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
   /// Spin [rad/s]; positive when the axle's surface under the string moves towards the right tip (rotation
   /// about -x).
   Scalar spin{0};
-  Vector3<Scalar> velocity = Vector3<Scalar>::Constant(Scalar(0));  ///< [m/s], world frame
-  StringStateOf<Scalar> string_state{StringState::kLoose};
   /// Direction of the axle, forward: a unit vector, world frame. Only effects look at it, and only
   /// GyroscopicTilt turns it. The angular velocity is -spin * axis.
   Vector3<Scalar> axis = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));

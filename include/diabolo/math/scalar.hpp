@@ -5,6 +5,7 @@
 #include <concepts>
 #include <limits>
 
+#include "diabolo/math/pairs.hpp"
 #include "diabolo/math/vector3.hpp"
 
 namespace diabolo {
@@ -108,6 +109,13 @@ template <class Scalar>
 [[gnu::always_inline]] inline Scalar norm(const Vector3<Scalar>& v) {
   using std::sqrt;
   return sqrt(squared_norm(v) + tiny<Scalar>());
+}
+
+/// The norms of two vectors.
+template <class Scalar>
+[[gnu::always_inline]] inline std::array<Scalar, 2> norms(const Vector3<Scalar>& a,
+                                                          const Vector3<Scalar>& b) {
+  return square_roots(Scalar(squared_norm(a) + tiny<Scalar>()), Scalar(squared_norm(b) + tiny<Scalar>()));
 }
 
 /// Agreement that the string's constraint is solved to, relative to the string's length.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
+#include "diabolo/math/pairs.hpp"
 #include "diabolo/sticks.hpp"
 
 namespace diabolo {
@@ -12,10 +15,11 @@ struct StringPath {
   Scalar left_length, right_length;       ///< of the two strands [m]
 
   [[gnu::always_inline]] inline StringPath(const Vector3<Scalar>& diabolo, const Tips<Scalar>& tips)
-      : from_left(diabolo - tips.left),
-        from_right(diabolo - tips.right),
-        left_length(norm<Scalar>(from_left)),
-        right_length(norm<Scalar>(from_right)) {}
+      : from_left(diabolo - tips.left), from_right(diabolo - tips.right) {
+    const std::array<Scalar, 2> lengths = norms<Scalar>(from_left, from_right);
+    left_length = lengths[0];
+    right_length = lengths[1];
+  }
 
   /// Takes the lanes `where` from another path.
   void keep_where(const Mask<Scalar>& where, const StringPath& other) {
@@ -41,13 +45,17 @@ struct StringPath {
 
   /// Derivative of the length with respect to the diabolo's position.
   [[gnu::always_inline]] inline Vector3<Scalar> gradient() const {
-    return from_left * Scalar(Scalar(1) / left_length) + from_right * Scalar(Scalar(1) / right_length);
+    const std::array<Scalar, 2> inverse = inverses(left_length, right_length);
+    return from_left * inverse[0] + from_right * inverse[1];
   }
 
   /// Rate of the length [m/s] by the tips' velocities alone.
   [[gnu::always_inline]] inline Scalar tip_rate(const Vector3<Scalar>& left_velocity,
                                                 const Vector3<Scalar>& right_velocity) const {
-    return -dot(from_left, left_velocity) / left_length - dot(from_right, right_velocity) / right_length;
+    const std::array<Scalar, 2> rates =
+        quotients(Scalar(-dot(from_left, left_velocity)), Scalar(dot(from_right, right_velocity)),
+                  left_length, right_length);
+    return rates[0] - rates[1];
   }
 
   /// Rate of the length [m/s].
@@ -63,8 +71,9 @@ struct StringPath {
 template <class Scalar>
 [[gnu::always_inline]] inline Vector3<Scalar> discrete_gradient(const StringPath<Scalar>& a,
                                                                 const StringPath<Scalar>& b) {
-  return (a.from_left + b.from_left) * Scalar(Scalar(1) / (a.left_length + b.left_length)) +
-         (a.from_right + b.from_right) * Scalar(Scalar(1) / (a.right_length + b.right_length));
+  const std::array<Scalar, 2> inverse =
+      inverses(Scalar(a.left_length + b.left_length), Scalar(a.right_length + b.right_length));
+  return (a.from_left + b.from_left) * inverse[0] + (a.from_right + b.from_right) * inverse[1];
 }
 
 }  // namespace diabolo
