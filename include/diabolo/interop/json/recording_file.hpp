@@ -100,8 +100,8 @@ inline void check_up(const Recording& recording, double yaw, const std::string& 
   up.mirrored = to_left.y() < -0.5 * to_left.norm();
   throw RecordingError(file_name + ": the motion says that " + text_of({up.axis, false}) +
                        " points up, not z (gravity in flight and on the string)" +
-                       (up.mirrored ? ", and that left and right are mirrored" : "") + "; read it with --up " +
-                       text_of(up) + ", or with --up z as it stands");
+                       (up.mirrored ? ", and that left and right are mirrored" : "") + "; read it with --up=" +
+                       text_of(up) + ", or with --up=z as it stands");
 }
 
 /// Reads a recording of either kind, told apart by content: a Motive export, to which `calibration` is

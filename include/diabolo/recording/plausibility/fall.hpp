@@ -116,7 +116,7 @@ inline constexpr double kOddFall = 2.0;
 /// A clause about a diabolo that falls much too fast or too slowly, in flight and across its string; else
 /// empty. Only samples with a pull that leaves out a tenth of gravity or more tell.
 inline std::string odd_fall(const Recording& r, const std::vector<Fall>& falls) {
-  constexpr double kLeastShare = 0.1, kFewest = 0.5;  // of gravity squared; s
+  constexpr double kLeastShare = 0.1, kFewest = 0.25;  // of gravity squared; s
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const double gravity = Parameters<double>{}.gravity;
   std::vector<Fall> telling;

@@ -26,7 +26,8 @@ inline constexpr double kMostTooShort = 0.02, kMostHeldUp = 0.1;
 /// A clause about a tip that rests to the last digit while the diabolo moves as if it did not: farther than the
 /// string reaches, or held up by a string that would be slack; else empty.
 inline std::string odd_still_tips(const Recording& r, const std::vector<Fall>& falls) {
-  constexpr double kReach = 0.05;  // m beyond the string's length, or short of it
+  constexpr double kReach = 0.03;  // m beyond the usual path, or short of it
+  const double usual = usual_path_length(r).value_or(r.string_length);
   std::string sides;
   double longest = 0.0;
   for (const auto& [name, tip] : {std::pair{"left", &r.left}, std::pair{"right", &r.right}}) {
@@ -41,13 +42,13 @@ inline std::string odd_still_tips(const Recording& r, const std::vector<Fall>& f
     for (Eigen::Index i = still.first; i <= still.second; ++i) {
       if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
       ++known;
-      too_far += path_at(r, i).length() > r.string_length + kReach;
+      too_far += path_at(r, i).length() > usual + kReach;
     }
     const Eigen::Vector3d gravity(0.0, 0.0, -Parameters<double>{}.gravity);
     for (const Fall& fall : falls) {
       if (fall.row < still.first || fall.row > still.second) continue;
       ++fitted;
-      held_up += path_at(r, fall.row).length() < r.string_length - kReach &&
+      held_up += path_at(r, fall.row).length() < usual - kReach &&
                  (fall.acceleration - gravity).norm() > 0.5 * gravity.norm();
     }
     if (static_cast<double>(too_far) <= kMostTooShort * static_cast<double>(known) &&
