@@ -6,11 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "diabolo/json/calibration_file.hpp"
 #include "diabolo/json/recording_file.hpp"
+#include "diabolo/recording/plausibility/overlaps.hpp"
 #include "diabolo/recording/plausibility/warnings.hpp"
 #include "diabolo/recording/resample.hpp"
 #include "diabolo/recording/spin.hpp"
@@ -100,12 +105,12 @@ py::tuple to_tuple(const Recording& r) {
                         numbers(r.diabolo.position), r.rate, known(r.diabolo_orientation),
                         known(r.left_orientation), known(r.right_orientation), r.name, r.properties.mass,
                         r.properties.diameter, r.properties.length, r.properties.axle_radius, r.string_length,
-                        r.frame);
+                        r.frame, r.notes);
 }
 
 Recording from_tuple(const py::tuple& t) {
-  if (t.size() != 15)
-    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 15");
+  if (t.size() != 16)
+    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 16");
   const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
   const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
   Recording recording =
@@ -114,6 +119,7 @@ Recording from_tuple(const py::tuple& t) {
            {t[9].cast<double>(), t[10].cast<double>(), t[11].cast<double>(), t[12].cast<double>()},
            t[13].cast<double>());
   recording.frame = t[14].cast<std::vector<long>>();
+  recording.notes = t[15].cast<std::vector<std::string>>();
   check_recording(recording);
   return recording;
 }
@@ -146,6 +152,33 @@ void bind_orientation(py::class_<Recording>& cls, const char* name, OrientationT
       },
       doc);
 }
+
+using GivenColumns = std::variant<std::monostate, std::string, std::map<std::string, std::string>>;
+
+Recording load(const std::filesystem::path& path, const Calibration& calibration,
+               const std::optional<std::string>& up, const GivenColumns& columns) {
+  ReadOptions options;
+  if (up) options.up = up_axis_of(*up);
+  if (const auto* text = std::get_if<std::string>(&columns)) options.columns = columns_of(*text);
+  if (const auto* map = std::get_if<std::map<std::string, std::string>>(&columns))
+    for (const auto& [tidy, given] : *map) options.columns.push_back(column_of(tidy, given));
+  return load_recording(path, calibration, options);
+}
+
+std::pair<std::vector<Recording>, std::vector<std::string>> trimmed(std::vector<Recording> recordings) {
+  std::vector<std::string> notes = trim_overlaps(recordings);
+  return {std::move(recordings), std::move(notes)};
+}
+
+constexpr const char* kLoadDoc =
+    R"(Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.
+
+up: which axis of the file points up, "y" for Motive's default, "-z", or "y-mirrored" where left and right are
+exchanged, too. Without it that is z, and a file whose motion clearly says otherwise is refused.
+
+columns: maps a CSV of your own, {"time": "t[ms]", "left_x": "lx[mm]", ...} or "time=t[ms],left_x=lx[mm],...".
+Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
+it, string and diabolo are the calibration's.)";
 
 Array spin(const Recording& recording, bool with_sign) {
   const Spin spin = with_sign ? signed_spin(recording) : unsigned_spin(recording);
@@ -244,18 +277,19 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
           "diabolo_orientation"_a = py::none(), "left_orientation"_a = py::none(),
           "right_orientation"_a = py::none(), "name"_a = "recording", "properties"_a = kRedDiabolo,
           "string_length"_a = kPublishedStringLength);
-  cls.def_static("load", &load_recording, "path"_a,
-                 py::arg_v("calibration", published_calibration(), "Calibration.published()"), Unlocked(),
-                 "Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.");
+  cls.def_static("load", &load, "path"_a,
+                 py::arg_v("calibration", published_calibration(), "Calibration.published()"), py::kw_only(),
+                 "up"_a = py::none(), "columns"_a = py::none(), Unlocked(), kLoadDoc);
   cls.def("save", &save_tidy, "path"_a, Unlocked(),
           "Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all.");
   cls.def("cut", &cut, "first"_a, "last"_a, "Rows first to last, both included.");
   cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
           "The recording at another rate [Hz]; dropouts are not bridged.");
-  cls.def(
-      "warnings", &warnings, Unlocked(),
-      "What is odd about it although it is well formed, such as other units, tips that are long unseen or "
-      "rows that are missing; a sentence each.");
+  cls.def("warnings", &warnings, Unlocked(),
+          "What its reader changed, and what is odd about it although it is well formed, such as other "
+          "units, tips "
+          "that are long unseen or rows that are missing; a sentence each.");
+  cls.def_readonly("notes", &Recording::notes, "What its reader changed or took for granted, a clause each.");
   cls.def("spin", &spin, "signed"_a = true,
           "Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the "
           "published rule, which counts turning of the axle too.");
@@ -293,9 +327,11 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   cls.def("__repr__", [](const Recording& r) {
     return py::str("<Recording '{}': {} samples at {:g} Hz>").format(r.name, r.size(), r.rate);
   });
-  module.def("load_recording", &load_recording, "path"_a,
-             py::arg_v("calibration", published_calibration(), "Calibration.published()"), Unlocked(),
-             "The same as Recording.load.");
+  module.def("load_recording", &load, "path"_a,
+             py::arg_v("calibration", published_calibration(), "Calibration.published()"), py::kw_only(),
+             "up"_a = py::none(), "columns"_a = py::none(), Unlocked(), "The same as Recording.load.");
+  module.def("trim_overlaps", &trimmed, "recordings"_a,
+             "Recordings without the samples that they share with ones before, and what was trimmed.");
 }
 
 }  // namespace diabolo::python

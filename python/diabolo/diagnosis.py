@@ -100,6 +100,11 @@ def diagnose(
         raise ValueError(f"bank: {bank!r}; expected a list of names, such as ['string_friction']")
     chosen = model_of("base", base)
     held = list_of("holdout", holdout)
+    trimmed, overlaps = _core.trim_overlaps([*given, *held])
+    for sentence in overlaps:
+        warnings.warn(sentence, RecordingWarning, stacklevel=2)
+    if overlaps:
+        given, held = trimmed[: len(given)], trimmed[len(given) :]
     _check_distinct([*given, *held])
     warn_of([*given, *held])
     _warn_of_other_set_ups([*given, *held])

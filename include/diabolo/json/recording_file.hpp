@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "diabolo/json/fields.hpp"
 #include "diabolo/json/properties.hpp"
 #include "diabolo/recording/formats/calibration.hpp"
+#include "diabolo/recording/formats/columns.hpp"
 #include "diabolo/recording/formats/motive.hpp"
 #include "diabolo/recording/formats/tidy.hpp"
+#include "diabolo/recording/formats/up_axis.hpp"
+#include "diabolo/recording/plausibility/fall.hpp"
+#include "diabolo/recording/plausibility/marker_jumps.hpp"
+#include "diabolo/recording/plausibility/regular_times.hpp"
 #include "diabolo/text/file.hpp"
 
 namespace diabolo {
@@ -48,25 +58,84 @@ inline std::string write_metadata(const TidyMetadata& metadata) {
                    "recording");
 }
 
+/// What a file does not say of itself.
+struct ReadOptions {
+  std::optional<UpAxis> up;  ///< which axis points up; nothing: z, and a motion that contradicts is refused
+  std::vector<Column> columns;  ///< maps a CSV of somebody's own
+};
+
+/// Reads a CSV in the world frame. One whose columns are mapped needs no JSON file beside it: the string's
+/// length and the diabolo are then the calibration's, the rate is that of the times.
+inline Recording load_tidy(const std::filesystem::path& path, std::string_view text,
+                           const Calibration& calibration, const std::vector<Column>& columns) {
+  const std::string file_name = path.string();
+  const std::filesystem::path metadata = std::filesystem::path(path).replace_extension(".json");
+  if (std::filesystem::exists(metadata))
+    return read_tidy(text, file_name, read_metadata(read_file(metadata), metadata.string()), columns);
+  if (columns.empty())
+    throw RecordingError(file_name + ": expected " + metadata.string() +
+                         " beside it, which says the string's length, the rate and what the diabolo is like");
+  Recording result =
+      read_tidy(text, file_name, {calibration.properties, calibration.string_length, 0.0}, columns);
+  result.notes.push_back("no " + metadata.filename().string() + " beside it: the string is taken to be " +
+                         shown(result.string_length) + " m long, the diabolo to weigh " +
+                         shown(result.properties.mass) + " kg, the rate to be " + shown_rounded(result.rate) +
+                         " Hz");
+  return result;
+}
+
+/// Throws RecordingError where the motion says clearly that another axis of the file than z points up; the
+/// file's frame is turned by `yaw` [rad] about z in the recording.
+inline void check_up(const Recording& recording, double yaw, const std::string& file_name) {
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const std::optional<int> axis = other_axis_up(recording, falls(recording), axes);
+  if (!axis) return;
+  // Beyond: is the left tip on the left once it is turned, as it is of one who looks along x?
+  UpAxis up{*axis, false};
+  const Eigen::Matrix3d turn = axes * turn_to_z_up(up) * axes.transpose();
+  Eigen::Vector3d to_left = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < recording.size(); ++i)
+    if (recording.left.valid[i] && recording.right.valid[i])
+      to_left += turn * (recording.left.position.col(i) - recording.right.position.col(i));
+  up.mirrored = to_left.y() < -0.5 * to_left.norm();
+  throw RecordingError(file_name + ": the motion says that " + text_of({up.axis, false}) +
+                       " points up, not z (gravity in flight and on the string)" +
+                       (up.mirrored ? ", and that left and right are mirrored" : "") +
+                       "; read it with --up=" + text_of(up) + ", or with --up=z as it stands");
+}
+
 /// Reads a recording of either kind, told apart by content: a Motive export, to which `calibration` is
-/// applied, or a tidy CSV with its JSON file beside it, which is in the world frame already. Throws
-/// RecordingError.
+/// applied, or a tidy CSV with its JSON file beside it, which is in the world frame already. Stamps that
+/// jitter are put right, samples that jump become dropouts; notes tell. Throws RecordingError.
 inline Recording load_recording(const std::filesystem::path& path,
-                                const Calibration& calibration = published_calibration()) {
+                                const Calibration& calibration = published_calibration(),
+                                const ReadOptions& options = {}) {
   const std::string text = read_file(path), file_name = path.string();
   const std::string_view content = utf8_text(text, file_name);
   const std::string_view first_line = content.substr(0, content.find_first_of("\r\n"));
-  if (first_line.starts_with(kMotiveMark) || first_line.starts_with('"' + std::string(kMotiveMark)))
-    return apply(calibration, read_motive(text, file_name));
-  if ((',' + std::string(first_line) + ',').find(",time,") == std::string::npos)
-    throw RecordingError(
-        file_name + ", line 1: starts with " + shown(first_line) +
-        "; expected a Motive export (\"Format Version,...\") or a tidy recording (\"time,...\")");
-  const std::filesystem::path metadata = std::filesystem::path(path).replace_extension(".json");
-  if (!std::filesystem::exists(metadata))
-    throw RecordingError(file_name + ": expected " + metadata.string() +
-                         " beside it, which says the string's length, the rate and what the diabolo is like");
-  return read_tidy(text, file_name, read_metadata(read_file(metadata), metadata.string()));
+  const bool is_motive =
+      first_line.starts_with(kMotiveMark) || first_line.starts_with('"' + std::string(kMotiveMark));
+  const UpAxis up = options.up.value_or(UpAxis{});
+  const bool is_turned = up.axis != 3 || up.mirrored;
+  Recording recording;
+  if (is_motive) {
+    if (!options.columns.empty())
+      throw RecordingError(file_name +
+                           ": columns are mapped, but it is a Motive export; expected another CSV");
+    MotiveTake take = read_motive(text, file_name);
+    recording = apply(calibration, is_turned ? turned_to_z_up(std::move(take), up) : std::move(take));
+  } else {
+    if (options.columns.empty() && (',' + std::string(first_line) + ',').find(",time,") == std::string::npos)
+      throw RecordingError(file_name + ", line 1: starts with " + shown(first_line) +
+                           "; expected a Motive export (\"Format Version,...\") or a tidy recording "
+                           "(\"time,...\"); --columns maps other names");
+    recording = load_tidy(path, text, calibration, options.columns);
+    if (is_turned) recording = turned_to_z_up(std::move(recording), up);
+  }
+  regularise_times(recording);
+  mask_jumps(recording);
+  if (!options.up) check_up(recording, is_motive ? calibration.world_yaw : 0.0, file_name);
+  return recording;
 }
 
 /// Writes NAME.csv (tidy) and NAME.json, neither ever half-written. Throws RecordingError where `path` does

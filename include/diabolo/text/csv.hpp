@@ -54,24 +54,33 @@ inline std::string_view utf8_text(std::string_view text, const std::string& file
   return text;
 }
 
+/// What becomes of a last line without a line end, which may be cut off inside a number.
+enum class CutLine { kRefuse, kLeaveOut };
+
 /// Reads CSV text line by line and keeps count, so that every complaint can name file and line.
-/// Lines end with LF or CRLF, the last one too: a file without it may have been cut off inside a number.
+/// Lines end with LF or CRLF, the last one too.
 class CsvReader {
  public:
   /// `text` must outlive the reader. Throws RecordingError as utf8_text() does, and on line ends of another
   /// kind.
-  CsvReader(std::string_view text, std::string file) : file_(std::move(file)) {
+  CsvReader(std::string_view text, std::string file, CutLine cut_line = CutLine::kRefuse)
+      : file_(std::move(file)) {
     text = utf8_text(text, file_);
     if (text.find('\n') == text.npos && text.find('\r') != text.npos)
       throw RecordingError(file_ + ": lines end with CR only (old Mac); expected LF or CRLF");
-    if (!text.ends_with('\n'))
+    const std::size_t whole = text.rfind('\n') + 1;  // 0 where there is no line end
+    is_cut_ = whole < text.size();
+    if (is_cut_ && (cut_line == CutLine::kRefuse || whole == 0))
       throw RecordingError(file_ + ": the last line has no line end; the file may be cut off");
+    text = text.substr(0, whole);
     at_ = text.data();
     end_ = text.data() + text.size();
   }
 
   const std::string& file() const { return file_; }
   bool at_end() const { return at_ == end_; }
+  /// Whether a last line without a line end was left out.
+  bool is_cut() const { return is_cut_; }
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
   /// Number of lines that are left.
@@ -120,13 +129,14 @@ class CsvReader {
   }
 
   /// Fills `row` from the next line, which must have as many cells: finite numbers, or NaN where a cell is
-  /// empty.
-  void next_numbers(std::vector<double>& row) {
+  /// empty. Of cells that are `ignored` (none where that is empty) nothing is read.
+  void next_numbers(std::vector<double>& row, const std::vector<char>& ignored = {}) {
     ++line_;
     const char* const start = at_;
     const char* at = start;  // The text ends with LF and no step passes one, so *at is always there.
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i > 0 && *at++ != ',') fail_ragged(start, row.size());
+      if (!ignored.empty() && ignored[i] != 0) at = std::find_if(at, end_, ends_cell);
       if (ends_cell(*at)) {
         row[i] = std::numeric_limits<double>::quiet_NaN();
         continue;
@@ -174,6 +184,7 @@ class CsvReader {
   const char* at_ = nullptr;
   const char* end_ = nullptr;
   long line_ = 0;
+  bool is_cut_ = false;
 };
 
 }  // namespace diabolo

@@ -8,10 +8,11 @@ import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .._core import Calibration, Model, load_recording
+from .._core import Calibration, Model, Recording, load_recording
 from ..evaluation import DEFAULT_MODELS, Excerpt
 from .files import STDOUT
 
@@ -47,6 +48,18 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
         help="where tips and diabolo sit in the rigid bodies of Motive exports (diabolo.calibration/1); "
         "default: the published calibration of the red diabolo",
     )
+    parser.add_argument(
+        "--up",
+        metavar="AXIS",
+        help="which axis of the file points up: x, y (Motive's default), z, -x, -y or -z, with -mirrored behind "
+        "it for a left-handed frame; default: z, and a motion that clearly says otherwise is refused",
+    )
+    parser.add_argument(
+        "--columns",
+        metavar="LIST",
+        help="map a CSV of your own: time=t[ms],left_x=lx[mm],..., TIDY=NAME or TIDY=NAME[UNIT] with s, ms, us, "
+        "ns, m, cm, mm, in, ft",
+    )
 
 
 def output_name(text: str) -> str:
@@ -64,14 +77,34 @@ def split_excerpt(text: str) -> tuple[str, tuple[int, int] | None]:
     return match[1], (int(match[2]), int(match[3]))
 
 
-def read_calibration(path: str | None) -> Calibration:
-    return Calibration.published() if path is None else Calibration.load(path)
+@dataclass(frozen=True)
+class Reading:
+    """How recordings are read: what their files do not say of themselves."""
+
+    calibration: Calibration
+    up: str | None
+    columns: str | None
+
+    def load(self, path: str) -> Recording:
+        return load_recording(path, self.calibration, up=self.up, columns=self.columns)
 
 
-def read_excerpt(text: str, calibration: Calibration) -> Excerpt:
+def reading_of(arguments: argparse.Namespace) -> Reading:
+    path = arguments.calibration
+    calibration = Calibration.published() if path is None else Calibration.load(path)
+    return Reading(calibration, arguments.up, arguments.columns)
+
+
+def reading_options(arguments: argparse.Namespace) -> list[str]:
+    """The options that it came from, for another command."""
+    names = ("calibration", "up", "columns")
+    return [f"--{name}={value}" for name in names if (value := getattr(arguments, name)) is not None]
+
+
+def read_excerpt(text: str, reading: Reading) -> Excerpt:
     """The recording that an argument names, and its rows."""
     path, rows = split_excerpt(text)
-    recording = load_recording(path, calibration)
+    recording = reading.load(path)
     first, last = rows if rows is not None else (0, len(recording) - 1)
     recording.cut(first, last)  # complains about rows that are not there
     return Excerpt(recording, first, last)

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from .._core import load_recording
 from ..checks import warn_of
 from . import files
-from .arguments import add_calibration, add_command, output_name, read_calibration
+from .arguments import add_calibration, add_command, output_name, reading_of
 
 
 def add_parser(commands: Any) -> None:
@@ -42,7 +41,7 @@ def run(arguments: argparse.Namespace) -> None:
         raise ValueError(f"{target}: expected a name that ends in .csv")
     inputs = [arguments.motive] + ([arguments.calibration] if arguments.calibration else [])
     files.check_outputs([target, target.with_suffix(".json"), arguments.json], inputs)
-    recording = load_recording(arguments.motive, read_calibration(arguments.calibration))
+    recording = reading_of(arguments).load(arguments.motive)
     warn_of([recording])
     recording.save(target)
     dropouts = int(np.count_nonzero(~recording.diabolo_valid))

@@ -23,13 +23,15 @@ from ..report import check as check_report
 from ..report import report_html
 from . import files
 from .arguments import (
+    Reading,
     add_calibration,
     add_command,
     output_name,
     progress_steps,
-    read_calibration,
     read_excerpt,
     read_model,
+    reading_of,
+    reading_options,
     split_excerpt,
 )
 
@@ -96,9 +98,9 @@ def run(arguments: argparse.Namespace) -> None:
     settings = [arguments.calibration] if arguments.calibration else []
     settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
     files.check_outputs(outputs, [*inputs, *settings], folder)
-    calibration = read_calibration(arguments.calibration)
+    reading = reading_of(arguments)
     takes, held = (
-        [_cut(read_excerpt(text, calibration)) for text in given]
+        [_cut(read_excerpt(text, reading)) for text in given]
         for given in (arguments.recordings, arguments.holdout)
     )
     hashes = [_input(path) for path in inputs]
@@ -129,20 +131,19 @@ def run(arguments: argparse.Namespace) -> None:
         if folder is not None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
     if folder is not None and diagnosis.headline != "INSUFFICIENT_DATA":
-        check_written(folder / MODEL_FILE, diagnosis.model, arguments, calibration)
+        check_written(folder / MODEL_FILE, diagnosis.model, arguments, reading)
 
 
-def check_written(file: Path, model: Model, arguments: argparse.Namespace, calibration: Any) -> None:
+def check_written(file: Path, model: Model, arguments: argparse.Namespace, reading: Reading) -> None:
     """Has a new process predict the recordings by the written model: that must be what it predicts here."""
-    excerpts = [read_excerpt(text, calibration) for text in arguments.recordings]
+    excerpts = [read_excerpt(text, reading) for text in arguments.recordings]
     try:
         here = evaluate(excerpts, model, starts_every=BETWEEN_CHECKS, threads=arguments.threads).to_dict()
     except ValueError:  # no start that an evaluation takes
         return
     command = [sys.executable, "-m", "diabolo", "evaluate", f"--model={file}", f"--json={files.STDOUT}"]
     command += [f"--starts=every={BETWEEN_CHECKS}"]
-    command += [f"--calibration={arguments.calibration}"] if arguments.calibration else []
-    command += ["--", *arguments.recordings]
+    command += [*reading_options(arguments), "--", *arguments.recordings]
     environment = {**os.environ, "PYTHONSAFEPATH": "1"}
     process = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     found = _means(json.loads(process.stdout)) if process.returncode == 0 else process.stderr.strip()

@@ -16,9 +16,9 @@ from .arguments import (
     add_command,
     output_name,
     progress_bar,
-    read_calibration,
     read_excerpt,
     read_model,
+    reading_of,
     split_excerpt,
 )
 from .tables import format_table
@@ -88,8 +88,8 @@ def run(arguments: argparse.Namespace) -> None:
         from . import plots
 
         plots.check(arguments.plot)
-    calibration = read_calibration(arguments.calibration)
-    excerpts = [read_excerpt(text, calibration) for text in arguments.recordings]
+    reading = reading_of(arguments)
+    excerpts = [read_excerpt(text, reading) for text in arguments.recordings]
     result = evaluate_excerpts(
         excerpts, models, starts_every=starts_every, seed=arguments.seed, threads=arguments.threads
     )

@@ -5,15 +5,16 @@ from __future__ import annotations
 
 import argparse
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import MotiveTake, Recording, RecordingError, load_recording
+from .._core import MotiveTake, Recording, RecordingError
 from . import files
-from .arguments import add_calibration, add_command, read_calibration
+from .arguments import Reading, add_calibration, add_command, reading_of
 from .tables import format_table
 
 SCHEMA = "diabolo.info/1"
@@ -25,8 +26,10 @@ def add_parser(commands: Any) -> None:
         "info",
         run=run,
         summary="show what is in a recording",
-        text="Show what is in a recording: rigid bodies and their dropouts, duration, the diabolo's spin.",
-        example="  diabolo info throw_1.csv\n  diabolo info throw_1.csv --json -",
+        text="Show what is in a recording: rigid bodies and their dropouts, duration, the diabolo's spin, what\n"
+        "was changed in reading it, and what is odd about it.",
+        example="  diabolo info throw_1.csv\n  diabolo info throw_1.csv --json -\n"
+        "  diabolo info own.csv --columns time=t[ms],left_x=lx[mm],...",
     )
     parser.add_argument("recording", metavar="RECORDING", help="a Motive export or a tidy recording")
     add_calibration(parser)
@@ -40,28 +43,32 @@ def add_parser(commands: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    calibration = read_calibration(arguments.calibration)
+    reading = reading_of(arguments)
     inputs = [arguments.recording] + ([arguments.calibration] if arguments.calibration else [])
     files.check_outputs([arguments.json], inputs)
-    found = describe(arguments.recording, calibration)
+    found = describe(arguments.recording, reading)
     files.write_json(arguments.json, found)
     if arguments.json != files.STDOUT:
         print(text_of(found))
 
 
-def describe(path: str, calibration: Any) -> dict[str, Any]:
+def describe(path: str, reading: Reading) -> dict[str, Any]:
     """The figures, for JSON of the schema diabolo.info/1."""
     if Path(path).exists() and not Path(path).is_file():
         raise ValueError(f"{path}: a folder, a device or a pipe; expected a file")
     take = _motive_take(path)
     recording: Recording | None = None
-    problem = None
+    problem = refused = None
     try:
-        recording = load_recording(path, calibration)
+        recording = reading.load(path)
     except RecordingError as error:
-        if take is None:
+        refused = str(error).removeprefix(f"{path}: ")
+        if "points up" in refused:  # the frame alone is wrong, and the rest can be told
+            recording = replace(reading, up="z").load(path)
+        elif take is None:
             raise
-        problem = str(error).removeprefix(f"{path}: ")
+        else:
+            problem = refused
     if take is not None:
         time, rate = take.time, take.rate
         bodies = {body.name: ~np.isnan(body.position[:, 0]) for body in take.bodies}
@@ -76,19 +83,21 @@ def describe(path: str, calibration: Any) -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "file": path,
-        "format": "motive" if take is not None else "tidy",
+        "format": "motive" if take is not None else "csv" if reading.columns else "tidy",
         "samples": len(time),
         "rate_hz": rate,
         "duration_s": float(time[-1] - time[0]),
         "bodies": [_body(name, valid, rate) for name, valid in bodies.items()],
         "spin_rad_s": _spin(recording) if recording is not None else None,
         "not_calibrated": problem,
-        "warnings": recording.warnings() if recording is not None else [],
+        "string_length_m": recording.string_length if recording is not None else None,
+        "mass_kg": recording.properties.mass if recording is not None else None,
+        "warnings": _warnings(recording, refused) if recording is not None else [],
     }
 
 
 def text_of(found: dict[str, Any]) -> str:
-    kind = {"motive": "Motive export", "tidy": "tidy recording"}[found["format"]]
+    kind = {"motive": "Motive export", "tidy": "tidy recording", "csv": "CSV of mapped columns"}[found["format"]]
     lines = [
         f"{found['file']}: {kind}, {found['samples']} samples at {found['rate_hz']:g} Hz, "
         f"{found['duration_s']:.2f} s",
@@ -107,6 +116,8 @@ def text_of(found: dict[str, Any]) -> str:
         ),
         "",
     ]
+    if found["string_length_m"] is not None:
+        lines.append(f"string {found['string_length_m']:g} m, diabolo {1e3 * found['mass_kg']:g} g")
     spin = found["spin_rad_s"]
     if found["not_calibrated"]:
         lines.append(f"No tips and no spin: {found['not_calibrated']}.")
@@ -117,8 +128,14 @@ def text_of(found: dict[str, Any]) -> str:
             f"spin: {spin['min']:.1f} to {spin['max']:.1f} rad/s, median {spin['median']:.1f} rad/s; "
             f"faster than {spin['aliases_beyond']:.0f} rad/s would alias"
         )
-    lines += [f"odd: {sentence}" for sentence in found["warnings"]]
+    lines += [f"odd: {sentence}" for sentence in found["warnings"]] or ["nothing odd"]
     return "\n".join(lines)
+
+
+def _warnings(recording: Recording, refused: str | None) -> list[str]:
+    if refused is None:
+        return recording.warnings()
+    return [refused, *(sentence for sentence in recording.warnings() if "points up" not in sentence)]
 
 
 def _motive_take(path: str) -> MotiveTake | None:

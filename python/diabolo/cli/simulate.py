@@ -22,9 +22,9 @@ from .arguments import (
     add_calibration,
     add_command,
     output_name,
-    read_calibration,
     read_excerpt,
     read_model,
+    reading_of,
     split_excerpt,
 )
 
@@ -106,7 +106,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording, NDArray[np.uint8]]:
     """The recording from the first row that a prediction can start from, its diabolo predicted."""
-    excerpt = read_excerpt(arguments.on, read_calibration(arguments.calibration))
+    excerpt = read_excerpt(arguments.on, reading_of(arguments))
     take = excerpt.recording.cut(excerpt.first, excerpt.last)
     predicted = predict(take, model)
     known = ~np.isnan(predicted.states[:, 0])

@@ -15,9 +15,9 @@ from .arguments import (
     add_calibration,
     add_command,
     output_name,
-    read_calibration,
     read_excerpt,
     read_model,
+    reading_of,
     split_excerpt,
 )
 
@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> None:
     inputs += [arguments.calibration] if arguments.calibration else []
     inputs += [arguments.model] if arguments.model and arguments.model not in DEFAULT_MODELS else []
     files.check_outputs([arguments.out], inputs)
-    excerpt = read_excerpt(arguments.recording, read_calibration(arguments.calibration))
+    excerpt = read_excerpt(arguments.recording, reading_of(arguments))
     take = excerpt.recording.cut(excerpt.first, excerpt.last)
     prediction = note = None
     if arguments.model:

@@ -199,7 +199,7 @@ TEST_CASE("The calibration of the blue take is what its own spin shows") {
   const MotiveTake take = load_motive(*folder / "2020-11-12_dia_blue_inclination" /
                                       "Take 2020-11-12 dia_blue inclination data 1 soft linear.csv");
   const Calibration calibration = blue_calibration();
-  const SpinLine line = find_spin_line(take, find_body(calibration.diabolo, take, "the diabolo"));
+  const SpinLine line = find_spin_line(take, *body_of_name(take, calibration.diabolo.bodies));
   CHECK((line.point - calibration.diabolo.point).norm() < 1e-5);
   CHECK((line.axis - calibration.diabolo.axis).norm() < 1e-5);
   CHECK(apply(calibration, take).size() == 19165);

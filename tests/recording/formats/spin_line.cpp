@@ -82,7 +82,7 @@ TEST_CASE(
        {"y_swing_2", "z_hop_1", "z_hop_2", "acceleration_1", "right_hand_extend_1", "throw_1"}) {
     INFO(name);
     const MotiveTake take = load_motive(*folder / "2020-07-11_basic_physics" / (std::string(name) + ".csv"));
-    const SpinLine line = find_spin_line(take, find_body(red, take, "the diabolo"));
+    const SpinLine line = find_spin_line(take, *body_of_name(take, red.bodies));
     CHECK((line.point - point).norm() < 2e-3);
     CHECK((line.axis + red.axis).norm() < 0.5 * std::numbers::pi / 180.0);
   }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "diabolo/recording/check.hpp"
+#include "diabolo/recording/formats/body_names.hpp"
 #include "diabolo/recording/formats/motive.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/error.hpp"
@@ -105,24 +107,20 @@ inline void check_calibration(const Calibration& calibration, const std::string&
   check_properties(calibration.properties, calibration.string_length, where);
 }
 
-/// The rigid body of `take` that `part` (of the given name, for messages) asks for.
-/// Throws RecordingError that names the bodies tried and those found.
-inline const MotiveBody& find_body(const BodyPoint& part, const MotiveTake& take, const std::string& name) {
-  for (const std::string& wanted : part.bodies)
-    for (const MotiveBody& body : take.bodies)
-      if (body.name == wanted) return body;
-  std::string tried, found;
-  for (const std::string& wanted : part.bodies) tried += (tried.empty() ? "" : ", ") + shown(wanted);
-  for (const MotiveBody& body : take.bodies) found += (found.empty() ? "" : ", ") + shown(body.name);
-  throw RecordingError(take.file_name + ": no rigid body for " + name + ": tried " + tried +
-                       "; the file has " + (found.empty() ? "none" : found));
-}
-
 /// The smallest rotation that takes x to the direction of `axis`, of any length but zero.
 inline Eigen::Quaterniond turn_from_x(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d to = axis.normalized();
   const Eigen::Quaterniond doubled(1.0 + to[0], 0.0, -to[2], to[1]);  // cos and sin of half the angle, scaled
   return doubled.norm() < 1e-9 ? Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0) : doubled.normalized();
+}
+
+/// The left stick's, the right stick's and the diabolo's body; see above.
+inline std::array<const MotiveBody*, 3> find_bodies(const Calibration& calibration, const MotiveTake& take,
+                                                    std::vector<std::string>& notes) {
+  return find_bodies({{{calibration.left.bodies, "the left stick", "left"},
+                       {calibration.right.bodies, "the right stick", "right"},
+                       {calibration.diabolo.bodies, "the diabolo", "diabolo"}}},
+                     take, notes);
 }
 
 /// The recording that a take shows under a calibration: the bodies' points and axes, in the world frame.
@@ -132,9 +130,8 @@ inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
   check_calibration(calibration, "calibration");
   const Eigen::Quaterniond yaw(Eigen::AngleAxisd(calibration.world_yaw, Eigen::Vector3d::UnitZ()));
   const Eigen::Index size = take.time.size();
-  const auto transform = [&](const BodyPoint& part, const std::string& name, Track& track,
+  const auto transform = [&](const BodyPoint& part, const MotiveBody& body, Track& track,
                              OrientationTrack& orientation) {
-    const MotiveBody& body = find_body(part, take, name);
     // Any rotation that takes body x to the axis would do; this one turns least.
     const Eigen::Quaterniond to_axis = turn_from_x(part.axis);
     track = Track::missing(size);
@@ -152,9 +149,11 @@ inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
   result.rate = take.rate;
   result.frame = take.frame;
   result.time = take.time;
-  transform(calibration.left, "the left stick", result.left, result.left_orientation);
-  transform(calibration.right, "the right stick", result.right, result.right_orientation);
-  transform(calibration.diabolo, "the diabolo", result.diabolo, result.diabolo_orientation);
+  result.notes = take.notes;
+  const std::array<const MotiveBody*, 3> bodies = find_bodies(calibration, take, result.notes);
+  transform(calibration.left, *bodies[0], result.left, result.left_orientation);
+  transform(calibration.right, *bodies[1], result.right, result.right_orientation);
+  transform(calibration.diabolo, *bodies[2], result.diabolo, result.diabolo_orientation);
   result.properties = calibration.properties;
   result.string_length = calibration.string_length;
   return result;

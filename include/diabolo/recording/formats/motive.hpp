@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "diabolo/recording/check.hpp"
+#include "diabolo/recording/formats/row_times.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/csv.hpp"
 #include "diabolo/text/error.hpp"
@@ -47,6 +48,7 @@ struct MotiveTake {
   Eigen::VectorXd time;     ///< [s], strictly increasing
   std::vector<MotiveBody> bodies;
   std::vector<MotiveMarker> markers;
+  std::vector<std::string> notes;  ///< what its reader changed or took for granted, a clause each
 };
 
 /// The first cell of a Motive export, by which it is recognised.
@@ -55,7 +57,8 @@ inline constexpr std::string_view kMotiveMark = "Format Version";
 /// One pass over a Motive CSV of format 1.22; use read_motive().
 class MotiveReader {
  public:
-  MotiveReader(std::string_view text, const std::string& file_name) : csv_(text, file_name) {
+  MotiveReader(std::string_view text, const std::string& file_name)
+      : csv_(text, file_name, CutLine::kLeaveOut), times_(csv_) {
     take_.file_name = file_name;
   }
 
@@ -195,31 +198,28 @@ class MotiveReader {
         marker.valid[i] = read_position(marker_columns_[m], marker.position, i);
       }
     }
-    if (static_cast<double>(take_.frame.size()) != declared_rows_)
-      throw RecordingError(take_.file_name + ": " + std::to_string(take_.frame.size()) +
-                           " lines of data, but line 1 says " + shown(declared_rows_) +
-                           " exported frames; the file may be cut off");
+    const double rows = static_cast<double>(take_.frame.size());
+    if (!(rows <= declared_rows_))
+      throw RecordingError(take_.file_name + ": " + shown(rows) + " lines of data, but line 1 says " +
+                           shown(declared_rows_) + " exported frames; expected no more than it says");
+    take_.notes = times_.notes();
+    if (rows < declared_rows_)
+      take_.notes.push_back("of the " + shown(declared_rows_) + " exported frames that line 1 tells of, " +
+                            shown(rows) + " are there: the file is cut off");
+    else if (csv_.is_cut())
+      take_.notes.push_back(kCutLineNote);
     check_rate(take_.rate, take_.time, take_.file_name);
   }
 
   void read_frame_and_time(Eigen::Index i) {
-    const double frame = row_[0], time = row_[1];
+    const double frame = row_[0];
     if (!(std::abs(frame) <= 1e15 && std::floor(frame) == frame))
       csv_.fail("frame " + shown(frame) + "; expected a whole number");
-    if (!(std::abs(time) <= kLargestTime))
-      csv_.fail("time " + shown(time) + " s; expected a number within 1e9 s");
-    if (i > 0 && time - take_.time[i - 1] > kLongestGap)
-      csv_.fail("time " + shown(time) + " s comes more than an hour after " + shown(take_.time[i - 1]) +
-                " s; expected one take a file");
-    if (i > 0 && time - take_.time[0] > kLongestRecording)
-      csv_.fail("time " + shown(time) + " s comes more than a day after the first, " + shown(take_.time[0]) +
-                " s; expected one take a file");
     const long number = static_cast<long>(frame);
-    if (i > 0 && (number <= take_.frame.back() || time <= take_.time[i - 1]))
-      csv_.fail("frame " + shown(frame) + " at " + shown(time) + " s does not come after frame " +
-                std::to_string(take_.frame.back()) + " at " + shown(take_.time[i - 1]) + " s");
+    if (i > 0 && number <= take_.frame.back())
+      csv_.fail("frame " + shown(frame) + " does not come after frame " + std::to_string(take_.frame.back()));
     take_.frame.push_back(number);
-    take_.time[i] = time;
+    take_.time[i] = times_.next(row_[1]);
   }
 
   void read_body(const Columns& columns, MotiveBody& body, Eigen::Index i) {
@@ -253,6 +253,7 @@ class MotiveReader {
   }
 
   CsvReader csv_;
+  RowTimes times_;
   MotiveTake take_;
   double units_per_metre_ = 1.0;
   double declared_rows_ = 0.0;
@@ -264,7 +265,7 @@ class MotiveReader {
 /// (errors, marker qualities) are skipped. Centimetres and millimetres become metres; LF, CRLF and a UTF-8
 /// byte order mark are fine. Throws RecordingError with file, line and what was expected: about anything
 /// else, and about whatever would make a value doubtful (non-unit quaternions, times that do not increase,
-/// other rotations or units, a cut-off file).
+/// other rotations or units). A file that is cut off is read as far as its lines are whole, with a note.
 inline MotiveTake read_motive(std::string_view text, const std::string& file_name) {
   return MotiveReader(text, file_name).read();
 }

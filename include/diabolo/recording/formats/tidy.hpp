@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "diabolo/recording/check.hpp"
+#include "diabolo/recording/formats/columns.hpp"
+#include "diabolo/recording/formats/row_times.hpp"
+#include "diabolo/recording/plausibility/regular_times.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/csv.hpp"
 #include "diabolo/text/error.hpp"
@@ -22,20 +25,14 @@ namespace diabolo {
 struct TidyMetadata {
   DiaboloProperties properties = kRedDiabolo;
   double string_length = kPublishedStringLength;  ///< [m]
-  double rate = 0.0;                              ///< nominal sampling rate [Hz]
+  double rate = 0.0;                              ///< nominal sampling rate [Hz]; 0: that of the times
 };
-
-/// The columns of a tidy CSV: s, m, unit quaternions; world frame, body x = spin axis or along the stick
-/// outwards. The last eight, the orientation of the sticks, may be left out, each stick's four together.
-inline constexpr std::array<std::string_view, 22> kTidyColumns{
-    "time",      "left_x",    "left_y",     "left_z",     "right_x",    "right_y",    "right_z", "diabolo_x",
-    "diabolo_y", "diabolo_z", "diabolo_qx", "diabolo_qy", "diabolo_qz", "diabolo_qw", "left_qx", "left_qy",
-    "left_qz",   "left_qw",   "right_qx",   "right_qy",   "right_qz",   "right_qw"};
 
 /// One pass over a tidy CSV; use read_tidy().
 class TidyReader {
  public:
-  TidyReader(std::string_view text, const std::string& file_name) : csv_(text, file_name) {}
+  TidyReader(std::string_view text, const std::string& file_name, const std::vector<Column>& columns)
+      : csv_(text, file_name, CutLine::kLeaveOut), times_(csv_), columns_(columns) {}
 
   Recording read(const TidyMetadata& metadata) && {
     read_header();
@@ -55,23 +52,26 @@ class TidyReader {
     if (has(kLeftOrientation)) result.left_orientation = OrientationTrack::missing(size);
     if (has(kRightOrientation)) result.right_orientation = OrientationTrack::missing(size);
     for (Eigen::Index i = 0; !csv_.at_end(); ++i) {
-      csv_.next_numbers(row_);
-      read_time(result, i);
+      csv_.next_numbers(row_, ignored_);
+      result.time[i] = times_.next(value(0));
       read_position(result.left, 1, i);
       read_position(result.right, 4, i);
       read_position(result.diabolo, 7, i);
-      read_orientation(result.diabolo_orientation, 10, i);
+      if (has(kDiaboloOrientation)) read_orientation(result.diabolo_orientation, kDiaboloOrientation, i);
       if (has(kLeftOrientation)) read_orientation(result.left_orientation, kLeftOrientation, i);
       if (has(kRightOrientation)) read_orientation(result.right_orientation, kRightOrientation, i);
     }
+    if (result.rate == 0.0 && size > 1) result.rate = rate_of(result.time);
     check_rate(result.rate, result.time, csv_.file());
     check_properties(result.properties, result.string_length, csv_.file());
     for (const double time : result.time) result.frame.push_back(std::lround(time * result.rate));
+    result.notes = times_.notes();
+    if (csv_.is_cut()) result.notes.push_back(kCutLineNote);
     return result;
   }
 
  private:
-  static constexpr std::size_t kLeftOrientation = 14, kRightOrientation = 18;
+  static constexpr std::size_t kDiaboloOrientation = 10, kLeftOrientation = 14, kRightOrientation = 18;
   static constexpr std::size_t kAbsent = kTidyColumns.size();
 
   bool has(std::size_t column) const { return at_[column] != kAbsent; }
@@ -79,44 +79,61 @@ class TidyReader {
   void read_header() {
     const std::vector<std::string_view> cells = csv_.next_cells();
     at_.fill(kAbsent);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const auto column = std::ranges::find(kTidyColumns, cells[c]);
-      if (column == kTidyColumns.end())
-        csv_.fail("column " + std::to_string(c + 1) + " is " + shown(cells[c]) +
-                  ", which a tidy recording lacks");
-      std::size_t& at = at_[static_cast<std::size_t>(column - kTidyColumns.begin())];
-      if (at != kAbsent) csv_.fail("column " + shown(cells[c]) + " is there twice");
-      at = c;
+    unit_.fill(1.0);
+    row_.resize(cells.size());
+    if (columns_.empty()) {
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        const auto column = std::ranges::find(kTidyColumns, cells[c]);
+        if (column == kTidyColumns.end())
+          csv_.fail("column " + std::to_string(c + 1) + " is " + shown(cells[c]) +
+                    ", which a tidy recording lacks (--columns maps other names)");
+        place(column - kTidyColumns.begin(), c);
+      }
+    } else {
+      map_columns(cells);
     }
     for (std::size_t k = 0; k < kTidyColumns.size(); ++k) {
-      const std::size_t group = k < kLeftOrientation    ? k
-                                : k < kRightOrientation ? kLeftOrientation
-                                                        : kRightOrientation;
-      const bool expected =
-          k < kLeftOrientation || std::any_of(at_.begin() + static_cast<std::ptrdiff_t>(group),
-                                              at_.begin() + static_cast<std::ptrdiff_t>(group + 4),
-                                              [](std::size_t at) { return at != kAbsent; });
-      if (expected && !has(k)) csv_.fail("column " + shown(kTidyColumns[k]) + " is missing");
+      const std::size_t first = k < kDiaboloOrientation ? k : k - (k - kDiaboloOrientation) % 4;
+      const bool is_needed = k < (columns_.empty() ? kLeftOrientation : kDiaboloOrientation) || has(first) ||
+                             has(first + 1) || has(first + 2) || has(first + 3);
+      if (is_needed && !has(k)) csv_.fail("column " + shown(kTidyColumns[k]) + " is missing");
     }
-    row_.resize(cells.size());
   }
 
-  double value(std::size_t column) const { return row_[at_[column]]; }
-
-  void read_time(Recording& recording, Eigen::Index i) const {
-    const double time = value(0);
-    if (!(std::abs(time) <= kLargestTime))
-      csv_.fail("time " + shown(time) + " s; expected a number within 1e9 s");
-    if (i > 0 && time <= recording.time[i - 1])
-      csv_.fail("time " + shown(time) + " s does not come after " + shown(recording.time[i - 1]) + " s");
-    if (i > 0 && time - recording.time[i - 1] > kLongestGap)
-      csv_.fail("time " + shown(time) + " s comes more than an hour after " + shown(recording.time[i - 1]) +
-                " s; expected one play a file");
-    if (i > 0 && time - recording.time[0] > kLongestRecording)
-      csv_.fail("time " + shown(time) + " s comes more than a day after the first, " +
-                shown(recording.time[0]) + " s; expected one play a file");
-    recording.time[i] = time;
+  void place(std::ptrdiff_t tidy, std::size_t cell) {
+    std::size_t& at = at_[static_cast<std::size_t>(tidy)];
+    if (at != kAbsent)
+      csv_.fail("column " + shown(kTidyColumns[static_cast<std::size_t>(tidy)]) + " is there twice");
+    at = cell;
   }
+
+  /// Finds the columns that are mapped, then tidy ones that are not, and lets the others be.
+  void map_columns(const std::vector<std::string_view>& cells) {
+    for (const Column& column : columns_) {
+      const std::ptrdiff_t tidy = std::ranges::find(kTidyColumns, column.tidy) - kTidyColumns.begin();
+      bool found = false;
+      for (const std::string& name : {column.given, column.bare})
+        for (std::size_t c = 0; c < cells.size() && !found; ++c)
+          if (cells[c] == name) place(tidy, c), found = true;
+      if (!found) {
+        std::string names;
+        for (std::size_t c = 0; c < std::min<std::size_t>(cells.size(), 30); ++c)
+          names += (c > 0 ? ", " : "") + shown(cells[c]);
+        csv_.fail("no column " + shown(column.bare) + " for " + column.tidy + "; the file has " + names);
+      }
+      unit_[static_cast<std::size_t>(tidy)] = column.unit;
+    }
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const auto column = std::ranges::find(kTidyColumns, cells[c]);
+      if (column != kTidyColumns.end() && !has(static_cast<std::size_t>(column - kTidyColumns.begin())))
+        place(column - kTidyColumns.begin(), c);
+    }
+    ignored_.assign(cells.size(), 1);
+    for (const std::size_t at : at_)
+      if (at != kAbsent) ignored_[at] = 0;
+  }
+
+  double value(std::size_t column) const { return row_[at_[column]] * unit_[column]; }
 
   /// Whether the `count` cells from a column on are empty; RecordingError where only some are.
   bool all_empty(std::size_t column, std::size_t count) const {
@@ -148,16 +165,21 @@ class TidyReader {
   }
 
   CsvReader csv_;
+  RowTimes times_;
+  const std::vector<Column>& columns_;  ///< of a CSV of somebody's own; none of a tidy one
   std::array<std::size_t, kTidyColumns.size()> at_{};
+  std::array<double, kTidyColumns.size()> unit_{};
+  std::vector<char> ignored_;
   std::vector<double> row_;
 };
 
 /// Reads the text of a tidy CSV: kTidyColumns in any order, empty cells for dropouts. `frame` is time * rate,
-/// rounded; the recording is named after the file. Throws RecordingError with file, line and what was
-/// expected.
-inline Recording read_tidy(std::string_view text, const std::string& file_name,
-                           const TidyMetadata& metadata) {
-  return TidyReader(text, file_name).read(metadata);
+/// rounded; the recording is named after the file. `columns` map a CSV of somebody's own, of which other
+/// columns are left alone and the diabolo's orientation may be missing. Throws RecordingError with file, line
+/// and what was expected.
+inline Recording read_tidy(std::string_view text, const std::string& file_name, const TidyMetadata& metadata,
+                           const std::vector<Column>& columns = {}) {
+  return TidyReader(text, file_name, columns).read(metadata);
 }
 
 /// The text of a tidy CSV, numbers in their shortest form that reads back as the same double.

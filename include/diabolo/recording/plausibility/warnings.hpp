@@ -7,8 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/recording/plausibility/fall.hpp"
 #include "diabolo/recording/plausibility/odd_stretches.hpp"
+#include "diabolo/recording/plausibility/odd_tips.hpp"
 #include "diabolo/recording/plausibility/odd_tracking.hpp"
+#include "diabolo/recording/plausibility/regular_times.hpp"
 #include "diabolo/recording/plausibility/usual_path.hpp"
 #include "diabolo/recording/recording.hpp"
 
@@ -24,13 +27,25 @@ inline constexpr double kLongestRest = 0.1;
 /// Longest time without rows [s] (beyond one period), and the largest share of rows that may be missing.
 inline constexpr double kLongestWithoutRows = 0.1, kMostMissingRows = 0.05;
 
-/// What is odd about a recording that is well formed: each a clause that says what is found and what it
-/// means. Whatever is computed from such a recording deserves a second look.
+/// What its reader changed in a recording, and what is odd about it although it is well formed: each a clause
+/// that says what is found and what it means. Whatever is computed from such a recording deserves a second
+/// look.
 inline std::vector<std::string> warnings(const Recording& recording) {
-  std::vector<std::string> result;
-  for (std::string clause :
-       {odd_path_length(recording), odd_height(recording), odd_axle(recording), odd_names(recording)})
-    if (!clause.empty()) result.push_back(std::move(clause));
+  std::vector<std::string> result = recording.notes;
+  const auto is_odd = [&result](std::string clause) {
+    if (clause.empty()) return false;
+    result.push_back(std::move(clause));
+    return true;
+  };
+  // One cause, one clause: what follows from another oddity is not told as well.
+  const std::vector<Fall> fallen = falls(recording);
+  is_odd(odd_times(recording));
+  if (!is_odd(odd_still_tips(recording, fallen)) && !is_odd(odd_path_length(recording)) &&
+      !is_odd(odd_distance(recording)) && !is_odd(odd_up(recording, fallen)) &&
+      !is_odd(odd_height(recording)) && !is_odd(odd_shift(recording)))
+    is_odd(odd_fall(recording, fallen));
+  is_odd(odd_axle(recording));
+  is_odd(odd_names(recording));
   const Track* const tips[2] = {&recording.left, &recording.right};
   const Track* const none[2] = {nullptr, nullptr};
   for (const auto& [side, tip] : {std::pair{"left", tips[0]}, std::pair{"right", tips[1]}})

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/recording/plausibility/swapped_bodies.hpp"
+#include "diabolo/recording/recording.hpp"
+
+namespace diabolo {
+
+/// Bounds of real motion, beyond those of any player: acceleration of a tip or a diabolo [m/s^2], change of
+/// its velocity within a sample, as at a catch [m/s], and what noise may add [m]. A sample of which these do
+/// not hold has a marker under another's name, or a reflection.
+inline constexpr double kHardestAcceleration = 500.0, kMostKick = 15.0, kMostNoise = 0.03;
+
+/// Longest time for which a body jumps away and back [s].
+inline constexpr double kLongestJump = 0.05;
+
+/// Marks the samples of a track that jump away from its motion and back within kLongestJump. Between samples
+/// that are T apart no body leaves the chord by more than acceleration * T^2 / 8. Samples beside a dropout
+/// are seen from one side only, and must leave the motion there by more than a kick explains. Linear in rows.
+class JumpFinder {
+ public:
+  JumpFinder(const Track& track, const Recording& r) : track_(track), recording_(r), period_(1.0 / r.rate) {}
+
+  /// True where a sample is not believed.
+  Marks find() && {
+    marks_ = Marks::Constant(track_.valid.size(), false);
+    for (const bool backwards : {false, true}) {
+      backwards_ = backwards;
+      pass();
+    }
+    return std::move(marks_);
+  }
+
+ private:
+  using Index = Eigen::Index;
+
+  Index row(Index i) const { return backwards_ ? track_.valid.size() - 1 - i : i; }
+  bool seen(Index i) const {
+    return i >= 0 && i < track_.valid.size() && track_.valid[row(i)] && !marks_[row(i)];
+  }
+  /// Whether sample i + 1 is seen and follows sample i, which is seen.
+  bool follows(Index i) const {
+    return seen(i) && seen(i + 1) && recording_.steps_evenly(backwards_ ? row(i + 1) : row(i));
+  }
+  Eigen::Vector3d at(Index i) const { return track_.position.col(row(i)); }
+  /// How far from its chord over that many periods a body may be [m].
+  double sagitta(double periods) const {
+    const double time = periods * period_;
+    return kMostNoise + kHardestAcceleration * time * time / 8.0;
+  }
+  bool keeps_on(Index before, Index i, Index after) const {
+    return (0.5 * (at(before) + at(after)) - at(i)).norm() <= sagitta(2.0);
+  }
+
+  void pass() {
+    const Index size = track_.valid.size();
+    for (Index i = 1; i + 1 < size; ++i) {
+      if (!follows(i - 1) || !follows(i) || !keeps_on(i - 1, i, i + 1)) continue;
+      for (++i; follows(i);) {  // the motion is known at i
+        const Index back = keeps_on(i - 1, i, i + 1) ? i + 1 : mark_jump(i);
+        if (back == i) break;
+        i = back;
+      }
+    }
+  }
+
+  /// Marks a jump right after sample i; returns the sample from which the motion is known again, i for none.
+  Index mark_jump(Index i) {
+    const Index longest = std::max<Index>(1, static_cast<Index>(kLongestJump * recording_.rate + 0.5));
+    const Eigen::Vector3d step = at(i) - at(i - 1);
+    for (Index k = 1; k <= longest; ++k) {
+      if (!follows(i + k)) {
+        mark_until_dropout(i, k, step);
+        return i;
+      }
+      const Index back = i + k + 1;
+      const double periods = static_cast<double>(k + 1);
+      const Eigen::Vector3d way = at(back) - at(i);
+      if ((way - periods * step).norm() > 4.0 * sagitta(periods)) continue;
+      const auto is_off = [&](Index j) {
+        const double share = static_cast<double>(j - i) / periods;
+        return (at(j) - at(i) - share * way).norm() > sagitta(periods);
+      };
+      if (!is_off(i + 1) || !is_off(back - 1)) continue;
+      for (Index j = i + 1; j < back; ++j)
+        if (is_off(j)) found_.push_back(row(j));
+      return settle(), follows(back) ? back + 1 : back;
+    }
+    return i;
+  }
+
+  /// The k samples after i, which a dropout follows: marked where all leave the motion.
+  void mark_until_dropout(Index i, Index k, const Eigen::Vector3d& step) {
+    for (Index j = 1; j <= k; ++j) {
+      const double periods = static_cast<double>(j);
+      if ((at(i + j) - at(i) - periods * step).norm() <=
+          4.0 * sagitta(periods) + kMostKick * periods * period_)
+        return found_.clear();
+      found_.push_back(row(i + j));
+    }
+    settle();
+  }
+
+  void settle() {
+    for (const Index j : found_) marks_[j] = true;
+    found_.clear();
+  }
+
+  const Track& track_;
+  const Recording& recording_;
+  const double period_;
+  Marks marks_;
+  std::vector<Index> found_;
+  bool backwards_ = false;
+};
+
+/// Makes dropouts of samples in which a body jumps away and back (JumpFinder), but for those in which bodies
+/// are under each other's names (unswap). Returns how many; a note counts them by body.
+inline Eigen::Index mask_jumps(Recording& r) {
+  const std::array<Track*, 3> tracks = detail::tracks_of(r);
+  std::array<Marks, 3> jumps;
+  for (std::size_t b = 0; b < 3; ++b) jumps[b] = JumpFinder(*tracks[b], r).find();
+  if (!(jumps[0] || jumps[1] || jumps[2]).any()) return 0;
+  Recording given = r;
+  for (const auto& [first, last] : unswap(given).rows)
+    for (Marks& marks : jumps) marks.segment(first, last - first + 1).setConstant(false);
+  constexpr std::array<const char*, 3> kNames{"left tip", "right tip", "diabolo"};
+  std::string counts;
+  Eigen::Index total = 0;
+  for (std::size_t b = 0; b < 3; ++b) {
+    const Eigen::Index count = jumps[b].count();
+    if (count == 0) continue;
+    total += count;
+    counts += (counts.empty() ? "" : ", ") + std::string(kNames[b]) + " " + std::to_string(count);
+    OrientationTrack& turn = *detail::orientations_of(r)[b];
+    for (Eigen::Index i = 0; i < r.size(); ++i) {
+      if (!jumps[b][i]) continue;
+      tracks[b]->valid[i] = false;
+      tracks[b]->position.col(i).setConstant(kNaN);
+      if (turn.empty()) continue;
+      turn.valid[i] = false;
+      turn.quaternion.col(i).setConstant(kNaN);
+    }
+  }
+  if (total > 0)
+    r.notes.push_back(
+        "samples jump away and back faster than anything moves: they are left out as dropouts (" + counts +
+        ")");
+  return total;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/recording/plausibility/fall.hpp"
+#include "diabolo/recording/plausibility/usual_path.hpp"
+#include "diabolo/recording/recording.hpp"
+#include "diabolo/text/shown.hpp"
+
+namespace diabolo {
+
+/// A tip that does not move by a digit for this long [s] is asked whether the string allows it.
+inline constexpr double kLongestStill = 1.0;
+
+/// Shares of the rows of a still tip in which the string may seem too short, and in which it may be slack
+/// though the diabolo does not fall.
+inline constexpr double kMostTooShort = 0.02, kMostHeldUp = 0.1;
+
+/// A clause about a tip that rests to the last digit while the diabolo moves as if it did not: farther than
+/// the string reaches, or held up by a string that would be slack; else empty.
+inline std::string odd_still_tips(const Recording& r, const std::vector<Fall>& falls) {
+  constexpr double kReach = 0.03;  // m beyond the usual path, or short of it
+  const double usual = usual_path_length(r).value_or(r.string_length);
+  std::string sides;
+  double longest = 0.0;
+  for (const auto& [name, tip] : {std::pair{"left", &r.left}, std::pair{"right", &r.right}}) {
+    std::pair<Eigen::Index, Eigen::Index> still{0, 0};  // first and last row of the longest rest
+    for (Eigen::Index first = 0, i = 1; i <= r.size(); ++i) {
+      if (i < r.size() && tip->valid[i] && tip->position.col(i) == tip->position.col(first)) continue;
+      if (i - 1 - first > still.second - still.first) still = {first, i - 1};
+      first = i;
+    }
+    if (r.size() == 0 || !(r.time[still.second] - r.time[still.first] > kLongestStill)) continue;
+    Eigen::Index known = 0, too_far = 0, fitted = 0, held_up = 0;
+    for (Eigen::Index i = still.first; i <= still.second; ++i) {
+      if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
+      ++known;
+      too_far += path_at(r, i).length() > usual + kReach;
+    }
+    const Eigen::Vector3d gravity(0.0, 0.0, -Parameters<double>{}.gravity);
+    for (const Fall& fall : falls) {
+      if (fall.row < still.first || fall.row > still.second) continue;
+      ++fitted;
+      held_up += path_at(r, fall.row).length() < usual - kReach &&
+                 (fall.acceleration - gravity).norm() > 0.5 * gravity.norm();
+    }
+    if (static_cast<double>(too_far) <= kMostTooShort * static_cast<double>(known) &&
+        static_cast<double>(held_up) <= kMostHeldUp * static_cast<double>(fitted))
+      continue;
+    sides += (sides.empty() ? "" : " and the ") + std::string(name) + " tip";
+    longest = std::max(longest, r.time[still.second] - r.time[still.first]);
+  }
+  if (sides.empty()) return {};
+  return "the " + sides + " rest" + (sides.find(" and ") == sides.npos ? "s" : "") +
+         " to the last digit for " + shown_rounded(longest) +
+         " s while the diabolo moves as no string from there allows: frozen tracking";
+}
+
+/// A clause about tips that are farther apart than the string is long in many rows; else empty.
+inline std::string odd_distance(const Recording& r) {
+  constexpr double kMost = 0.05;  // share of rows
+  Eigen::Index known = 0, apart = 0;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!r.left.valid[i] || !r.right.valid[i]) continue;
+    ++known;
+    apart += (r.left.position.col(i) - r.right.position.col(i)).norm() > r.string_length + kOddPathLength;
+  }
+  const double share = static_cast<double>(apart) / static_cast<double>(std::max<Eigen::Index>(1, known));
+  if (static_cast<double>(known) < kFewestSecondsOfNoPlay * r.rate || known < 20 || share <= kMost) return {};
+  return "the tips are farther apart than the string is long, " + shown(r.string_length) + " m, in " +
+         std::to_string(std::lround(100.0 * share)) + " % of the rows: wrong units, or another string";
+}
+
+/// Longest shift that is looked for [s], the least that is told, and how much oftener the string has its
+/// usual length at a shift before it is.
+inline constexpr double kLongestShift = 1.0, kLeastShift = 0.05, kClearlyOftener = 1.5;
+
+/// A clause about tips that fit the diabolo at another time; else empty. A taut string has one length: of the
+/// paths from the tips of one row over the diabolo of another, the share within 20 mm is largest where both
+/// are of the same time. At most 2000 rows are looked at.
+inline std::string odd_shift(const Recording& r) {
+  constexpr Eigen::Index kMostRows = 2000;
+  constexpr double kLeastTaut = 0.4;
+  if (static_cast<double>(r.size()) < kFewestSeconds * r.rate) return {};
+  const Eigen::Index every = std::max<Eigen::Index>(1, r.size() / kMostRows);
+  std::vector<double> lengths;
+  const auto taut = [&](Eigen::Index shift) {  // share of the rows, of all
+    lengths.clear();
+    for (Eigen::Index i = std::max<Eigen::Index>(0, -shift); i < std::min(r.size(), r.size() - shift);
+         i += every)
+      if (r.left.valid[i] && r.right.valid[i] && r.diabolo.valid[i + shift])
+        lengths.push_back((r.left.position.col(i) - r.diabolo.position.col(i + shift)).norm() +
+                          (r.right.position.col(i) - r.diabolo.position.col(i + shift)).norm());
+    if (static_cast<double>(lengths.size() * static_cast<std::size_t>(every)) < kFewestSeconds * r.rate)
+      return 0.0;
+    std::ranges::sort(lengths);
+    std::size_t most = 0;
+    for (std::size_t low = 0, high = 0; low < lengths.size(); ++low) {
+      while (high < lengths.size() && lengths[high] < lengths[low] + 0.02) ++high;
+      most = std::max(most, high - low);
+    }
+    return static_cast<double>(most) / static_cast<double>(lengths.size());
+  };
+  const double now = taut(0);
+  const Eigen::Index longest = std::lround(kLongestShift * r.rate),
+                     step = std::max<Eigen::Index>(1, std::lround(0.02 * r.rate));
+  Eigen::Index best = 0;
+  double most = now;
+  for (Eigen::Index shift = -longest; shift <= longest; shift += step)
+    if (const double share = taut(shift); share > most) most = share, best = shift;
+  if (most < kLeastTaut || most < kClearlyOftener * now ||
+      static_cast<double>(std::abs(best)) < kLeastShift * r.rate)
+    return {};
+  return "the string has its length where the diabolo is taken " +
+         shown_rounded(static_cast<double>(std::abs(best)) / r.rate) + " s " +
+         (best > 0 ? "later" : "earlier") + " than the tips: they are shifted against each other";
+}
+
+}  // namespace diabolo
