@@ -19,13 +19,22 @@ from ._core import (
     Model,
     Parameters,
     Plan,
-    Recording,
     State,
     StickSpline,
     TipLimits,
     TipPath,
 )
-from .checks import LARGEST_SEED, instance_of, list_of, model_of, warn_of, whole_number
+from .checks import (
+    LARGEST_SEED,
+    AnyRecording,
+    instance_of,
+    list_of,
+    model_of,
+    numbers,
+    recording_of,
+    warn_of,
+    whole_number,
+)
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters | str
@@ -303,11 +312,12 @@ def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
     return ended / len(given)
 
 
-def model_for(model: AnyModel, recording: Recording) -> Model:
+def model_for(model: AnyModel, recording: AnyRecording) -> Model:
     """The model with the string's length, mass and axle radius of the recording where it leaves them to it,
     as one that `diagnose` made does: to plan on it for the set-up that was recorded."""
     one = Model(model) if isinstance(model, Parameters) else model_of("model", model)
-    warn_of([instance_of("recording", recording, Recording)])
+    recording = recording_of("recording", recording)
+    warn_of([recording])
     fields = one.to_dict()
     parameters = copy(one.parameters)
     if not one.own_string_length:
@@ -370,7 +380,7 @@ def _rungs(result: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:
-    return np.zeros(6) if sticks is None else np.asarray(sticks, dtype=float)
+    return np.zeros(6) if sticks is None else numbers("sticks", sticks)
 
 
 def _going_on(seed: StickSpline, path: TipPath) -> StickSpline:

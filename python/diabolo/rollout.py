@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import Model, Parameters, TipMotion
-from .checks import MOST_THREADS, list_of, whole_number
+from .checks import MOST_THREADS, list_of, numbers, whole_number
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters
@@ -31,6 +31,20 @@ class Rollout(NamedTuple):
     """Position [m], velocity [m/s] and spin [rad/s], shape (N, frames, 7)."""
     string_states: NDArray[np.uint8]
     """As in StringState, shape (N, frames)."""
+
+    def __repr__(self) -> str:
+        """How many samples, over how long, and where the first one ends."""
+        batch = f"{len(self.states)} rollouts of " if self.states.ndim == 3 else ""
+        text = f"<Rollout: {batch}{len(self.time)} samples"
+        if not len(self.time):
+            return text + ">"
+        end = self.states[..., -1, :].reshape(-1, self.states.shape[-1])[0]
+        code = StringState(int(self.string_states[..., -1].reshape(-1)[0])).name.lower()
+        place = ", ".join(f"{x:.3f}" for x in end[:3])
+        return (
+            f"{text} to {self.time[-1]:.4g} s, {'the first ' if batch else ''}ends at ({place}) m, "
+            f"{np.linalg.norm(end[3:6]):.2f} m/s, {end[6]:.1f} rad/s, {code}>"
+        )
 
 
 class RolloutGradient(NamedTuple):
@@ -79,11 +93,11 @@ def rollout(
     """
     models = [_model(one) for one in list_of("model", model, (Model, Parameters))]
     motions = list_of("tips", tips, (TipMotion,))
-    states = np.asarray(initial, dtype=np.float64)
+    states = numbers("initial", initial)
     codes = _codes(string_state)
     if states.ndim not in (1, 2) or states.shape[-1] != 7 or states.size == 0:
         raise ValueError(f"initial: shape {states.shape}; expected (7,) or (N, 7)")
-    axes = np.asarray(axis, dtype=np.float64)
+    axes = numbers("axis", axis)
     if axes.ndim not in (1, 2) or axes.shape[-1] != 3:
         raise ValueError(f"axis: shape {axes.shape}; expected (3,) or (N, 3)")
     if not np.allclose(np.linalg.norm(axes, axis=-1), 1.0, rtol=0.0, atol=1e-6):
@@ -161,7 +175,7 @@ def rollout_gradient(
         g = rollout_gradient(Parameters(), initial, tips, ["string_length"], steps=500)
         g.derivatives["string_length"][2]  # height at the end per string length
     """
-    state = np.asarray(initial, dtype=np.float64)
+    state = numbers("initial", initial)
     if state.shape != (7,):
         raise ValueError(f"initial: shape {state.shape}; expected (7,)")
     start = tips.begin if begin is None else float(begin)
