@@ -73,8 +73,8 @@ double energy(const State<Scalar>& state, double gravity) {
          gravity * static_cast<double>(state.position.z());
 }
 
-TEMPLATE_TEST_CASE("no bounce on resting tips gains energy, whatever the coefficient and the step", "", double,
-                   float) {
+TEMPLATE_TEST_CASE("no bounce on resting tips gains energy, whatever the coefficient and the step", "",
+                   double, float) {
   const unsigned seed = 1023;
   CAPTURE(seed);
   Random random(seed);
@@ -119,7 +119,8 @@ TEST_CASE("a catch sends the path's rate back by the coefficient, and leaves wha
     Drop scene = drop_from(0.0);
     const Spheroid<double> spheroid(scene.tips.left, scene.tips.right, model.parameters().string_length);
     const Vector at = spheroid.closest_point(spheroid.center() + random.vector(0.3) - Vector(0.0, 0.0, 1.0));
-    const Vector outward = spheroid.normal(at), arriving = outward * random.uniform(0.5, 5.0) + random.vector(2.0);
+    const Vector outward = spheroid.normal(at),
+                 arriving = outward * random.uniform(0.5, 5.0) + random.vector(2.0);
     if (arriving.dot(outward) < 0.1) continue;
     scene.state.position = at - arriving * (0.5 * dt);
     scene.state.velocity = arriving;

@@ -37,10 +37,10 @@ Scalar taut_fraction(const StringStep<Scalar>& step, const Mask<Scalar>& where) 
   return select(where, fraction, Scalar(0));
 }
 
-/// Velocity after the catch of a string that has just come taut, an impulse at both tips. Newton's law of impact
-/// along the string: the outward rate of the path length becomes -restitution times what it was, unless a
-/// resolved spring takes it up. With resting tips the kinetic energy loses
-/// (1 - restitution^2) rate^2 / (2 |gradient|^2), never less than nothing.
+/// Velocity after the catch of a string that has just come taut, an impulse at both tips. Newton's law of
+/// impact along the string: the outward rate of the path length becomes -restitution times what it was,
+/// unless a resolved spring takes it up. With resting tips the kinetic energy loses (1 - restitution^2)
+/// rate^2 / (2 |gradient|^2), never less than nothing.
 template <class Scalar>
 Vector3<Scalar> velocity_after_catch(const StringStep<Scalar>& step, const Vector3<Scalar>& position,
                                      const Vector3<Scalar>& arriving, const Tips<Scalar>& tips) {

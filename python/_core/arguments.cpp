@@ -27,8 +27,8 @@ struct Call {
 using FastCall = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 using PackedCall = PyObject* (*)(PyObject*, PyObject*, PyObject*);
 
-/// pybind11's own entry, the same for all functions, in the form that its version has; and what each function is
-/// called in a message. Written once, when the module is made.
+/// pybind11's own entry, the same for all functions, in the form that its version has; and what each function
+/// is called in a message. Written once, when the module is made.
 struct Dispatch {
   FastCall fast = nullptr;
   PackedCall packed = nullptr;
@@ -101,7 +101,8 @@ PyObject* checked(const Call& call, const Go& go) {
 
 PyObject* checked_fast(PyObject* record, PyObject* const* values, Py_ssize_t positional, PyObject* names) {
   const Call call{record, values, positional, names};
-  return checked(call, [&](PyObject* const* given) { return dispatch().fast(record, given, positional, names); });
+  return checked(call,
+                 [&](PyObject* const* given) { return dispatch().fast(record, given, positional, names); });
 }
 
 /// The form of pybind11 before 3.1: a tuple and a dictionary.
@@ -120,7 +121,8 @@ PyObject* checked_packed(PyObject* record, PyObject* values, PyObject* keywords)
 
 /// Has a function, or the one in a method or a property, called by way of checked().
 void check_function(py::handle function, const std::string& name) {
-  if (PyInstanceMethod_Check(function.ptr())) return check_function(PyInstanceMethod_GET_FUNCTION(function.ptr()), name);
+  if (PyInstanceMethod_Check(function.ptr()))
+    return check_function(PyInstanceMethod_GET_FUNCTION(function.ptr()), name);
   if (py::isinstance<py::staticmethod>(function)) return check_function(function.attr("__func__"), name);
   if (py::isinstance(function, py::handle(reinterpret_cast<PyObject*>(&PyProperty_Type)))) {
     check_function(function.attr("fget"), name);
@@ -149,7 +151,8 @@ void* refuse_to_allocate(std::size_t) {
 
 void check_class(const py::type& type) {
   const std::string name = py::str(type.attr("__name__"));
-  for (const auto& [key, attribute] : py::reinterpret_borrow<py::dict>(type.attr("__dict__").attr("copy")())) {
+  for (const auto& [key, attribute] :
+       py::reinterpret_borrow<py::dict>(type.attr("__dict__").attr("copy")())) {
     const std::string own = py::str(key);
     check_function(attribute, own == "__init__" ? name : name + "." + own);
   }

@@ -57,7 +57,9 @@ P with_fields(P parameters, const py::kwargs& fields) {
 /// The call that makes them again, from the preset that they differ from in the fewest fields.
 std::string shortest_call(const P& parameters) {
   const py::dict fields = to_dict(parameters);
-  const auto from = [&](const char* name, const P& preset) { return call_text(name, fields, to_dict(preset)); };
+  const auto from = [&](const char* name, const P& preset) {
+    return call_text(name, fields, to_dict(preset));
+  };
   return std::min({from("Parameters", P::consistent()), from("Parameters.paper", P::paper()),
                    from("Parameters.published", P::published())},
                   [](const std::string& a, const std::string& b) {

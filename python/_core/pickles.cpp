@@ -21,7 +21,8 @@ namespace py = pybind11;
 
 namespace {
 
-/// Pickles a class that is bound already by what `to_state` gives and `from_state` takes, and copies its values.
+/// Pickles a class that is bound already by what `to_state` gives and `from_state` takes, and copies its
+/// values.
 template <class T, class ToState, class FromState>
 void by_state(const ToState& to_state, const FromState& from_state) {
   auto cls = py::reinterpret_borrow<py::class_<T>>(py::type::of<T>());
@@ -57,8 +58,8 @@ py::tuple state_of(const Goals& goals) {
   const Goals::Tolerances& t = goals.tolerances;
   return py::make_tuple(
       goals.waypoints, goals.final_state, pair_of(goals.spin), goals.taut, pair_of(goals.apex),
-      goals.landing ? Place(std::pair(goals.landing->position, goals.landing->weight)) : Place(), goals.caught,
-      py::make_tuple(t.position, t.velocity, t.direction, t.spin, t.taut));
+      goals.landing ? Place(std::pair(goals.landing->position, goals.landing->weight)) : Place(),
+      goals.caught, py::make_tuple(t.position, t.velocity, t.direction, t.spin, t.taut));
 }
 
 Goals goals_of(const py::tuple& state) {
@@ -85,11 +86,12 @@ void pickle_tip_limits() {
         if (l.others)
           throw py::type_error(
               "TipLimits: others is a function, which cannot be pickled; expected limits without others");
-        return py::make_tuple(l.speed, l.acceleration, l.jerk, l.string_margin, l.least_gap, l.lowest, l.highest);
+        return py::make_tuple(l.speed, l.acceleration, l.jerk, l.string_margin, l.least_gap, l.lowest,
+                              l.highest);
       },
       [](const py::tuple& state) {
-        L limits{state[0].cast<double>(), state[1].cast<double>(), state[2].cast<double>(),
-                 state[3].cast<double>(), state[4].cast<double>(), state[5].cast<Vector3<double>>(),
+        L limits{state[0].cast<double>(),         state[1].cast<double>(), state[2].cast<double>(),
+                 state[3].cast<double>(),         state[4].cast<double>(), state[5].cast<Vector3<double>>(),
                  state[6].cast<Vector3<double>>()};
         limits.validate();
         return limits;

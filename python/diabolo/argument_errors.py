@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sentences about arguments that a function of the compiled module does not take; the module asks for them."""
+"""Sentences about arguments that a function of the compiled module does not take."""
 
 from __future__ import annotations
 
@@ -100,9 +100,7 @@ def _split(text: str, separator: str, *, closing: bool = False) -> list[str]:
             quote = c
         elif c in "([{<":
             depth += 1
-        elif c in ")]}":
-            depth -= 1
-        elif c == ">" and not parts[-1].endswith("-"):
+        elif c in ")]}" or (c == ">" and not parts[-1].endswith("-")):
             depth -= 1
         if depth < 0 and closing:
             break
@@ -160,8 +158,12 @@ def _extents(kind: str) -> list[int]:
 
 
 def _inside(kind: str) -> list[str]:
-    """What stands in the brackets of a type."""
-    return [part.strip() for part in _split(kind[kind.index("[") + 1 : -1], ",")] if kind.endswith("]") else []
+    """What stands in the brackets that a type ends with."""
+    if not kind.endswith("]"):
+        return []
+    return (
+        [part.strip() for part in _split(kind[kind.index("[") + 1 : -1], ",")] if kind.endswith("]") else []
+    )
 
 
 def _expected(kind: str) -> str:

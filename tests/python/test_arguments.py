@@ -58,7 +58,10 @@ MASKED = np.ma.masked_greater(np.arange(7.0), 5.5)
             lambda: TipMotion([0.0], [[0.0, 0.3, 0.0]], [[0.0, -0.3, 0.0]], 3),
             "TipMotion: interpolation: 3; expected a str",
         ),
-        (lambda: diabolo.baseline(np.zeros(999)), "baseline: recording: an array of the shape (999,), float64;"),
+        (
+            lambda: diabolo.baseline(np.zeros(999)),
+            "baseline: recording: an array of the shape (999,), float64;",
+        ),
         (lambda: diabolo.Goals(waypoints=[3]), "Goals: waypoints: [3]; expected a list, each Waypoint"),
         (lambda: robot.StickMap(1, 2), "StickMap: arm: 1; expected StickArm"),
     ],
@@ -253,7 +256,9 @@ def test_parameters_tell_what_differs_from_their_preset(parameters: Parameters, 
 
 def test_a_rollout_tells_samples_duration_and_end() -> None:
     one = diabolo.rollout(Parameters(), [0.0, 0.0, -0.66, 0.0, 0.0, 0.0, 100.0], HELD, steps=500)
-    assert repr(one).startswith("<Rollout: 500 samples to 0.5 s, ends at (0.000, 0.000, -0.660) m, 0.00 m/s, ")
+    assert repr(one).startswith(
+        "<Rollout: 500 samples to 0.5 s, ends at (0.000, 0.000, -0.660) m, 0.00 m/s, "
+    )
     assert repr(one).endswith(" rad/s, on_string>")
     many = diabolo.rollout(Parameters(), [[0.0, 0.0, -0.66, 0.0, 0.0, 0.0, 100.0]] * 3, HELD, steps=500)
     assert repr(many).startswith("<Rollout: 3 rollouts of 500 samples to 0.5 s, the first ends at (0.000, ")
