@@ -25,7 +25,4 @@ void bind_diagnosis(pybind11::module_& module);
 void bind_player(pybind11::module_& module);
 void bind_robot(pybind11::module_& module);
 
-/// Of classes that are bound already: goals, limits, motions and calibrations can be copied and pickled.
-void bind_pickles();
-
 }  // namespace diabolo::python

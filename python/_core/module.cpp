@@ -5,6 +5,7 @@
 
 #include "arguments.hpp"
 #include "bindings.hpp"
+#include "pickles.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace diabolo::python;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pickles.hpp"
+
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -12,8 +14,6 @@
 #include "diabolo/player/limits.hpp"
 #include "diabolo/player/motion_unknowns.hpp"
 #include "diabolo/player/stick_spline.hpp"
-
-#include "bindings.hpp"
 
 namespace diabolo::python {
 

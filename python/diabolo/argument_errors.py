@@ -161,9 +161,7 @@ def _inside(kind: str) -> list[str]:
     """What stands in the brackets that a type ends with."""
     if not kind.endswith("]"):
         return []
-    return (
-        [part.strip() for part in _split(kind[kind.index("[") + 1 : -1], ",")] if kind.endswith("]") else []
-    )
+    return [part.strip() for part in _split(kind[kind.index("[") + 1 : -1], ",")]
 
 
 def _expected(kind: str) -> str:

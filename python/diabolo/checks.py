@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Iterable
-from typing import Any, SupportsIndex, TypeAlias, TypeVar
+from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,9 +32,25 @@ def shown(given: object) -> str:
     return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 3] + "..."
 
 
+def number(name: str, given: Any) -> float:
+    """A number, finite or not; else raises ValueError."""
+    if np.ndim(given) > 0 or isinstance(given, str | bytes) or not isinstance(given, SupportsFloat):
+        raise ValueError(f"{name}: {shown(given)}; expected a number")
+    return float(given)
+
+
+def names_of(name: str, given: Any, example: str) -> list[str]:
+    """A list of names; else raises ValueError."""
+    if isinstance(given, Iterable) and not isinstance(given, str):
+        names = list(given)
+        if all(isinstance(one, str) for one in names):
+            return names
+    raise ValueError(f"{name}: {shown(given)}; expected a list of names, such as ['{example}']")
+
+
 def numbers(name: str, given: Any) -> NDArray[np.float64]:
     """An array of numbers; else raises ValueError."""
-    if isinstance(given, np.ma.MaskedArray) and (masked := int(np.ma.count_masked(given))):
+    if isinstance(given, np.ma.MaskedArray) and (masked := int(np.count_nonzero(np.ma.getmaskarray(given)))):
         raise ValueError(f"{name}: {masked} of {given.size} values are masked; expected none")
     try:
         return np.asarray(given, dtype=np.float64)
@@ -68,7 +84,10 @@ def callable_or_none(name: str, given: object) -> None:
 def model_of(name: str, given: object) -> Model:
     """A model, or the one of that name."""
     if isinstance(given, str):
-        return Model.named(given)
+        try:
+            return Model.named(given)
+        except ValueError as error:
+            raise ValueError(f"{name}: {str(error).removeprefix('model ')}") from None
     if not isinstance(given, Model):
         raise ValueError(f"{name}: {shown(given)}; expected a Model, or 'published', 'paper' or 'consistent'")
     return given

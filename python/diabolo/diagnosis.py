@@ -21,7 +21,8 @@ from .checks import (
     callable_or_none,
     list_of,
     model_of,
-    shown,
+    names_of,
+    number,
     warn_of,
     whole_number,
 )
@@ -96,17 +97,16 @@ def diagnose(
     threads = whole_number("threads", threads, 0, MOST_THREADS)
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
-    if not budget > 0.0:
+    if not number("budget", budget) > 0.0:
         raise ValueError(f"budget: {budget} s; must be positive")
-    if isinstance(bank, str):
-        raise ValueError(f"bank: {shown(bank)}; expected a list of names, such as ['string_friction']")
+    names = names_of("bank", bank, "string_friction")
     chosen = model_of("base", base)
     held = list_of("holdout", holdout)
     _check_distinct([*given, *held])
     warn_of([*given, *held])
     _warn_of_other_set_ups([*given, *held])
     unused = [recording.name for recording in held if _core.comparable_windows(recording, chosen) == 0]
-    text, model = _core.diagnose(given, chosen, held, list(bank), budget, seed, threads, progress)
+    text, model = _core.diagnose(given, chosen, held, names, budget, seed, threads, progress)
     result = json.loads(text)
     result["fit"]["holdout_unused"] = unused
     return Diagnosis(result, chosen if result["headline"] == "INSUFFICIENT_DATA" else model)

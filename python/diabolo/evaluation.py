@@ -20,6 +20,7 @@ from .checks import (
     instance_of,
     list_of,
     model_of,
+    number,
     recording_of,
     shown,
     warn_of,
@@ -120,7 +121,7 @@ def evaluate(
         raise ValueError("recordings: none; at least one expected")
     if start not in ("fair", "published"):
         raise ValueError(f"start: '{start}'; expected 'fair' or 'published'")
-    wanted = [models] if isinstance(models, (Model, str)) else models
+    wanted = [models] if isinstance(models, (Model, str)) or not isinstance(models, Iterable) else models
     chosen = [model_of("models", model) for model in wanted]
     if not chosen:
         raise ValueError("models: none; at least one expected")
@@ -137,8 +138,9 @@ def evaluate(
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
-    if not isinstance(horizons, Iterable):
+    if not isinstance(horizons, Iterable) or isinstance(horizons, str):
         raise ValueError(f"horizons: {shown(horizons)}; expected times in seconds")
+    at = [number("horizons", time) for time in horizons]
     groups = [(label, [_whole(take)]) for label, take in zip(_labels(given), given, strict=True)]
     if len(groups) > 1:
         groups.append((ALL_RECORDINGS, [take for _, takes in groups for take in takes]))
@@ -149,9 +151,7 @@ def evaluate(
         def report_part(fraction: float, done: int = index) -> None:
             report((done + fraction) / len(jobs))
 
-        scores = _core.score_horizons(
-            group, model, starts_every, list(horizons), start, seed, threads, report_part
-        )
+        scores = _core.score_horizons(group, model, starts_every, at, start, seed, threads, report_part)
         rows += [HorizonRow(name, model.name, score) for score in scores]
     report(1.0)
     return Evaluation([], rows)

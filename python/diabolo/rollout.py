@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import Model, Parameters, TipMotion
-from .checks import MOST_THREADS, list_of, numbers, whole_number
+from .checks import MOST_THREADS, instance_of, list_of, names_of, number, numbers, whole_number
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters
@@ -121,7 +121,7 @@ def rollout(
         if given not in (1, size):
             raise ValueError(f"{name}: {given} given for {size} rollouts; expected 1 or {size}")
 
-    start = motions[0].begin if begin is None else float(begin)
+    start = motions[0].begin if begin is None else number("begin", begin)
     _check_times(start, dt, steps)
     if steps is None:
         steps = _steps_between(start, min(motion.end for motion in motions), dt, record_every)
@@ -178,15 +178,15 @@ def rollout_gradient(
     state = numbers("initial", initial)
     if state.shape != (7,):
         raise ValueError(f"initial: shape {state.shape}; expected (7,)")
-    start = tips.begin if begin is None else float(begin)
+    start = instance_of("tips", tips, TipMotion).begin if begin is None else number("begin", begin)
     _check_times(start, dt, steps)
     if steps is None:
         steps = _steps_between(start, tips.end, dt, 1)
     final, final_string_state, derivatives = _core.rollout_gradient(
         _model(model),
-        _core.State(state[:3], state[3:6], float(state[6]), string_state, axis),
+        _core.State(state[:3], state[3:6], float(state[6]), string_state, numbers("axis", axis)),
         tips,
-        list(with_respect_to),
+        names_of("with_respect_to", with_respect_to, "position"),
         start,
         dt,
         steps,
@@ -196,7 +196,7 @@ def rollout_gradient(
 
 
 def _model(given: AnyModel) -> Model:
-    return given if isinstance(given, Model) else Model(given)
+    return Model(given) if isinstance(given, Parameters) else instance_of("model", given, Model)
 
 
 def _is_sequence(given: object) -> bool:
@@ -206,7 +206,7 @@ def _is_sequence(given: object) -> bool:
 def _check_times(begin: float, dt: float, steps: int | None) -> None:
     if not abs(begin) <= 1e9:
         raise ValueError(f"begin: {begin} s; must be within 1e9 s")
-    if not 1e-9 <= dt <= 1e3:
+    if not 1e-9 <= number("dt", dt) <= 1e3:
         raise ValueError(f"dt: {dt} s; must be within 1e-9 and 1e3 s")
     if steps is not None:
         whole_number("steps", steps, 0, MOST_STEPS)

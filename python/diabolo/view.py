@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Waypoint
-from .checks import AnyRecording, recording_of
+from .checks import AnyRecording, list_of, recording_of
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
 MOST_FRAMES = 40_000
@@ -33,10 +33,11 @@ def view_html(
     goals: states that were wanted. note: a sentence below the title.
     """
     recording = recording_of("recording", recording)
+    goals = list_of("goals", goals, (Waypoint,))
     step = max(1, -(-len(recording) // MOST_FRAMES))
     rows = slice(None, None, step)
-    if prediction is not None and prediction.shape != (len(recording), 3):
-        raise ValueError(f"prediction: shape {prediction.shape}; expected ({len(recording)}, 3)")
+    if prediction is not None and np.shape(prediction) != (len(recording), 3):
+        raise ValueError(f"prediction: shape {np.shape(prediction)}; expected ({len(recording)}, 3)")
     orientation = recording.diabolo_orientation
     if orientation is None:
         orientation = np.full((len(recording), 4), np.nan)

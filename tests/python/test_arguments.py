@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import copy
+import inspect
 import pickle
 import subprocess
 import sys
@@ -51,8 +52,8 @@ MASKED = np.ma.masked_greater(np.arange(7.0), 5.5)
         ),
         (
             lambda: diabolo.Waypoint(np.zeros((99, 99))),
-            "Waypoint: position: an array of the shape (99, 99), float64; expected an array of numbers of the "
-            "shape (3,)",
+            "Waypoint: position: an array of the shape (99, 99), float64; expected an array of numbers of "
+            "the shape (3,)",
         ),
         (
             lambda: TipMotion([0.0], [[0.0, 0.3, 0.0]], [[0.0, -0.3, 0.0]], 3),
@@ -91,6 +92,48 @@ def test_arrays_are_not_printed_whole() -> None:
             call()
 
 
+def good_calls(take: Recording) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
+    """Every public function of the package with arguments that it takes."""
+    at = {"left": [0.0, 0.3, 1.0], "right": [0.0, -0.3, 1.0]}
+    spline = diabolo.StickSpline([0.0, 0.5], *(np.tile(tip, (2, 1)) for tip in at.values()))
+    goals = diabolo.Goals(final_state=diabolo.Waypoint([0.0, 0.0, 0.5]))
+    run = {"model": Parameters(), "initial": [0.0] * 7, "tips": HELD, "steps": 1}
+    play = diabolo.plan_action("hop", seconds=0.05)
+    predicted = diabolo.predict(take, "paper")
+    return {
+        "rollout": (diabolo.rollout, run),
+        "rollout_gradient": (diabolo.rollout_gradient, run),
+        "evaluate": (diabolo.evaluate, {"recordings": take, "models": "paper", "starts_every": 0.5}),
+        "predict": (diabolo.predict, {"recording": take}),
+        "position_errors": (diabolo.position_errors, {"recording": take, "predicted": predicted}),
+        "diagnose": (diabolo.diagnose, {"recordings": take}),
+        "plan": (diabolo.plan, {"start": State(at["left"]), "seed": spline, "goals": goals, "seconds": 0.01}),
+        "plan_action": (diabolo.plan_action, {"name": "hop", "seconds": 0.01}),
+        "hanging": (diabolo.hanging, {"model": "consistent", **at}),
+        "success_rate": (diabolo.success_rate, {"play": play, "models": [diabolo.Model()]}),
+        "model_for": (diabolo.model_for, {"model": "consistent", "recording": take}),
+        "best_guess": (diabolo.best_guess, {"model": diabolo.Model(), "result": {"ladder": []}}),
+        "view_html": (diabolo.view_html, {"recording": take}),
+    }
+
+
+def test_every_argument_of_every_function_is_named(played: Recording) -> None:
+    missed = []
+    for name, (function, good) in good_calls(played).items():
+        for argument in set(inspect.signature(function).parameters) - {"note", "title"}:
+            for wrong in (object(), [object()], "nonsense"):
+                if wrong == "nonsense" and argument.startswith(("recording", "holdout")):
+                    continue  # a file that is not there
+                try:
+                    function(**{**good, argument: wrong})
+                    missed.append((name, argument, wrong, "was taken"))
+                except (ValueError, TypeError) as error:
+                    text = str(error)
+                    if argument not in text or "\n" in text or len(text) > 250:
+                        missed.append((name, argument, wrong, text))
+    assert not missed
+
+
 # ---- objects that __init__ has not made ----
 
 EVERY_CLASS = """
@@ -102,7 +145,8 @@ for one in classes:
     raw = one.__new__(one)
     uses = [repr, copy.copy, copy.deepcopy, pickle.dumps, len, lambda raw: raw == raw, lambda raw: raw()]
     uses += [lambda raw, name=name: getattr(raw, name) for name in dir(one)]
-    uses += [lambda raw, name=name: getattr(raw, name)() for name in ("to_dict", "to_json", "path", "to_array")]
+    methods = ("to_dict", "to_json", "path", "to_array")
+    uses += [lambda raw, name=name: getattr(raw, name)() for name in methods]
     refused = 0
     for use in uses:
         try:
