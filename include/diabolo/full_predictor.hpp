@@ -9,12 +9,21 @@
 
 namespace diabolo {
 
+namespace detail {
+
+template <class Set>
+struct PredictorWith;
+template <class Scalar, template <class> class... Effects>
+struct PredictorWith<EffectSet<Scalar, Effects...>> {
+  using Type = Predictor<Scalar, Effects...>;
+};
+
+}  // namespace detail
+
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
-using FullPredictor =
-    Predictor<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
+using FullPredictor = typename detail::PredictorWith<AllEffects<Scalar>>::Type;
 
 /// Gives each effect of `to` the values that it has in `from`, which may know fewer.
 template <class From, class To>

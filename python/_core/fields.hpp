@@ -11,13 +11,18 @@ namespace diabolo::python {
 
 namespace py = pybind11;
 
+/// A value in a message, short: of an array its shape (diabolo.checks.shown).
+inline std::string shown_value(py::handle value) {
+  return py::module_::import("diabolo.checks").attr("shown")(value).cast<std::string>();
+}
+
 /// `value` as a T. Throws py::type_error that names the field where it is something else.
 template <class T>
 T cast_to(py::handle value, const std::string& name, const char* expected) {
   try {
     return value.cast<T>();
   } catch (const py::cast_error&) {
-    throw py::type_error(name + ": " + std::string(py::repr(value)) + "; expected " + expected);
+    throw py::type_error(name + ": " + shown_value(value) + "; expected " + expected);
   }
 }
 

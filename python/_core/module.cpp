@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <system_error>
+
 #include "diabolo/version.hpp"
 
+#include "arguments.hpp"
 #include "bindings.hpp"
+#include "pickles.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace diabolo::python;
@@ -21,4 +25,14 @@ PYBIND11_MODULE(_core, module) {
   bind_diagnosis(module);
   bind_player(module);
   bind_robot(module);
+  bind_pickles();
+  check_arguments(module);
+  pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const std::system_error& error) {  // of a thread that the system has no room for
+      if (error.code() != std::errc::resource_unavailable_try_again) throw;
+      PyErr_SetString(PyExc_MemoryError, "no further thread can be started");
+    }
+  });
 }

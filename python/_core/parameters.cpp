@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "parameters.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "choices.hpp"
@@ -22,7 +25,7 @@ py::object to_python(Enum value) {
 void from_python(py::handle value, const std::string& name, bool& field) {
   py::detail::make_caster<bool> caster;  // without conversion, which takes None for False
   if (!caster.load(value, false))
-    throw py::type_error(name + ": " + std::string(py::repr(value)) + "; expected True or False");
+    throw py::type_error(name + ": " + shown_value(value) + "; expected True or False");
   field = static_cast<bool>(caster);
 }
 void from_python(py::handle value, const std::string& name, Vector3<double>& field) {
@@ -76,6 +79,19 @@ void bind_rule(py::class_<P>& cls) {
         kInfo.name, [](const P& p) { return from_vector3(std::get<I>(P::rules_of(p))); },
         [set](P& p, const Array& value) { set(p, value); }, kInfo.meaning);
   }
+}
+
+/// The call that makes them again, from the preset that they differ from in the fewest fields.
+std::string shortest_call(const P& parameters) {
+  const py::dict fields = to_dict(parameters);
+  const auto from = [&](const char* name, const P& preset) {
+    return call_text(name, fields, to_dict(preset));
+  };
+  return std::min({from("Parameters", P::consistent()), from("Parameters.paper", P::paper()),
+                   from("Parameters.published", P::published())},
+                  [](const std::string& a, const std::string& b) {
+                    return std::ranges::count(a, '=') < std::ranges::count(b, '=');
+                  });
 }
 
 void bind_rules(py::class_<P>& cls) {
@@ -138,8 +154,7 @@ is a ValueError that names the field, the value and the range.)");
       "replace", [](const P& p, const py::kwargs& fields) { return with_fields(p, fields); },
       "A copy with other values in the given fields.");
   cls.def("to_dict", &to_dict, "All fields by name; Parameters(**fields) builds them again.");
-  cls.def("__repr__",
-          [](const P& p) { return call_text("Parameters", to_dict(p), to_dict(P::consistent())); });
+  cls.def("__repr__", &shortest_call);
   bind_copies(cls, &to_dict,
               [](const py::dict& fields) { return with_fields(P::consistent(), py::kwargs(fields)); });
 }

@@ -8,6 +8,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "fields.hpp"
 
 namespace diabolo::python {
 
@@ -60,7 +61,7 @@ StringState string_state_from_python(const py::object& state) {
     for (std::size_t code = 0; code < kNames.size(); ++code)
       if (state.equal(py::int_(code))) return static_cast<StringState>(code);
   }
-  throw std::invalid_argument("string_state: " + std::string(py::repr(state)) +
+  throw std::invalid_argument("string_state: " + shown_value(state) +
                               "; expected 'on_string', 'loose', 'flying' or a StringState");
 }
 

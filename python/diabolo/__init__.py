@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Simulation, planning and diagnosis of diabolo play."""
 
-from . import quiet_start  # noqa: F401, I001 - first of all
+from . import quiet_start  # noqa: F401
 from ._core import (
     Air,
     Calibration,

@@ -3,22 +3,65 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Iterable
-from typing import Any, SupportsIndex, TypeVar
+from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
 
-from ._core import Model, Recording
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import Model, Recording, load_recording
 
 Kind = TypeVar("Kind")
 
+AnyRecording: TypeAlias = Recording | str | os.PathLike[str]
+"""A recording, or the name of its file."""
+
 LARGEST_SEED = 2**63 - 1
 MOST_THREADS = 2**31 - 1
+LONGEST_SHOWN = 60
+
+
+def shown(given: object) -> str:
+    """What was found, short enough for a sentence."""
+    if isinstance(given, np.ndarray):
+        kind = "a masked array" if isinstance(given, np.ma.MaskedArray) else "an array"
+        return f"{kind} of the shape {given.shape}, {given.dtype}"
+    text = " ".join(repr(given).split())
+    return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 3] + "..."
+
+
+def number(name: str, given: Any) -> float:
+    """A number, finite or not; else raises ValueError."""
+    if np.ndim(given) > 0 or isinstance(given, str | bytes) or not isinstance(given, SupportsFloat):
+        raise ValueError(f"{name}: {shown(given)}; expected a number")
+    return float(given)
+
+
+def names_of(name: str, given: Any, example: str) -> list[str]:
+    """A list of names; else raises ValueError."""
+    if isinstance(given, Iterable) and not isinstance(given, str):
+        names = list(given)
+        if all(isinstance(one, str) for one in names):
+            return names
+    raise ValueError(f"{name}: {shown(given)}; expected a list of names, such as ['{example}']")
+
+
+def numbers(name: str, given: Any) -> NDArray[np.float64]:
+    """An array of numbers; else raises ValueError."""
+    if isinstance(given, np.ma.MaskedArray) and (masked := int(np.count_nonzero(np.ma.getmaskarray(given)))):
+        raise ValueError(f"{name}: {masked} of {given.size} values are masked; expected none")
+    try:
+        return np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: {shown(given)}; expected an array of numbers") from None
 
 
 def whole_number(name: str, given: object, least: int, most: int) -> int:
     """`given`, a whole number from `least` to `most`; else raises ValueError."""
     if not isinstance(given, SupportsIndex) or not least <= given.__index__() <= most:
-        raise ValueError(f"{name}: {given!r}; expected a whole number from {least} to {most}")
+        raise ValueError(f"{name}: {shown(given)}; expected a whole number from {least} to {most}")
     return given.__index__()
 
 
@@ -27,42 +70,58 @@ class RecordingWarning(UserWarning):
 
 
 def warn_of(recordings: Iterable[Recording], stacklevel: int = 3) -> None:
-    """Warn of what is odd about recordings that something is computed from."""
-    for recording in recordings:
-        for sentence in recording.warnings():
-            warnings.warn(f"{recording.name}: {sentence}", RecordingWarning, stacklevel)
+    """Warn of what is odd about recordings that something is computed from, of each thing once."""
+    sentences = [f"{recording.name}: {text}" for recording in recordings for text in recording.warnings()]
+    for sentence in dict.fromkeys(sentences):
+        warnings.warn(sentence, RecordingWarning, stacklevel)
 
 
 def callable_or_none(name: str, given: object) -> None:
     if given is not None and not callable(given):
-        raise ValueError(f"{name}: {given!r}; expected a function")
+        raise ValueError(f"{name}: {shown(given)}; expected a function")
 
 
 def model_of(name: str, given: object) -> Model:
     """A model, or the one of that name."""
     if isinstance(given, str):
-        return Model.named(given)
+        try:
+            return Model.named(given)
+        except ValueError as error:
+            raise ValueError(f"{name}: {str(error).removeprefix('model ')}") from None
     if not isinstance(given, Model):
-        raise ValueError(f"{name}: {given!r}; expected a Model, or 'published', 'paper' or 'consistent'")
+        raise ValueError(f"{name}: {shown(given)}; expected a Model, or 'published', 'paper' or 'consistent'")
     return given
 
 
 def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:
     """`given`, of that kind; else raises ValueError."""
     if not isinstance(given, kind):
-        raise ValueError(f"{name}: {given!r}; expected a {kind.__name__}")
+        raise ValueError(f"{name}: {shown(given)}; expected a {kind.__name__}")
     return given
 
 
+def recording_of(name: str, given: AnyRecording) -> Recording:
+    """A recording, or what its file holds."""
+    if isinstance(given, str | os.PathLike):
+        return load_recording(given)
+    return instance_of(name, given, Recording)
+
+
 def list_of(name: str, given: Any, kinds: tuple[type, ...] = (Recording,)) -> list[Any]:
-    """One of `kinds`, or any number of them, as a list."""
+    """One of `kinds`, or any number of them, as a list; the name of a file counts as its recording."""
     expected = " or ".join(kind.__name__ for kind in kinds)
-    if isinstance(given, kinds):
-        return [given]
-    if isinstance(given, str) or not isinstance(given, Iterable):
-        raise ValueError(f"{name}: {given!r}; expected {expected}, one or a list of them")
-    items = list(given)
-    for index, item in enumerate(items):
+    if Recording in kinds:
+        expected += " or the name of a file"
+
+    def one(place: str, item: Any) -> Any:
+        if Recording in kinds and isinstance(item, str | os.PathLike):
+            return load_recording(item)
         if not isinstance(item, kinds):
-            raise ValueError(f"{name}[{index}]: {item!r}; expected {expected}")
-    return items
+            raise ValueError(f"{place}: {shown(item)}; expected {expected}")
+        return item
+
+    if isinstance(given, (*kinds, str, os.PathLike)):
+        return [one(name, given)]
+    if not isinstance(given, Iterable):
+        raise ValueError(f"{name}: {shown(given)}; expected {expected}, one or a list of them")
+    return [one(f"{name}[{index}]", item) for index, item in enumerate(given)]

@@ -16,10 +16,13 @@ from ._core import Model, Recording
 from .checks import (
     LARGEST_SEED,
     MOST_THREADS,
+    AnyRecording,
     RecordingWarning,
     callable_or_none,
     list_of,
     model_of,
+    names_of,
+    number,
     warn_of,
     whole_number,
 )
@@ -59,10 +62,10 @@ class Diagnosis(NamedTuple):
 
 
 def diagnose(
-    recordings: Recording | Iterable[Recording],
+    recordings: AnyRecording | Iterable[AnyRecording],
     base: Model | str = "consistent",
     *,
-    holdout: Recording | Iterable[Recording] = (),
+    holdout: AnyRecording | Iterable[AnyRecording] = (),
     bank: Iterable[str] = (),
     budget: float = 1e9,
     seed: int = 1,
@@ -71,7 +74,7 @@ def diagnose(
 ) -> Diagnosis:
     """Find what a simulator leaves out, or what a measurement got wrong.
 
-    recordings: of one set-up; they are looked at together.
+    recordings: of one set-up, or the names of their files; they are looked at together.
     base: the simulator: a Model, "consistent", "paper" or "published".
     holdout: recordings that nothing is fitted to, to compare base and answer on; by default recordings, or
         thirds of a single one, are left out in turn. Those on which nothing can be compared are named in
@@ -82,7 +85,7 @@ def diagnose(
     seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.
     progress: called with the name of the step and the fraction done.
 
-        diagnose(load_recording("swing.csv")).sentence
+        diagnose("swing.csv").sentence
 
     Ctrl-C ends it at once. Raises ValueError about bad input, such as samples that are given twice; a
     recording that can decide nothing is an answer, INSUFFICIENT_DATA. Warns (RecordingWarning) of recordings
@@ -94,10 +97,9 @@ def diagnose(
     threads = whole_number("threads", threads, 0, MOST_THREADS)
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
-    if not budget > 0.0:
+    if not number("budget", budget) > 0.0:
         raise ValueError(f"budget: {budget} s; must be positive")
-    if isinstance(bank, str):
-        raise ValueError(f"bank: {bank!r}; expected a list of names, such as ['string_friction']")
+    names = names_of("bank", bank, "string_friction")
     chosen = model_of("base", base)
     held = list_of("holdout", holdout)
     trimmed, overlaps = _core.trim_overlaps([*given, *held])
@@ -109,7 +111,7 @@ def diagnose(
     warn_of([*given, *held])
     _warn_of_other_set_ups([*given, *held])
     unused = [recording.name for recording in held if _core.comparable_windows(recording, chosen) == 0]
-    text, model = _core.diagnose(given, chosen, held, list(bank), budget, seed, threads, progress)
+    text, model = _core.diagnose(given, chosen, held, names, budget, seed, threads, progress)
     result = json.loads(text)
     result["fit"]["holdout_unused"] = unused
     return Diagnosis(result, chosen if result["headline"] == "INSUFFICIENT_DATA" else model)

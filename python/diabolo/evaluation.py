@@ -15,10 +15,14 @@ from ._core import HorizonScore, Model, Recording
 from .checks import (
     LARGEST_SEED,
     MOST_THREADS,
+    AnyRecording,
     callable_or_none,
     instance_of,
     list_of,
     model_of,
+    number,
+    recording_of,
+    shown,
     warn_of,
     whole_number,
 )
@@ -86,7 +90,7 @@ class Evaluation(NamedTuple):
 
 
 def evaluate(
-    recordings: Recording | Excerpt | Iterable[Recording | Excerpt],
+    recordings: AnyRecording | Excerpt | Iterable[AnyRecording | Excerpt],
     models: Model | str | Iterable[Model | str] = DEFAULT_MODELS,
     *,
     starts_every: float | None = None,
@@ -98,7 +102,7 @@ def evaluate(
 ) -> Evaluation:
     """Compare predictions with recordings.
 
-    recordings: Recording, or Excerpt of one.
+    recordings: Recording, Excerpt of one, or the name of a recording's file.
     models: Model, or "published", "paper", "consistent".
     starts_every: by default one prediction from the first row of each recording (and of the excerpt of it
         that the paper's table has), by the paper's recipe. Given [s], predictions from a start each so often,
@@ -110,14 +114,14 @@ def evaluate(
 
     Warns (RecordingWarning) of recordings that are odd, such as in other units.
 
-        evaluate(load_recording("throw_1.csv")).rows[0].error  # [m]
+        evaluate("throw_1.csv").rows[0].error  # [m]
     """
     given = list_of("recordings", recordings, (Recording, Excerpt))
     if not given:
         raise ValueError("recordings: none; at least one expected")
     if start not in ("fair", "published"):
         raise ValueError(f"start: '{start}'; expected 'fair' or 'published'")
-    wanted = [models] if isinstance(models, (Model, str)) else models
+    wanted = [models] if isinstance(models, (Model, str)) or not isinstance(models, Iterable) else models
     chosen = [model_of("models", model) for model in wanted]
     if not chosen:
         raise ValueError("models: none; at least one expected")
@@ -134,8 +138,9 @@ def evaluate(
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
-    if not isinstance(horizons, Iterable):
-        raise ValueError(f"horizons: {horizons!r}; expected times in seconds")
+    if not isinstance(horizons, Iterable) or isinstance(horizons, str):
+        raise ValueError(f"horizons: {shown(horizons)}; expected times in seconds")
+    at = [number("horizons", time) for time in horizons]
     groups = [(label, [_whole(take)]) for label, take in zip(_labels(given), given, strict=True)]
     if len(groups) > 1:
         groups.append((ALL_RECORDINGS, [take for _, takes in groups for take in takes]))
@@ -146,16 +151,14 @@ def evaluate(
         def report_part(fraction: float, done: int = index) -> None:
             report((done + fraction) / len(jobs))
 
-        scores = _core.score_horizons(
-            group, model, starts_every, list(horizons), start, seed, threads, report_part
-        )
+        scores = _core.score_horizons(group, model, starts_every, at, start, seed, threads, report_part)
         rows += [HorizonRow(name, model.name, score) for score in scores]
     report(1.0)
     return Evaluation([], rows)
 
 
 def predict(
-    recording: Recording,
+    recording: AnyRecording,
     model: Model | str = "consistent",
     *,
     row: int | None = None,
@@ -168,7 +171,7 @@ def predict(
 
     Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
-    instance_of("recording", recording, Recording)
+    recording = recording_of("recording", recording)
     if row is not None:
         row = whole_number("row", row, 0, len(recording) - 1)
     warn_of([recording])
@@ -176,9 +179,9 @@ def predict(
     return Rollout(np.asarray(recording.time), states, string_states)
 
 
-def position_errors(recording: Recording, predicted: Rollout) -> NDArray[np.float64]:
+def position_errors(recording: AnyRecording, predicted: Rollout) -> NDArray[np.float64]:
     """Distance from the recorded to the predicted diabolo [m], shape (N,); NaN where one is missing."""
-    instance_of("recording", recording, Recording)
+    recording = recording_of("recording", recording)
     if len(instance_of("predicted", predicted, Rollout).states) != len(recording):
         raise ValueError(
             f"predicted: {len(predicted.states)} rows; expected {len(recording)}, the recording's"

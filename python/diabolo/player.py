@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from typing import Any, Literal, NamedTuple, TypeAlias
 
@@ -19,13 +19,24 @@ from ._core import (
     Model,
     Parameters,
     Plan,
-    Recording,
     State,
     StickSpline,
     TipLimits,
     TipPath,
 )
-from .checks import LARGEST_SEED, instance_of, list_of, model_of, warn_of, whole_number
+from .checks import (
+    LARGEST_SEED,
+    AnyRecording,
+    instance_of,
+    list_of,
+    model_of,
+    number,
+    numbers,
+    recording_of,
+    shown,
+    warn_of,
+    whole_number,
+)
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters | str
@@ -118,14 +129,14 @@ def plan(
     """
     return _core.plan(
         _models(model),
-        [start] if isinstance(start, State) else list(start),
+        list_of("start", start, (State,)),
         seed,
         goals,
         TipLimits() if limits is None else limits,
         Freedom() if freedom is None else freedom,
         solver,
         whole_number("evaluations", evaluations, 1, 2**31 - 1),
-        min(seconds, LONGEST_SEARCH),
+        min(number("seconds", seconds), LONGEST_SEARCH),
         whole_number("random_seed", random_seed, 0, LARGEST_SEED),
         dt,
     )
@@ -168,7 +179,7 @@ def plan_action(
         plan_action("throw_and_catch", height=0.6).answer
     """
     if name not in ACTIONS:
-        raise ValueError(f"action '{name}'; expected one of {', '.join(ACTIONS)}")
+        raise ValueError(f"name: {shown(name)}; expected one of {', '.join(ACTIONS)}")
     for what, value in (("height", height), ("sideways", sideways), ("spin_gain", spin_gain)):
         if value is not None and name not in WANTED[what]:
             raise ValueError(
@@ -184,11 +195,13 @@ def plan_action(
     models = _models(model)
     length = models[0].parameters.string_length
     left, right = _core.home_pose(figure, length)
+    if start is not None:
+        instance_of("start", start, State)
     initials = [start or hanging(one, left, right, spin, sticks) for one in models]
     if start is None and figure == "stop":
         for initial in initials:
             initial.velocity = np.array([0.0, 0.8, 0.0])  # something to stop
-    limits = TipLimits() if limits is None else limits
+    limits = TipLimits() if limits is None else instance_of("limits", limits, TipLimits)
 
     def planned(path: TipPath | None, states: list[State]) -> tuple[TipPath, list[Plan], Goals]:
         """A cycle that goes on from a path and the states at its end."""
@@ -215,7 +228,7 @@ def plan_action(
                 limits,
                 action.freedom,
                 100_000,
-                min(seconds, LONGEST_SEARCH),
+                min(number("seconds", seconds), LONGEST_SEARCH),
                 dt,
             )
             return piece, [thrown] if caught is None else [thrown, caught], action.goals
@@ -303,11 +316,12 @@ def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
     return ended / len(given)
 
 
-def model_for(model: AnyModel, recording: Recording) -> Model:
+def model_for(model: AnyModel, recording: AnyRecording) -> Model:
     """The model with the string's length, mass and axle radius of the recording where it leaves them to it,
     as one that `diagnose` made does: to plan on it for the set-up that was recorded."""
     one = Model(model) if isinstance(model, Parameters) else model_of("model", model)
-    warn_of([instance_of("recording", recording, Recording)])
+    recording = recording_of("recording", recording)
+    warn_of([recording])
     fields = one.to_dict()
     parameters = copy(one.parameters)
     if not one.own_string_length:
@@ -370,7 +384,7 @@ def _rungs(result: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:
-    return np.zeros(6) if sticks is None else np.asarray(sticks, dtype=float)
+    return np.zeros(6) if sticks is None else numbers("sticks", sticks)
 
 
 def _going_on(seed: StickSpline, path: TipPath) -> StickSpline:
@@ -388,7 +402,7 @@ def _end(model: Model, start: State, path: TipPath) -> State:
 
 
 def _models(given: AnyModel | Sequence[AnyModel]) -> list[Model]:
-    several = [given] if isinstance(given, (Model, Parameters, str)) else list(given)
+    several = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
     if not several:
         raise ValueError("model: none; at least one expected")
     return [Model(one) if isinstance(one, Parameters) else model_of("model", one) for one in several]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Imported first: a command that Ctrl-C ends while it still loads numpy and the rest ends without a traceback."""
+"""Imported first: a command that Ctrl-C ends while it loads shows no traceback."""
 
 import os
 import signal

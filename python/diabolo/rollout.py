@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import Model, Parameters, TipMotion
-from .checks import MOST_THREADS, list_of, whole_number
+from .checks import MOST_THREADS, instance_of, list_of, names_of, number, numbers, whole_number
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters
@@ -31,6 +31,20 @@ class Rollout(NamedTuple):
     """Position [m], velocity [m/s] and spin [rad/s], shape (N, frames, 7)."""
     string_states: NDArray[np.uint8]
     """As in StringState, shape (N, frames)."""
+
+    def __repr__(self) -> str:
+        """How many samples, over how long, and where the first one ends."""
+        batch = f"{len(self.states)} rollouts of " if self.states.ndim == 3 else ""
+        text = f"<Rollout: {batch}{len(self.time)} samples"
+        if not len(self.time):
+            return text + ">"
+        end = self.states[..., -1, :].reshape(-1, self.states.shape[-1])[0]
+        code = StringState(int(self.string_states[..., -1].reshape(-1)[0])).name.lower()
+        place = ", ".join(f"{x:.3f}" for x in end[:3])
+        return (
+            f"{text} to {self.time[-1]:.4g} s, {'the first ' if batch else ''}ends at ({place}) m, "
+            f"{np.linalg.norm(end[3:6]):.2f} m/s, {end[6]:.1f} rad/s, {code}>"
+        )
 
 
 class RolloutGradient(NamedTuple):
@@ -79,11 +93,11 @@ def rollout(
     """
     models = [_model(one) for one in list_of("model", model, (Model, Parameters))]
     motions = list_of("tips", tips, (TipMotion,))
-    states = np.asarray(initial, dtype=np.float64)
+    states = numbers("initial", initial)
     codes = _codes(string_state)
     if states.ndim not in (1, 2) or states.shape[-1] != 7 or states.size == 0:
         raise ValueError(f"initial: shape {states.shape}; expected (7,) or (N, 7)")
-    axes = np.asarray(axis, dtype=np.float64)
+    axes = numbers("axis", axis)
     if axes.ndim not in (1, 2) or axes.shape[-1] != 3:
         raise ValueError(f"axis: shape {axes.shape}; expected (3,) or (N, 3)")
     if not np.allclose(np.linalg.norm(axes, axis=-1), 1.0, rtol=0.0, atol=1e-6):
@@ -107,7 +121,7 @@ def rollout(
         if given not in (1, size):
             raise ValueError(f"{name}: {given} given for {size} rollouts; expected 1 or {size}")
 
-    start = motions[0].begin if begin is None else float(begin)
+    start = motions[0].begin if begin is None else number("begin", begin)
     _check_times(start, dt, steps)
     if steps is None:
         steps = _steps_between(start, min(motion.end for motion in motions), dt, record_every)
@@ -161,18 +175,18 @@ def rollout_gradient(
         g = rollout_gradient(Parameters(), initial, tips, ["string_length"], steps=500)
         g.derivatives["string_length"][2]  # height at the end per string length
     """
-    state = np.asarray(initial, dtype=np.float64)
+    state = numbers("initial", initial)
     if state.shape != (7,):
         raise ValueError(f"initial: shape {state.shape}; expected (7,)")
-    start = tips.begin if begin is None else float(begin)
+    start = instance_of("tips", tips, TipMotion).begin if begin is None else number("begin", begin)
     _check_times(start, dt, steps)
     if steps is None:
         steps = _steps_between(start, tips.end, dt, 1)
     final, final_string_state, derivatives = _core.rollout_gradient(
         _model(model),
-        _core.State(state[:3], state[3:6], float(state[6]), string_state, axis),
+        _core.State(state[:3], state[3:6], float(state[6]), string_state, numbers("axis", axis)),
         tips,
-        list(with_respect_to),
+        names_of("with_respect_to", with_respect_to, "position"),
         start,
         dt,
         steps,
@@ -182,7 +196,7 @@ def rollout_gradient(
 
 
 def _model(given: AnyModel) -> Model:
-    return given if isinstance(given, Model) else Model(given)
+    return Model(given) if isinstance(given, Parameters) else instance_of("model", given, Model)
 
 
 def _is_sequence(given: object) -> bool:
@@ -192,7 +206,7 @@ def _is_sequence(given: object) -> bool:
 def _check_times(begin: float, dt: float, steps: int | None) -> None:
     if not abs(begin) <= 1e9:
         raise ValueError(f"begin: {begin} s; must be within 1e9 s")
-    if not 1e-9 <= dt <= 1e3:
+    if not 1e-9 <= number("dt", dt) <= 1e3:
         raise ValueError(f"dt: {dt} s; must be within 1e-9 and 1e3 s")
     if steps is not None:
         whole_number("steps", steps, 0, MOST_STEPS)

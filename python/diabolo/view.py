@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import Recording, Waypoint
+from ._core import Waypoint
+from .checks import AnyRecording, list_of, recording_of
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
 MOST_FRAMES = 40_000
@@ -19,22 +20,24 @@ MOST_FRAMES = 40_000
 
 
 def view_html(
-    recording: Recording,
+    recording: AnyRecording,
     *,
     title: str | None = None,
     prediction: NDArray[np.float64] | None = None,
     goals: Sequence[Waypoint] = (),
     note: str = "",
 ) -> str:
-    """The page of a recording: tips, string, spheroid and diabolo, with a time slider.
+    """The page of a recording, or of the file of that name: tips, string, spheroid, diabolo, a time slider.
 
     prediction: positions [m] at the recording's rows, shape (N, 3), NaN where there is none.
     goals: states that were wanted. note: a sentence below the title.
     """
+    recording = recording_of("recording", recording)
+    goals = list_of("goals", goals, (Waypoint,))
     step = max(1, -(-len(recording) // MOST_FRAMES))
     rows = slice(None, None, step)
-    if prediction is not None and prediction.shape != (len(recording), 3):
-        raise ValueError(f"prediction: shape {prediction.shape}; expected ({len(recording)}, 3)")
+    if prediction is not None and np.shape(prediction) != (len(recording), 3):
+        raise ValueError(f"prediction: shape {np.shape(prediction)}; expected ({len(recording)}, 3)")
     orientation = recording.diabolo_orientation
     if orientation is None:
         orientation = np.full((len(recording), 4), np.nan)

@@ -226,10 +226,10 @@ def test_bad_input_is_named(played: Recording) -> None:
         ({"progress": 3}, "progress: 3; expected a function"),
         ({"bank": "string_friction"}, "bank: 'string_friction'; expected a list"),
         ({"base": 3}, "base: 3; expected a Model"),
-        ({"recordings": "swing.csv"}, "recordings: 'swing.csv'; expected Recording"),
+        ({"recordings": "no.csv"}, "no.csv: there is no such file"),
         ({"recordings": [None]}, r"recordings\[0\]: None; expected Recording"),
         ({"recordings": 3}, "recordings: 3; expected Recording"),
-        ({"holdout": "swing.csv"}, "holdout: 'swing.csv'; expected Recording"),
+        ({"holdout": "no.csv"}, "no.csv: there is no such file"),
     ):
         with pytest.raises(ValueError, match=text):
             diagnose(**{"recordings": played, **change})

@@ -139,7 +139,7 @@ def test_bad_input_is_named(played: Recording) -> None:
         ({"seed": -1}, "seed: -1"),
         ({"seed": 2**70}, "seed: 11805"),
         ({"progress": 3}, "progress: 3; expected a function"),
-        ({"recordings": "swing.csv"}, "recordings: 'swing.csv'; expected Recording or Excerpt"),
+        ({"recordings": 3}, "recordings: 3; expected Recording or Excerpt"),
         ({"recordings": [None]}, r"recordings\[0\]: None; expected Recording or Excerpt"),
         ({"models": []}, "models: none; at least one expected"),
         ({"models": [None]}, "models: None; expected a Model"),

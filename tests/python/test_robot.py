@@ -167,10 +167,12 @@ def test_check_says_that_a_plan_can_be_played(command: Command, tmp_path: Path) 
     assert "can be played" in result.stdout and "as fast as planned" in result.stdout
     found = json.loads((tmp_path / "found.json").read_text())
     assert found["schema"] == "diabolo.robot_check/1"
-    assert found["playable"] is True and found["troubles"] == []
+    assert found["playable"] is True and found["slowed"] is False and found["troubles"] == []
     assert found["least_clearance_m"] > 0.3
     plan.write_text(excursion(0.15, seconds=0.4))
-    hurried = command("robot", "check", str(plan))
+    hurried = command("robot", "check", str(plan), "--json", str(tmp_path / "found.json"))
+    assert hurried.returncode == 3
+    assert json.loads((tmp_path / "found.json").read_text())["slowed"] is True
     assert "can be played, but slower" in hurried.stdout
     assert "times slower on the whole" in hurried.stdout
 
@@ -181,7 +183,7 @@ def test_check_says_where_a_plan_cannot_be_played_and_why(command: Command, tmp_
     result = command("robot", "check", str(plan), "--json", "-")
     assert result.returncode == 1, result.stderr
     found = json.loads(result.stdout)
-    assert found["playable"] is False and found["as_played_s"] is None
+    assert found["playable"] is False and found["slowed"] is None and found["as_played_s"] is None
     (trouble,) = found["troubles"]
     assert trouble["who"] == "right arm"
     assert trouble["why"] == "outside the box of the seed grid"

@@ -26,6 +26,7 @@ from .tables import format_table
 
 SAMPLES = 20  # along each side of a grid's box, for the map of speeds
 SLOWED = 1.0005  # times the planned duration from which a motion counts as slowed down
+STATUS_UNPLAYABLE, STATUS_SLOWED = 1, 3
 LARGEST_SHIFT = 100.0  # [m]
 
 
@@ -50,7 +51,9 @@ def _add_check(actions: Any) -> None:
         text="Say whether two arms can play a motion of the stick tips from rest to rest: whether both tips\n"
         "are within reach, how much slower than planned the joints' limits ask for, and how close the arms\n"
         "come. PLAN.csv has the columns time, left_x, left_y, left_z, right_x, right_y, right_z (s, m,\n"
-        "world frame: x forward, y left, z up); recordings will do, too. Status 1 where it cannot be played.",
+        "world frame: x forward, y left, z up); recordings will do, too.\n\n"
+        "exit status: 0 where the arms play it as planned, 1 where they cannot play it, 2 for bad input,\n"
+        "3 where they can, but slower: the diabolo will do something else than planned.",
         example="  diabolo robot check plan.csv\n"
         "  diabolo robot check throw_1.csv --shift 0.4 0 0.1 --height 0.75 --spacing 1.05",
     )
@@ -109,7 +112,7 @@ def _add_mounts(parser: argparse.ArgumentParser) -> None:
 
 
 def run_check(arguments: argparse.Namespace) -> int:
-    """0, or 1 where the plan cannot be played."""
+    """0, or 1 where the plan cannot be played, 3 where it can, but slower."""
     files.check_outputs([arguments.json], [arguments.plan])
     limits = {
         name: value
@@ -128,10 +131,14 @@ def run_check(arguments: argparse.Namespace) -> int:
     )
     for trouble in found["troubles"]:
         trouble["tip_m"] = trouble["tip_m"].tolist()
+    ratio = _ratio(found)
+    found["slowed"] = None if ratio is None else ratio > SLOWED
     files.write_json(arguments.json, {"schema": "diabolo.robot_check/1", "file": arguments.plan, **found})
     if arguments.json != files.STDOUT:
         print(text_of(arguments.plan, found))
-    return 0 if found["playable"] else 1
+    if not found["playable"]:
+        return STATUS_UNPLAYABLE
+    return STATUS_SLOWED if found["slowed"] else 0
 
 
 def run_grid(arguments: argparse.Namespace) -> None:
@@ -164,9 +171,9 @@ def run_grid(arguments: argparse.Namespace) -> None:
 
 
 def text_of(name: str, found: dict[str, Any]) -> str:
-    ratio = None if found["as_played_s"] is None else found["as_played_s"] / found["as_planned_s"]
+    ratio = _ratio(found)
     verdict = "can be played" if found["playable"] else "cannot be played"
-    if found["playable"] and ratio is not None and ratio > SLOWED:
+    if found["playable"] and found["slowed"]:
         verdict += ", but slower than planned: the diabolo will do something else; see diabolo plan --robots"
     lines = [f"{name}: {verdict}"]
     if ratio is not None:
@@ -193,6 +200,11 @@ def text_of(name: str, found: dict[str, Any]) -> str:
         ]
         lines += ["", format_table(["from [s]", "to [s]", "who", "first tip [m]", "why"], rows)]
     return "\n".join(lines)
+
+
+def _ratio(found: dict[str, Any]) -> float | None:
+    """How many times longer the play takes than the plan; None where a tip is not reached."""
+    return None if found["as_played_s"] is None else found["as_played_s"] / found["as_planned_s"]
 
 
 def _map(side: str, arguments: argparse.Namespace) -> StickMap:

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "pickles.hpp"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/interop/json/calibration_file.hpp"
+#include "diabolo/player/goals.hpp"
+#include "diabolo/player/limits.hpp"
+#include "diabolo/player/motion_unknowns.hpp"
+#include "diabolo/player/stick_spline.hpp"
+
+namespace diabolo::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// Pickles a class that is bound already by what `to_state` gives and `from_state` takes, and copies its
+/// values.
+template <class T, class ToState, class FromState>
+void by_state(const ToState& to_state, const FromState& from_state) {
+  auto cls = py::reinterpret_borrow<py::class_<T>>(py::type::of<T>());
+  cls.def("__copy__", [](const T& value) { return value; });
+  cls.def(
+      "__deepcopy__", [](const T& value, const py::dict&) { return value; }, py::arg("memo"));
+  cls.def(py::pickle(to_state, from_state));
+}
+
+/// Pickles it by its members.
+template <class T, class... Members>
+void by_members(Members T::*... members) {
+  by_state<T>([members...](const T& value) { return py::make_tuple(value.*members...); },
+              [members...](const py::tuple& state) {
+                T value{};
+                std::size_t next = 0;
+                ((value.*members = state[next++].template cast<Members>()), ...);
+                return value;
+              });
+}
+
+std::optional<std::pair<double, double>> pair_of(const std::optional<Target>& target) {
+  return target ? std::optional(std::pair(target->value, target->weight)) : std::nullopt;
+}
+
+std::optional<Target> target_of(const py::handle& state) {
+  const auto pair = state.cast<std::optional<std::pair<double, double>>>();
+  return pair ? std::optional(Target{pair->first, pair->second}) : std::nullopt;
+}
+
+py::tuple state_of(const Goals& goals) {
+  using Place = std::optional<std::pair<Vector3<double>, double>>;
+  const Goals::Tolerances& t = goals.tolerances;
+  return py::make_tuple(
+      goals.waypoints, goals.final_state, pair_of(goals.spin), goals.taut, pair_of(goals.apex),
+      goals.landing ? Place(std::pair(goals.landing->position, goals.landing->weight)) : Place(),
+      goals.caught, py::make_tuple(t.position, t.velocity, t.direction, t.spin, t.taut));
+}
+
+Goals goals_of(const py::tuple& state) {
+  Goals goals;
+  goals.waypoints = state[0].cast<std::vector<Waypoint>>();
+  goals.final_state = state[1].cast<std::optional<Waypoint>>();
+  goals.spin = target_of(state[2]);
+  goals.taut = state[3].cast<std::optional<double>>();
+  goals.apex = target_of(state[4]);
+  if (const auto landing = state[5].cast<std::optional<std::pair<Vector3<double>, double>>>())
+    goals.landing = Landing{landing->first, landing->second};
+  goals.caught = state[6].cast<std::optional<double>>();
+  const auto t = state[7].cast<std::vector<double>>();
+  goals.tolerances = {t.at(0), t.at(1), t.at(2), t.at(3), t.at(4)};
+  goals.validate();
+  return goals;
+}
+
+/// `others` is a function of the program that made it: it is copied, and cannot be pickled.
+void pickle_tip_limits() {
+  using L = TipLimits;
+  by_state<L>(
+      [](const L& l) {
+        if (l.others)
+          throw py::type_error(
+              "TipLimits: others is a function, which cannot be pickled; expected limits without others");
+        return py::make_tuple(l.speed, l.acceleration, l.jerk, l.string_margin, l.least_gap, l.lowest,
+                              l.highest);
+      },
+      [](const py::tuple& state) {
+        L limits{state[0].cast<double>(),         state[1].cast<double>(), state[2].cast<double>(),
+                 state[3].cast<double>(),         state[4].cast<double>(), state[5].cast<Vector3<double>>(),
+                 state[6].cast<Vector3<double>>()};
+        limits.validate();
+        return limits;
+      });
+}
+
+void pickle_spline() {
+  using Spline = StickSpline<double>;
+  using Column = TipColumn<double>;
+  using Start = std::optional<std::pair<Column, Column>>;
+  by_state<Spline>(
+      [](const Spline& s) {
+        return py::make_tuple(s.begin, s.durations, s.points, static_cast<int>(s.ends),
+                              s.start ? Start(std::pair(s.start->velocity, s.start->acceleration)) : Start(),
+                              s.sticks);
+      },
+      [](const py::tuple& state) {
+        Spline spline;
+        spline.begin = state[0].cast<double>();
+        spline.durations = state[1].cast<std::vector<double>>();
+        spline.points = state[2].cast<std::vector<Column>>();
+        spline.ends = static_cast<SplineEnds>(state[3].cast<int>());
+        if (const auto start = state[4].cast<Start>())
+          spline.start = SplineStart<double>{start->first, start->second};
+        spline.sticks = state[5].cast<Column>();
+        spline.validate();
+        return spline;
+      });
+}
+
+}  // namespace
+
+void bind_pickles() {
+  by_members(&Waypoint::position, &Waypoint::velocity, &Waypoint::position_weight, &Waypoint::velocity_weight,
+             &Waypoint::direction_weight);
+  by_state<Goals>(&state_of, &goals_of);
+  by_members(&LimitUse::name, &LimitUse::value, &LimitUse::limit, &LimitUse::unit, &LimitUse::time,
+             &LimitUse::excess);
+  pickle_tip_limits();
+  by_members(&Freedom::forward, &Freedom::times, &Freedom::last_point, &Freedom::reach, &Freedom::stretch);
+  pickle_spline();
+  by_members(&DiaboloProperties::mass, &DiaboloProperties::diameter, &DiaboloProperties::length,
+             &DiaboloProperties::axle_radius);
+  by_state<Calibration>(&write_calibration,
+                        [](const std::string& text) { return read_calibration(text, "calibration"); });
+}
+
+}  // namespace diabolo::python

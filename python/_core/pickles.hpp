@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace diabolo::python {
+
+/// Copies and pickles of goals, limits, motions and calibrations, whose classes are bound already.
+void bind_pickles();
+
+}  // namespace diabolo::python
