@@ -44,8 +44,8 @@ def add_parser(commands: Any) -> None:
         run=run,
         summary="name the physics that a simulator misses, or what was measured wrongly",
         text="Compare a simulator with recordings and find where they part. Name what is missing (friction,\n"
-        "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets). Add it, and\n"
-        "show on held-out data that the prediction improves. Several recordings are fitted together.",
+        "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets). Add it,\n"
+        "and show on held-out data that the prediction improves. Several recordings are fitted together.",
         example="  diabolo diagnose swing.csv throw.csv --out diagnosis",
     )
     parser.add_argument(
