@@ -215,7 +215,7 @@ check-tree:
 
 check-prose: # Sentences of the pages are short.
 	@$(packages) build
-	@$(PYTHON) tools/count_sentences.py README.md CONTRIBUTING.md docs/*.md
+	@git ls-files -co --exclude-standard '*.md' | grep -vx CHANGELOG.md | xargs $(PYTHON) tools/count_sentences.py
 
 generate_stubs = rm -rf $(BUILD)/stubs; $(VENV)/bin/pybind11-stubgen --exit-code -o $(BUILD)/stubs diabolo._core
 stubs: $(VENV)/.package-with-tests $(VENV)/.tools ## Write the type stubs of the compiled module anew

@@ -44,10 +44,10 @@ def add_parser(commands: Any) -> None:
         commands,
         "diagnose",
         run=run,
-        summary="find what the simulator leaves out, or what the measurement got wrong",
-        text="Compare a simulator with recordings, find where they part, name what is missing (friction,\n"
-        "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets), add it,\n"
-        "and show on data left out that the prediction improves. Several recordings go together.",
+        summary="name the physics that a simulator misses, or what was measured wrongly",
+        text="Compare a simulator with recordings and find where they part. Name what is missing (friction,\n"
+        "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets). Add it,\n"
+        "and show on held-out data that the prediction improves. Several recordings are fitted together.",
         example="  diabolo diagnose swing.csv throw.csv --out diagnosis",
     )
     parser.add_argument(
@@ -68,7 +68,7 @@ def add_parser(commands: Any) -> None:
         nargs="+",
         default=[],
         metavar="RECORDING",
-        help="recordings, or rows of them as above, that nothing is fitted to, to compare on",
+        help="held-out recordings, or rows of them as above: nothing is fitted to them",
     )
     parser.add_argument("--json", metavar="FILE", help="write the result as JSON; - is standard output")
     parser.add_argument(
@@ -80,7 +80,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--budget", metavar="SECONDS", type=float, default=1e9, help="look for nothing more after so long"
     )
-    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the intervals; default: 1")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the intervals; default: 1")
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
 
 
@@ -173,7 +173,7 @@ def text_of(diagnosis: Diagnosis) -> str:
         if before is not None and after is not None
     ]
     if shown:
-        lines.append(f"  mean error on {fit['heldout']} left out, after " + "; ".join(shown))
+        lines.append(f"  mean error on held-out {fit['heldout']}, after " + "; ".join(shown))
     if fit["holdout_unused"]:
         names = ", ".join(fit["holdout_unused"])
         lines.append(f"  held out, but without a start that could be compared: {names}")
