@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/effects/gyroscopic_tilt.hpp"
 
-#include "diabolo/recording/baseline.hpp"
+#include "diabolo/string/hanging.hpp"
 #include "effect_scene.hpp"
 
 using namespace effect_scene;
@@ -20,11 +20,7 @@ Full tilting(double gain) {
 Tips<double> held(double left, double right) { return {{left, kApart, 1.2}, {right, -kApart, 1.2}}; }
 
 State<double> hanging(const Tips<double>& tips, double spin) {
-  State<double> state;
-  state.position = lowest_point(tips.left, tips.right, 1.45);
-  state.spin = spin;
-  state.string_state = StringState::kOnString;
-  return state;
+  return hanging_state(tips.left, tips.right, 1.45, spin);
 }
 
 /// The axle of a rigid body under the pull of two strands along the tangents of its axle, by Euler's

@@ -14,9 +14,9 @@
 #include "diabolo/player/authors_motions.hpp"
 #include "diabolo/player/goals.hpp"
 #include "diabolo/player/motion_unknowns.hpp"
-#include "diabolo/recording/baseline.hpp"
 #include "diabolo/recording/text.hpp"
 #include "diabolo/state.hpp"
+#include "diabolo/string/hanging.hpp"
 
 namespace diabolo {
 
@@ -73,13 +73,9 @@ inline TipColumn<double> home_pose(std::string_view action, double string_length
   return detail::tips_column(0.55, 0.3 * s, 1.25, -0.3 * s, 1.25);
 }
 
-/// A diabolo that hangs at rest below the tips.
+/// A diabolo that hangs at rest below the tips, left over right [m].
 inline State<double> hanging_state(const TipColumn<double>& tips, double string_length, double spin) {
-  State<double> state;
-  state.position = lowest_point(tips.head<3>(), tips.tail<3>(), string_length);
-  state.spin = spin;
-  state.string_state = StringState::kOnString;
-  return state;
+  return hanging_state(Vector3<double>(tips.head<3>()), Vector3<double>(tips.tail<3>()), string_length, spin);
 }
 
 namespace detail {
