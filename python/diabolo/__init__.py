@@ -4,7 +4,9 @@
 from ._core import (
     Air,
     Calibration,
+    ClaimedEffect,
     DiaboloProperties,
+    DiagnosisResult,
     ErrorSummary,
     FiniteAxle,
     Freedom,
@@ -14,6 +16,7 @@ from ._core import (
     Horizon,
     HorizonScore,
     Interval,
+    LadderRow,
     LandingRestitution,
     LimitUse,
     MagnusLift,
@@ -21,6 +24,7 @@ from ._core import (
     ParameterInfo,
     Parameters,
     Plan,
+    PlannedPlay,
     Predictor,
     Recording,
     RecordingError,
@@ -57,14 +61,16 @@ from .enums import (
     ThinRule,
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
-from .player import PlannedPlay, best_guess, hanging, model_for, plan, plan_action, success_rate
+from .player import best_guess, hanging, model_for, plan, plan_action, success_rate
 from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
 from .view import view_html
 
 __all__ = [
     "Air",
     "Calibration",
+    "ClaimedEffect",
     "Diagnosis",
+    "DiagnosisResult",
     "DiaboloProperties",
     "ErrorSummary",
     "Evaluation",
@@ -81,6 +87,7 @@ __all__ = [
     "Interpolation",
     "Interval",
     "GyroscopicTilt",
+    "LadderRow",
     "LandingRestitution",
     "LimitUse",
     "MagnusLift",
