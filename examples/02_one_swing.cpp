@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "diabolo/batch/batch.hpp"
+#include "diabolo/string/hanging.hpp"
 
 namespace {
 
@@ -41,13 +42,8 @@ int main() {
   diabolo::Batch batch;
   batch.parameters.resize(1);  // the default: an inextensible string of 1.45 m
   const diabolo::Tips<double> tips = motions[0].at(0.0);
-  const diabolo::Spheroid<double> spheroid(tips.left, tips.right, batch.parameters[0].string_length);
-  diabolo::State<double> hanging;
-  hanging.position = spheroid.center();
-  hanging.position.z() -= spheroid.semi_minor();
-  hanging.spin = 100.0;
-  hanging.string_state = diabolo::StringState::kOnString;
-  batch.initial.assign(kCount, hanging);
+  batch.initial.assign(
+      kCount, diabolo::hanging_state(tips.left, tips.right, batch.parameters[0].string_length, 100.0));
   for (const diabolo::TipMotion<double>& motion : motions) batch.motions.push_back(&motion);
   batch.steps = {.begin = 0.0, .dt = 1e-3, .count = 6000};
   batch.record_every = 10;

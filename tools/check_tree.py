@@ -15,8 +15,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST_HEADER = 300  # lines
 
-# The bands of include/diabolo, from the lowest. A room is a folder, or some headers of the top level, which hold the
-# words that a user types. A header includes lower bands, its own room, or a room beside it that does not need its own.
+# The bands of include/diabolo, from the lowest. A room is a folder, or some headers of the top level, which
+# hold the words that a user types. A header includes lower bands, its own room, or a room beside it that does
+# not need its own.
 NOUNS = ("parameters", "rules", "state", "sticks", "version")
 VERBS = ("predictor", "full_predictor", "rollout", "model")
 BANDS: tuple[tuple[str, ...], ...] = (

@@ -99,14 +99,11 @@ def main() -> int:
             subprocess.run([arguments.plant, file, "--out", take], check=True, capture_output=True)
             answer = diagnose(load_recording(take))
             claims = [
-                f"{effect['name']} "
-                + ", ".join(
-                    f"{p['name']} {p['value']:.3g} [{p['ci90'][0]:.3g}, {p['ci90'][1]:.3g}]"
-                    for p in effect["parameters"][:2]
-                )
+                f"{effect.name} "
+                + ", ".join(f"{p.name} {p.value:.3g} {p.ci90}" for p in effect.parameters[:2])
                 for effect in answer.effects
             ]
-            named = [effect["name"] for effect in answer.effects]
+            named = [effect.name for effect in answer.effects]
             right += named == [] if name == "nothing" else named == [name]
             print(f"| {name} | {answer.headline} | {'; '.join(claims)} |", flush=True)
     print(f"{right} of {len(CASES)} answers name what is at work and nothing else")

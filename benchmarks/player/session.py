@@ -12,7 +12,7 @@ from typing import Any
 
 import diabolo
 import numpy as np
-from diabolo import Freedom, Goals, Model, Parameters, Plan, State, TipLimits, TipPath, _core
+from diabolo import Freedom, Goals, LadderRow, Model, Parameters, Plan, State, TipLimits, TipPath, _core
 from plant import STICKS, Plant, Played
 
 REACTION = 0.12
@@ -79,7 +79,7 @@ def known(plant: Plant, kind: str, diagnosis: dict[str, Any] | None) -> list[Mod
         file.write_text(json.dumps(diagnosis["model"]))
         model = Model.load(file)
     if kind == "guessed":
-        model = diabolo.best_guess(model, diagnosis)
+        model = diabolo.best_guess(model, [LadderRow(**row) for row in diagnosis["ladder"]])
     return [model]
 
 
@@ -95,8 +95,8 @@ def diagnosed(plant: Plant) -> dict[str, Any]:
         "sentence": found.sentence,
         "model": json.loads(diabolo.model_for(found.model, takes[0]).to_json()),
         "ladder": [
-            {key: entry[key] for key in ("name", "estimate", "z", "claimed")}
-            for entry in found.result["ladder"]
+            {key: getattr(row, key) for key in ("name", "estimate", "z", "claimed")}
+            for row in found.result.ladder
         ],
     }
 

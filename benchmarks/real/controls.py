@@ -22,7 +22,7 @@ def model_with(own_string_length: bool = False, **parameters: float) -> Model:
 
 def shown(answer: Diagnosis) -> str:
     """What is claimed, with its first parameter."""
-    return "; ".join(f"{effect['name']} {effect['parameters'][0]['value']:.4g}" for effect in answer.effects)
+    return "; ".join(f"{effect.name} {effect.parameters[0].value:.4g}" for effect in answer.effects)
 
 
 def main() -> int:
@@ -45,17 +45,17 @@ def main() -> int:
     ]
     for what, name, base in controls:
         answer = diagnose(takes, base)
-        hit = name in [effect["name"] for effect in answer.effects]
+        hit = name in [effect.name for effect in answer.effects]
         found += hit
         verdict = ("yes" if hit else "no") if name else "-"
         print(f"| {what} | {name or '-'} | {verdict} | {shown(answer)} |", flush=True)
     won = 0
     for group in ([takes] if len(takes) > 1 else []) + [[take] for take in takes]:
-        names = [rung["name"] for rung in diagnose(group).result["ladder"]]
+        names = [row.name for row in diagnose(group).result.ladder]
         if not names:
             continue
         answer = diagnose(group, bank=[*names, "body_swap", *PLACEBOS])
-        claimed = [name for name in PLACEBOS if name in [effect["name"] for effect in answer.effects]]
+        claimed = [name for name in PLACEBOS if name in [effect.name for effect in answer.effects]]
         won += len(claimed)
         told = " and ".join(take.name for take in group) if len(group) < 3 else f"all {len(group)}"
         print(

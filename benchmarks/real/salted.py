@@ -152,11 +152,11 @@ def turned(take: Recording, spin: NDArray[np.float64]) -> NDArray[np.float64] | 
 
 def estimate_of(answer: diabolo.Diagnosis, parameter: str) -> float:
     """What the ladder says of the candidate with this parameter, claimed or not."""
-    return float(next(rung["estimate"] for rung in answer.result["ladder"] if rung["parameter"] == parameter))
+    return float(next(row.estimate for row in answer.result.ladder if row.parameter == parameter))
 
 
 def names_of(answer: diabolo.Diagnosis) -> set[str]:
-    return {effect["name"] for effect in answer.effects}
+    return {effect.name for effect in answer.effects}
 
 
 def main() -> int:

@@ -26,9 +26,8 @@ parameters = diabolo.Parameters(string_length=1.45)
 durations = np.linspace(0.2, 3.0, 200)
 motions = [sway(duration) for duration in durations]
 
-spheroid = diabolo.Spheroid(motions[0].left[0], motions[0].right[0], parameters.string_length)
-hanging = spheroid.center - [0.0, 0.0, spheroid.semi_minor]
-initial = np.concatenate([hanging, [0.0, 0.0, 0.0], [100.0]])  # position, velocity, spin
+hanging = diabolo.hanging(parameters, motions[0].left[0], motions[0].right[0])
+initial = np.concatenate([hanging.position, [0.0, 0.0, 0.0], [100.0]])  # position, velocity, spin
 
 swings = diabolo.rollout(
     parameters, initial, motions, dt=1e-3, steps=6000, record_every=10, string_state="on_string"

@@ -14,9 +14,8 @@ asked = [diabolo.load_recording(RECORDINGS / f"{name}.csv") for name in ("swing"
 diagnosis = diabolo.diagnose(asked)
 print(diagnosis.sentence)
 for effect in diagnosis.effects:
-    for parameter in effect["parameters"]:
-        low, high = parameter["ci90"]
-        print(f"  {effect['name']}, {parameter['name']}: {parameter['value']:.3g} [{low:.3g}, {high:.3g}]")
+    for parameter in effect.parameters:
+        print(f"  {effect.name}, {parameter.name}: {parameter.value:.3g} {parameter.ci90}")
 
 other = diabolo.load_recording(RECORDINGS / "linear_acceleration.csv")
 print(f"{other.name}, which was not looked at: mean error [m]")

@@ -64,6 +64,14 @@ inline Parameters<double> parameters_for(const Model& model, const Recording& re
   return result;
 }
 
+/// The model with the recording's string, mass and axle where it leaves them to it: to simulate, or to plan
+/// for, the set-up that was recorded. Throws std::invalid_argument where a parameter is out of its range.
+inline Model model_for(Model model, const Recording& recording) {
+  model.parameters = parameters_for(model, recording);
+  model.parameters.validate();
+  return model;
+}
+
 /// Predicts the diabolo of the recording by the model. Throws std::invalid_argument where a parameter is out
 /// of its range.
 inline FullPredictor<double> predictor_for(const Model& model, const Recording& recording) {

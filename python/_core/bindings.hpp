@@ -21,6 +21,7 @@ void bind_predictor(pybind11::module_& module);
 void bind_evaluation(pybind11::module_& module);
 void bind_rollout(pybind11::module_& module);
 void bind_gradient(pybind11::module_& module);
+void bind_diagnosis_result(pybind11::module_& module);
 void bind_diagnosis(pybind11::module_& module);
 void bind_player(pybind11::module_& module);
 void bind_robot(pybind11::module_& module);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/result_of.hpp"
 #include "diabolo/json/diagnosis_file.hpp"
 
 #include "bindings.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 using namespace py::literals;
 
-/// JSON text and the model with what was found.
+/// What is said, and the model with what was found.
 py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
                    const std::vector<Recording>& holdout, const std::vector<std::string>& bank, double budget,
                    std::uint64_t seed, int threads, const py::object& progress) {
@@ -31,6 +32,7 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
   for (const Recording& recording : holdout) check_recording(recording);
   const DiagnosisOptions options{
       .base = base, .holdout = holdout, .bank = bank, .budget = budget, .seed = seed, .threads = threads};
+  std::vector<std::string> unused;
   std::mutex mutex;
   std::pair<std::string, double> now{"", 0.0};
   Diagnosis result;
@@ -42,6 +44,8 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
           const std::scoped_lock lock(mutex);
           now = {step, done};
         };
+        for (const Recording& recording : holdout)
+          if (comparable_windows(recording, base) == 0) unused.push_back(recording.name);
         result = diabolo::diagnose(recordings, options, watch);
       },
       [&] {
@@ -53,16 +57,7 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
         }
         progress(seen.first, seen.second);
       });
-  return py::make_tuple(json_text(diagnosis_to_json(result, recordings), "diagnosis"), result.model);
-}
-
-/// Starts from which a recording that is held out can be compared, as compare_held_out() would take them.
-std::size_t comparable_windows(const Recording& recording, const Model& base) {
-  check_recording(recording);
-  HorizonOptions options;
-  options.starts_every = 0.2;
-  options.horizons = HeldOut{}.horizons;
-  return HorizonTask(recording, base, options).size();
+  return py::make_tuple(result_of(result, recordings, std::move(unused)), result.model);
 }
 
 }  // namespace
@@ -70,8 +65,6 @@ std::size_t comparable_windows(const Recording& recording, const Model& base) {
 void bind_diagnosis(py::module_& module) {
   module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "budget"_a, "seed"_a,
              "threads"_a, "progress"_a, "See diabolo.diagnose.");
-  module.def("comparable_windows", &comparable_windows, "recording"_a, "base"_a, Unlocked(),
-             "Starts from which a recording that is held out can be compared; see diabolo.diagnose.");
 }
 
 }  // namespace diabolo::python

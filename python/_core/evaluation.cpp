@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/evaluate/evaluation.hpp"
+#include "diabolo/evaluate/predict.hpp"
 
 #include <pybind11/stl.h>
 
@@ -26,18 +27,6 @@ Start start_from_python(const std::string& start) {
   throw std::invalid_argument("start: '" + start + "'; expected 'fair' or 'published'");
 }
 
-/// Throws std::invalid_argument where a prediction cannot start from the row.
-State<double> state_at(const Recording& recording, const StartStates& starts, Start start, Eigen::Index row) {
-  const auto fail = [&](const std::string& why) {
-    throw std::invalid_argument("recording " + shown(recording.name) + ": row " + std::to_string(row) + why);
-  };
-  if (row < 0 || row >= recording.size()) fail("; expected 0 to " + std::to_string(recording.size() - 1));
-  if (!starts.known(start, row))
-    fail(start == Start::kFair ? " cannot be a start: the diabolo must be seen there and for 0.1 s before"
-                               : " cannot be a start: the diabolo must be seen there and in the next row");
-  return starts.at(start, row);
-}
-
 /// What `work(watch)` gives. Ctrl-C ends it.
 template <class Work>
 auto watched(const Work& work) {
@@ -48,39 +37,24 @@ auto watched(const Work& work) {
   return result;
 }
 
-/// States at each row from the start on, the first step at or after it; NaN before.
-py::tuple predict(const Recording& recording, const Model& model, std::optional<Eigen::Index> start_row,
-                  const std::string& start_rule) {
-  check_recording(recording);
-  const StartStates starts(recording, has_signed_spin(model));
-  const Eigen::Index first = start_row ? *start_row : first_start(recording, starts);
-  const State<double> start = state_at(recording, starts, start_from_python(start_rule), first);
-  const RecordedTips tips(recording, model.interpolation);
-  const double begin = tips.times()[first];
-  const Eigen::Index last = recording.size() - 1;
+/// States and string states at each row; before the start NaN, and as at the start.
+py::tuple predicted_rows(const Recording& recording, const Model& model,
+                         std::optional<Eigen::Index> start_row, const std::string& start) {
+  const Start rule = start_from_python(start);
+  const Prediction predicted =
+      watched([&](const Watch& watch) { return predict(recording, model, rule, start_row, watch); });
   Array states({recording.size(), Eigen::Index{7}});
   py::array_t<std::uint8_t> codes(recording.size());
   std::fill_n(states.mutable_data(), states.size(), kNaN);
-  std::fill_n(codes.mutable_data(), codes.size(), static_cast<std::uint8_t>(start.string_state));
-  Eigen::Index row = first;
-  const auto record = [&](std::size_t step, const State<double>& state) {
-    for (; row <= last && steps_until(tips.times()[row] - begin) == step; ++row) {
-      double* to = std::copy_n(state.position.data(), 3, states.mutable_data(row, 0));
-      to = std::copy_n(state.velocity.data(), 3, to);
-      *to = state.spin;
-      codes.mutable_at(row) = static_cast<std::uint8_t>(state.string_state);
-    }
-  };
-  record(0, start);
-  const auto motion = tips.motion(first, last);
-  const Steps steps{begin, kEvaluationStep, steps_until(tips.times()[last] - begin)};
-  watched([&](const Watch& watch) {
-    return rollout(predictor_for(model, recording), start, *motion, steps,
-                   [&](std::size_t step, double, const State<double>& state, const StepStatus<double>&) {
-                     if (watch.cancelled()) throw Cancelled();
-                     record(step, state);
-                   });
-  });
+  std::fill_n(codes.mutable_data(), codes.size(),
+              static_cast<std::uint8_t>(predicted.states.front().string_state));
+  Eigen::Index row = predicted.first;
+  for (const State<double>& state : predicted.states) {
+    double* to = std::copy_n(state.position.data(), 3, states.mutable_data(row, 0));
+    to = std::copy_n(state.velocity.data(), 3, to);
+    *to = state.spin;
+    codes.mutable_at(row++) = static_cast<std::uint8_t>(state.string_state);
+  }
   return py::make_tuple(states, codes);
 }
 
@@ -180,11 +154,13 @@ void bind_evaluation(py::module_& module) {
       },
       "recordings"_a, "model"_a, "starts_every"_a, "horizons"_a, "start"_a, "seed"_a, "threads"_a,
       "progress"_a, "See diabolo.evaluate.");
-  module.def("predict", &predict, "recording"_a, "model"_a, "row"_a, "start"_a, "See diabolo.predict.");
+  module.def("model_for", &model_for, "model"_a, "recording"_a, "See diabolo.model_for.");
+  module.def("predict", &predicted_rows, "recording"_a, "model"_a, "row"_a, "start"_a,
+             "See diabolo.predict.");
   module.def(
       "start_state",
       [](const Recording& recording, Eigen::Index row, const std::string& start, bool signed_spin) {
-        return state_at(recording, StartStates(recording, signed_spin), start_from_python(start), row);
+        return start_state(recording, StartStates(recording, signed_spin), start_from_python(start), row);
       },
       "recording"_a, "row"_a, "start"_a = "fair", "signed_spin"_a = true,
       "State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the "

@@ -22,6 +22,7 @@ PYBIND11_MODULE(_core, module) {
   bind_rollout(module);
   bind_gradient(module);
   bind_evaluation(module);
+  bind_diagnosis_result(module);
   bind_diagnosis(module);
   bind_player(module);
   bind_robot(module);

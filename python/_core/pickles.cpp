@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/interop/json/calibration_file.hpp"
-#include "diabolo/player/goals.hpp"
-#include "diabolo/player/limits.hpp"
-#include "diabolo/player/motion_unknowns.hpp"
-#include "diabolo/player/stick_spline.hpp"
+#include "diabolo/json/calibration_file.hpp"
+#include "diabolo/plan/goals.hpp"
+#include "diabolo/plan/limits.hpp"
+#include "diabolo/plan/motion_unknowns.hpp"
+#include "diabolo/plan/stick_spline.hpp"
 
 namespace diabolo::python {
 

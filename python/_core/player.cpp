@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/plan/player.hpp"
+#include "diabolo/plan/plan_action.hpp"
 
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
@@ -7,12 +8,12 @@
 
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "diabolo/model.hpp"
+#include "diabolo/plan/success_rate.hpp"
 #include "diabolo/robot/motion/plan_limits.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -104,75 +105,101 @@ Array derivatives_of(const Path& path, const Array& times) {
   return result;
 }
 
+/// Numbers of each instant of a play, one array each.
+struct PlayArrays {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::VectorXd time;
+  Rows states, left, right;
+  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1> codes;
+
+  explicit PlayArrays(const Play<double>& play) {
+    const Eigen::Index size = static_cast<Eigen::Index>(play.instants.size());
+    time.resize(size);
+    codes.resize(size);
+    states.resize(size, 7);
+    left.resize(size, 3);
+    right.resize(size, 3);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const PlayInstant<double>& instant = play.instants[static_cast<std::size_t>(i)];
+      time[i] = instant.time;
+      states.row(i) << instant.state.position.transpose(), instant.state.velocity.transpose(),
+          instant.state.spin;
+      codes[i] = static_cast<std::uint8_t>(instant.state.string_state);
+      left.row(i) = instant.tips.left;
+      right.row(i) = instant.tips.right;
+    }
+  }
+};
+
 /// Time, states, string states, left and right tips of what a plan leads to.
 py::tuple play_of(const Play<double>& play) {
-  const Eigen::Index size = static_cast<Eigen::Index>(play.instants.size());
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::VectorXd time(size);
-  Rows states(size, 7), left(size, 3), right(size, 3);
-  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1> codes(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const PlayInstant<double>& instant = play.instants[static_cast<std::size_t>(i)];
-    time[i] = instant.time;
-    states.row(i) << instant.state.position.transpose(), instant.state.velocity.transpose(),
-        instant.state.spin;
-    codes[i] = static_cast<std::uint8_t>(instant.state.string_state);
-    left.row(i) = instant.tips.left;
-    right.row(i) = instant.tips.right;
-  }
-  return py::make_tuple(time, states, codes, left, right);
+  const PlayArrays arrays(play);
+  return py::make_tuple(arrays.time, arrays.states, arrays.codes, arrays.left, arrays.right);
 }
 
 Simulator simulator(const Model& model) { return Simulator(model.parameters, model.effects); }
+
+std::vector<Simulator> simulators(const std::vector<Model>& models) {
+  std::vector<Simulator> result;
+  for (const Model& model : models) result.push_back(simulator(model));
+  return result;
+}
 
 /// `starts`: one for all models, or one for each.
 Problem make_problem(const std::vector<Model>& models, const std::vector<State<double>>& starts,
                      const Spline& seed, const Goals& goals, const TipLimits& limits, const Freedom& freedom,
                      double dt) {
   if (starts.empty()) throw std::invalid_argument("plan: no start state; at least one expected");
-  Problem problem{{}, starts.front(), seed, goals, limits, freedom, dt};
+  Problem problem{simulators(models), starts.front(), seed, goals, limits, freedom, dt};
   if (starts.size() > 1) problem.starts = starts;
-  for (const Model& model : models) problem.models.push_back(simulator(model));
   return problem;
 }
 
 /// Of a path to foresee, which takes 0.2 kB an instant [s].
 constexpr double kLongestPath = 3600.0;
 
-Budget budget_of(int evaluations, double seconds, const std::atomic<bool>& cancel) {
-  if (!(seconds > 0.0)) throw std::invalid_argument("seconds: " + shown(seconds) + "; must be positive");
-  if (evaluations < 1) throw std::invalid_argument("evaluations: must be positive");
-  return {evaluations, [end = deadline(seconds), &cancel] { return cancel.load() || end(); }};
-}
-
 Plan make_plan(const std::vector<Model>& models, const std::vector<State<double>>& starts, const Spline& seed,
                const Goals& goals, const TipLimits& limits, const Freedom& freedom, const std::string& solver,
                int evaluations, double seconds, std::uint64_t random_seed, double dt) {
   const Problem problem = make_problem(models, starts, seed, goals, limits, freedom, dt);
+  SearchOptions options{.solver = solver_named(solver),
+                        .evaluations = evaluations,
+                        .seconds = seconds,
+                        .random_seed = random_seed,
+                        .dt = dt};
   Plan plan;
   run_interruptibly([&](const std::atomic<bool>& cancel) {
-    const Budget budget = budget_of(evaluations, seconds, cancel);
-    std::mt19937_64 generator(random_seed);
-    if (solver == "gradient")
-      plan = GradientSearch{}(problem, budget);
-    else if (solver == "walk")
-      plan = RandomWalk{}(problem, budget, generator);
-    else
-      throw std::invalid_argument("solver: '" + solver + "'; expected gradient or walk");
+    options.cancelled = [&cancel] { return cancel.load(); };
+    plan = searched(problem, options);
   });
   return plan;
 }
 
-/// The plans of throw and catch (none where there is nothing to catch), and the path of both.
-py::tuple make_throw_and_catch(const std::vector<Model>& models, const std::vector<State<double>>& starts,
-                               const Spline& seed, const Goals& goals, const TipLimits& limits,
-                               const Freedom& freedom, int evaluations, double seconds, double dt) {
-  const Problem problem = make_problem(models, starts, seed, goals, limits, freedom, dt);
-  ThrowAndCatch both;
+PlannedPlay make_action(const std::string& action, const std::vector<Model>& models,
+                        const std::optional<State<double>>& start, int cycles, double spin, double size,
+                        double pace, std::optional<double> height, std::optional<double> sideways,
+                        std::optional<double> spin_gain, const TipLimits& limits, const std::string& solver,
+                        double seconds, std::uint64_t random_seed, double dt, const Column& sticks) {
+  ActionRequest wanted{
+      .action = action,
+      .cycles = cycles,
+      .spin = spin,
+      .size = size,
+      .pace = pace,
+      .height = height,
+      .sideways = sideways,
+      .spin_gain = spin_gain,
+      .start = start,
+      .limits = limits,
+      .search = {.solver = solver_named(solver), .seconds = seconds, .random_seed = random_seed, .dt = dt},
+      .sticks = sticks};
+  const std::vector<Simulator> by = simulators(models);
+  PlannedPlay planned;
   run_interruptibly([&](const std::atomic<bool>& cancel) {
-    both = plan_throw_and_catch(problem, GradientSearch{}, budget_of(evaluations, seconds, cancel));
+    wanted.search.cancelled = [&cancel] { return cancel.load(); };
+    planned = plan_action(wanted, by);
   });
-  return py::make_tuple(both.thrown, both.caught, both.path, both.reached);
+  return planned;
 }
 
 /// What a path leads to by a model.
@@ -353,8 +380,11 @@ directions, unit vectors, likewise, zero where not known; StickFlex alone looks 
       .def_readonly("seed", &Action::seed)
       .def_readonly("freedom", &Action::freedom)
       .def_readonly("goals", &Action::goals);
-  std::vector<std::string> names(kActionNames.begin(), kActionNames.end());
-  module.attr("ACTION_NAMES") = py::tuple(py::cast(names));
+  const std::vector<std::string_view> planned = planned_actions();
+  module.attr("PLANNED_ACTIONS") = py::tuple(py::cast(planned));
+  py::dict wanted;
+  for (const Aim& aim : aims()) wanted[py::cast(aim.name)] = py::tuple(py::cast(aim.actions));
+  module.attr("AIMS") = wanted;
   module.def(
       "home_pose",
       [](const std::string& name, double string_length) {
@@ -365,9 +395,17 @@ directions, unit vectors, likewise, zero where not known; StickFlex alone looks 
   module.def(
       "hanging_state",
       [](const Vector& left, const Vector& right, double string_length, double spin) {
-        return hanging_state(column(left, right), string_length, spin);
+        return hanging_state(left, right, string_length, spin);
       },
-      "left"_a, "right"_a, "string_length"_a, "spin"_a = 0.0, "A diabolo that hangs at rest below the tips.");
+      "left"_a, "right"_a, "string_length"_a, "spin"_a = 0.0,
+      "A diabolo that hangs at rest at the lowest point between the tips.");
+  module.def(
+      "hanging",
+      [](const Model& model, const Vector& left, const Vector& right, double spin, const Column& sticks) {
+        return hang_at_rest(simulator(model), column(left, right), spin, sticks);
+      },
+      "model"_a, "left"_a, "right"_a, "spin"_a = 0.0, "sticks"_a = Column(Column::Zero()),
+      "See diabolo.hanging.");
   module.def(
       "action",
       [](const std::string& name, const Vector& left, const Vector& right, const State<double>& start,
@@ -381,6 +419,55 @@ directions, unit vectors, likewise, zero where not known; StickFlex alone looks 
       "name"_a, "left"_a, "right"_a, "start"_a, "string_length"_a, "size"_a = 1.0, "pace"_a = 1.0,
       "height"_a = 0.5, "sideways"_a = 0.3, "spin"_a = py::none(), "sticks"_a = Column(Column::Zero()),
       "The figure of that name from a pose of the tips and a state of the diabolo.");
+}
+
+void bind_played(py::module_& module) {
+  py::class_<PlannedPlay>(module, "PlannedPlay",
+                          "A planned motion, and what it leads to by the model that it was planned with.")
+      .def_readonly("action", &PlannedPlay::action)
+      .def_readonly("path", &PlannedPlay::path, "Of the tips.")
+      .def_readonly("plans", &PlannedPlay::plans,
+                    "One a cycle; of a throw and catch, two, or one where there is nothing to catch.")
+      .def_property_readonly(
+          "wanted", [](const PlannedPlay& p) { return std::vector<Goals>{p.wanted}; },
+          "The goals of the first cycle.")
+      .def_readonly("start", &PlannedPlay::start, "State of the diabolo.")
+      .def_property_readonly(
+          "time", [](const PlannedPlay& p) { return PlayArrays(p.play).time; }, "[s], shape (N,).")
+      .def_property_readonly(
+          "states", [](const PlannedPlay& p) { return PlayArrays(p.play).states; },
+          "Position [m], velocity [m/s] and spin [rad/s], shape (N, 7).")
+      .def_property_readonly(
+          "string_states", [](const PlannedPlay& p) { return PlayArrays(p.play).codes; },
+          "As in StringState, shape (N,).")
+      .def_property_readonly(
+          "left", [](const PlannedPlay& p) { return PlayArrays(p.play).left; }, "Left tip [m], shape (N, 3).")
+      .def_property_readonly(
+          "right", [](const PlannedPlay& p) { return PlayArrays(p.play).right; },
+          "Right tip [m], shape (N, 3).")
+      .def_readonly("planning_time", &PlannedPlay::planning_time, "Of all plans together [s].")
+      .def_readonly("ended", &PlannedPlay::ended,
+                    "Why there are fewer cycles than were asked for; empty where there are not.")
+      .def_property_readonly("reached", &PlannedPlay::reached,
+                             "Whether every goal of every cycle is reached.")
+      .def_property_readonly(
+          "answer", &PlannedPlay::answer,
+          "The same in a sentence: that of the first plan that misses a goal, or why there are no more.")
+      .def("__repr__", [](const PlannedPlay& p) {
+        return "<PlannedPlay " + p.action + ", " + shown_rounded(p.path.end() - p.path.begin()) +
+               " s: " + p.answer() + ">";
+      });
+  module.def("plan_action", &make_action, "action"_a, "models"_a, "start"_a, "cycles"_a, "spin"_a, "size"_a,
+             "pace"_a, "height"_a, "sideways"_a, "spin_gain"_a, "limits"_a, "solver"_a, "seconds"_a,
+             "random_seed"_a, "dt"_a, "sticks"_a, "See diabolo.plan_action.");
+  module.def(
+      "success_rate",
+      [](const PlannedPlay& planned, const std::vector<Model>& models) {
+        const std::vector<Simulator> by = simulators(models);
+        const py::gil_scoped_release free;
+        return success_rate(planned, by);
+      },
+      "play"_a, "models"_a, "See diabolo.success_rate.");
 }
 
 void bind_plans(py::module_& module) {
@@ -407,11 +494,6 @@ void bind_plans(py::module_& module) {
           "end", [](const Plan& plan) { return plan.play.end().state; }, "State at the end of the motion.");
   module.def("plan", &make_plan, "models"_a, "starts"_a, "seed"_a, "goals"_a, "limits"_a, "freedom"_a,
              "solver"_a, "evaluations"_a, "seconds"_a, "random_seed"_a, "dt"_a, "See diabolo.plan.");
-  module.def("plan_throw_and_catch", &make_throw_and_catch, "models"_a, "starts"_a, "seed"_a, "goals"_a,
-             "limits"_a, "freedom"_a, "evaluations"_a, "seconds"_a, "dt"_a,
-             "Plans of a throw and of the catch that follows, None where there is nothing to catch; the path "
-             "of both, "
-             "and whether both are reached.");
   module.def(
       "foresee", &foresee, "model"_a, "start"_a, "path"_a, "dt"_a = 1e-3, "flight"_a = 0.0,
       "down_to"_a = -TipLimits::kNone,
@@ -460,6 +542,7 @@ void bind_player(py::module_& module) {
   bind_limits(module);
   bind_motions(module);
   bind_plans(module);
+  bind_played(module);
 }
 
 }  // namespace diabolo::python

@@ -17,6 +17,7 @@
 #include "diabolo/json/recording_file.hpp"
 #include "diabolo/recording/plausibility/overlaps.hpp"
 #include "diabolo/recording/plausibility/warnings.hpp"
+#include "diabolo/recording/played_recording.hpp"
 #include "diabolo/recording/resample.hpp"
 #include "diabolo/recording/spin.hpp"
 
@@ -91,6 +92,30 @@ Recording make(const Array& time, const Array& left, const Array& right, const A
     recording.frame.push_back(std::abs(t * rate) < 1e15 ? std::lround(t * rate) : 0);
   check_recording(recording);
   return recording;
+}
+
+Eigen::Matrix3Xd to_columns(const Array& rows, const std::string& name) {
+  expect_shape(rows, name, {kAny, 3});
+  return Eigen::Map<const Eigen::Matrix3Xd>(rows.data(), 3, rows.shape(0));
+}
+
+/// `states`, shape (N, 7): position [m], velocity [m/s] and spin [rad/s].
+Recording make_played(const std::string& name, const Array& time, const Array& left, const Array& right,
+                      const Array& states, double rate, const DiaboloProperties& properties,
+                      double string_length) {
+  expect_shape(time, "time", {kAny});
+  expect_shape(states, "states", {time.shape(0), 7});
+  std::vector<State<double>> played(static_cast<std::size_t>(states.shape(0)));
+  for (py::ssize_t i = 0; i < states.shape(0); ++i) {
+    const double* numbers = states.data(i, 0);
+    State<double>& state = played[static_cast<std::size_t>(i)];
+    state.position = {numbers[0], numbers[1], numbers[2]};
+    state.velocity = {numbers[3], numbers[4], numbers[5]};
+    state.spin = numbers[6];
+  }
+  return played_recording(name, Eigen::Map<const Eigen::VectorXd>(time.data(), time.shape(0)),
+                          to_columns(left, "left"), to_columns(right, "right"), played, rate, properties,
+                          string_length);
 }
 
 /// What from_tuple() makes the recording of again.
@@ -327,6 +352,11 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   cls.def("__repr__", [](const Recording& r) {
     return py::str("<Recording '{}': {} samples at {:g} Hz>").format(r.name, r.size(), r.rate);
   });
+  module.def(
+      "played_recording", &make_played, "name"_a, "time"_a, "left"_a, "right"_a, "states"_a, "rate"_a,
+      "properties"_a, "string_length"_a,
+      "A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position "
+      "[m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin.");
   module.def("load_recording", &load, "path"_a,
              py::arg_v("calibration", published_calibration(), "Calibration.published()"), py::kw_only(),
              "up"_a = py::none(), "columns"_a = py::none(), Unlocked(), "The same as Recording.load.");

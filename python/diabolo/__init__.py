@@ -5,7 +5,9 @@ from . import quiet_start  # noqa: F401
 from ._core import (
     Air,
     Calibration,
+    ClaimedEffect,
     DiaboloProperties,
+    DiagnosisResult,
     ErrorSummary,
     FiniteAxle,
     Freedom,
@@ -15,6 +17,7 @@ from ._core import (
     Horizon,
     HorizonScore,
     Interval,
+    LadderRow,
     LandingRestitution,
     LimitUse,
     MagnusLift,
@@ -22,6 +25,7 @@ from ._core import (
     ParameterInfo,
     Parameters,
     Plan,
+    PlannedPlay,
     Predictor,
     Recording,
     RecordingError,
@@ -58,14 +62,16 @@ from .enums import (
     ThinRule,
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
-from .player import PlannedPlay, best_guess, hanging, model_for, plan, plan_action, success_rate
+from .player import best_guess, hanging, model_for, plan, plan_action, success_rate
 from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
 from .view import view_html
 
 __all__ = [
     "Air",
     "Calibration",
+    "ClaimedEffect",
     "Diagnosis",
+    "DiagnosisResult",
     "DiaboloProperties",
     "ErrorSummary",
     "Evaluation",
@@ -82,6 +88,7 @@ __all__ = [
     "Interpolation",
     "Interval",
     "GyroscopicTilt",
+    "LadderRow",
     "LandingRestitution",
     "LimitUse",
     "MagnusLift",

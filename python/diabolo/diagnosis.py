@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
@@ -12,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._core import Model, Recording
+from ._core import DIAGNOSIS_SCHEMA, ClaimedEffect, DiagnosisResult, Model, Recording
 from .checks import (
     LARGEST_SEED,
     MOST_THREADS,
@@ -27,7 +26,7 @@ from .checks import (
     whole_number,
 )
 
-SCHEMA = "diabolo.diagnosis/1"
+SCHEMA: str = DIAGNOSIS_SCHEMA
 
 SAME_SET_UP = 0.01
 """Part by which lengths and masses of one set-up may differ, measured anew for each take."""
@@ -36,29 +35,29 @@ SAME_SET_UP = 0.01
 class Diagnosis(NamedTuple):
     """What `diagnose` gives."""
 
-    result: dict[str, Any]
-    """Everything, as in a file of the schema diabolo.diagnosis/1 (docs/diagnosis.md)."""
+    result: DiagnosisResult
+    """Everything that its file holds, of the schema diabolo.diagnosis/1 (docs/diagnosis.md)."""
     model: Model
     """The base with the physics that was found; for recordings without the faults that were found."""
 
     @property
     def headline(self) -> str:
         """NAMED, TIE, NOTHING_MISSING and the like: the first of the schema's list that holds."""
-        return str(self.result["headline"])
+        return self.result.headline
 
     @property
     def sentence(self) -> str:
         """The answer."""
-        return str(self.result["sentence"])
+        return self.result.sentence
 
     @property
-    def effects(self) -> list[dict[str, Any]]:
+    def effects(self) -> list[ClaimedEffect]:
         """What is claimed, the surest first."""
-        return list(self.result["effects"])
+        return self.result.effects
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
-        return self.result
+        return self.result.to_dict()
 
 
 def diagnose(
@@ -78,7 +77,7 @@ def diagnose(
     base: the simulator: a Model, "consistent", "paper" or "published".
     holdout: recordings that nothing is fitted to, to compare base and answer on; by default recordings, or
         thirds of a single one, are left out in turn. Those on which nothing can be compared are named in
-        result["fit"]["holdout_unused"].
+        `result.fit.holdout_unused`.
     bank: names of what may be claimed, such as "string_friction"; by default everything known but placebos.
         What no measurement is without stays free in every fit.
     budget: nothing more is looked for after so many seconds.
@@ -110,11 +109,8 @@ def diagnose(
     _check_distinct([*given, *held])
     warn_of([*given, *held])
     _warn_of_other_set_ups([*given, *held])
-    unused = [recording.name for recording in held if _core.comparable_windows(recording, chosen) == 0]
-    text, model = _core.diagnose(given, chosen, held, names, budget, seed, threads, progress)
-    result = json.loads(text)
-    result["fit"]["holdout_unused"] = unused
-    return Diagnosis(result, chosen if result["headline"] == "INSUFFICIENT_DATA" else model)
+    result, model = _core.diagnose(given, chosen, held, names, budget, seed, threads, progress)
+    return Diagnosis(result, chosen if result.headline == "INSUFFICIENT_DATA" else model)
 
 
 def _warn_of_other_set_ups(recordings: Sequence[Recording]) -> None:

@@ -13,20 +13,16 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ._core import DIAGNOSIS_SCHEMA, Thresholds
+
 if TYPE_CHECKING:
     from jinja2 import Template
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SCHEMA = "diabolo.diagnosis/1"
-SIGNIFICANCE = 4.0
-"""Standard deviations beyond which a candidate counts; kSignificance of the engine."""
-THRESHOLDS = {"physics": SIGNIFICANCE, "measurement": 5.0}
-"""By kind of candidate; the other is kSignificanceOfFault."""
-LONGEST_BAR = 3.0 * SIGNIFICANCE
+LONGEST_BAR = 3.0
+"""Of the ladder, in thresholds of physics."""
 CLIPPED = 6.0
-WORTHWHILE_ODDS = 3.0
-"""A motion that gives less parts nothing."""
 FIRST_RECORDINGS = 4
 """So many are shown at once; the others unfold."""
 
@@ -50,8 +46,9 @@ def check(path: str | Path) -> None:
 def report_html(result: dict[str, Any]) -> str:
     """The page of a result of schema diabolo.diagnosis/1; what it lacks, the page says in words."""
     check("report")
-    if result.get("schema") != SCHEMA:
-        raise ValueError(f"schema: found {result.get('schema')!r}; expected {SCHEMA!r}")
+    if result.get("schema") != DIAGNOSIS_SCHEMA:
+        raise ValueError(f"schema: found {result.get('schema')!r}; expected {DIAGNOSIS_SCHEMA!r}")
+    thresholds = {**Thresholds().to_dict(), **(result.get("thresholds") or {})}
     import matplotlib
 
     style: Any = dict(matplotlib.rcParamsDefault)  # the same page on every machine
@@ -63,11 +60,11 @@ def report_html(result: dict[str, Any]) -> str:
             fit=_fit(result.get("fit") or {}),
             effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
             unnamed=[_unnamed(item, horizons) for item in _rows(result, "unnamed")],
-            strips=_strips(result.get("locate") or {}),
+            strips=_strips(result.get("locate") or {}, thresholds["physics"]),
             first_strips=FIRST_RECORDINGS,
-            ladder=_ladder(result),
-            thresholds=[f"{z:g}" for z in THRESHOLDS.values()],
-            ties=_ties(result),
+            ladder=_ladder(result, thresholds),
+            thresholds=[f"{thresholds[kind]:g}" for kind in ("physics", "measurement")],
+            ties=_ties(result, thresholds["worthwhile_odds"]),
             nuisances=[
                 [_named(row), quantity(row.get("value"), row.get("unit"), row.get("ci90"))]
                 for row in _rows(result, "nuisances")
@@ -348,8 +345,9 @@ def _unnamed(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
     }
 
 
-def _ladder(result: dict[str, Any]) -> list[dict[str, Any]]:
+def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[str, Any]]:
     """All candidates, the most significant first."""
+    longest = LONGEST_BAR * thresholds["physics"]
     rows = sorted(_rows(result, "ladder"), key=lambda row: -abs(row.get("z") or 0.0))
     return [
         {
@@ -357,9 +355,9 @@ def _ladder(result: dict[str, Any]) -> list[dict[str, Any]]:
             "kind": row.get("kind") or "other",
             "claimed": bool(row.get("claimed")),
             "z": "no z" if row.get("z") is None else f"{abs(row['z']):.1f}",
-            "threshold": 100.0 * THRESHOLDS.get(row.get("kind") or "", SIGNIFICANCE) / LONGEST_BAR,
-            "bar": 100.0 * min(abs(row.get("z") or 0.0) / LONGEST_BAR, 1.0),
-            "beyond": abs(row.get("z") or 0.0) > LONGEST_BAR,
+            "threshold": 100.0 * thresholds.get(row.get("kind") or "", thresholds["physics"]) / longest,
+            "bar": 100.0 * min(abs(row.get("z") or 0.0) / longest, 1.0),
+            "beyond": abs(row.get("z") or 0.0) > longest,
             "reason": row.get("reason") or ("no reason given" if not row.get("claimed") else ""),
             "facts": [
                 f"{words(row.get('parameter'))} {quantity(row.get('estimate'), row.get('unit'))}",
@@ -371,7 +369,7 @@ def _ladder(result: dict[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
-def _ties(result: dict[str, Any]) -> list[str]:
+def _ties(result: dict[str, Any], worthwhile: float) -> list[str]:
     """Every class of explanations that this data cannot tell apart, once, and what would."""
     classes = {
         frozenset([effect.get("name") or "", *filter(None, effect["tied_with"])]): None
@@ -384,8 +382,7 @@ def _ties(result: dict[str, Any]) -> list[str]:
         parting = [
             words(row.get("motion"))
             for row in _rows(result, "next_experiment")
-            if len(names & set(row.get("parts") or [])) > 1
-            and (row.get("odds") or math.inf) >= WORTHWHILE_ODDS
+            if len(names & set(row.get("parts") or [])) > 1 and (row.get("odds") or math.inf) >= worthwhile
         ]
         would = f" What would: {_joined(parting)}." if parting else ""
         sentences.append(f"{listed} predict the same here; this data cannot tell them apart.{would}")
@@ -460,7 +457,7 @@ def _curve_figure(item: dict[str, Any], curve: list[Any]) -> Figure:
     return figure
 
 
-def _strips(locate: dict[str, Any]) -> list[dict[str, Any]]:
+def _strips(locate: dict[str, Any], threshold: float) -> list[dict[str, Any]]:
     """Of each recording: a picture of what is missing, by direction and time, and what it shows in words."""
     directions = _rows(locate, "directions")
     windows: dict[str, list[dict[str, Any]]] = {}
@@ -482,8 +479,8 @@ def _strips(locate: dict[str, Any]) -> list[dict[str, Any]]:
             label, begin = _direction(direction), window["begin_s"]
             said = (
                 f"Strongest: {label}, {z:.1f} standard deviations at {begin:.1f} s."
-                if z > SIGNIFICANCE
-                else f"Nothing beyond {SIGNIFICANCE:g} standard deviations; the most is {z:.1f}, {label}."
+                if z > threshold
+                else f"Nothing beyond {threshold:g} standard deviations; the most is {z:.1f}, {label}."
             )
         strips.append({"recording": recording, "said": said, "picture": _picture(_strip(own, directions))})
     return strips

@@ -2,6 +2,8 @@
 #include "diabolo/effects/gyroscopic_tilt.hpp"
 
 #include "diabolo/evaluate/baseline.hpp"
+#include "diabolo/string/hanging.hpp"
+#include "effect_scene.hpp"
 #include "effects/scene.hpp"
 
 using namespace effect_scene;
@@ -20,11 +22,7 @@ Full tilting(double gain) {
 Tips<double> held(double left, double right) { return {{left, kApart, 1.2}, {right, -kApart, 1.2}}; }
 
 State<double> hanging(const Tips<double>& tips, double spin) {
-  State<double> state;
-  state.position = lowest_point(tips.left, tips.right, 1.45);
-  state.spin = spin;
-  state.string_state = StringState::kOnString;
-  return state;
+  return hanging_state(tips.left, tips.right, 1.45, spin);
 }
 
 /// The axle of a rigid body under the pull of two strands along the tangents of its axle, by Euler's

@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "diabolo/predictor.hpp"
+#include "diabolo/string/hanging.hpp"
 #include "random.hpp"
 #include "smooth_tips.hpp"
 
@@ -35,11 +36,7 @@ double path_length(const Vector& p, const Tips<double>& tips) {
 
 /// The lowest point of the taut, not yet stretched string.
 State<double> hanging(const Tips<double>& tips, double length) {
-  const Spheroid<double> s(tips.left, tips.right, length);
-  State<double> state;
-  state.position = s.center() - Vector(0.0, 0.0, s.semi_minor());
-  state.string_state = StringState::kOnString;
-  return state;
+  return hanging_state(tips.left, tips.right, length);
 }
 
 /// Kinetic, potential and elastic energy [J].

@@ -15,6 +15,7 @@ from diabolo import (
     Calibration,
     DiaboloProperties,
     Diagnosis,
+    DiagnosisResult,
     Model,
     Parameters,
     Recording,
@@ -23,6 +24,7 @@ from diabolo import (
     diagnose,
     load_recording,
 )
+from diabolo._core import diagnosis_schema
 from diabolo.cli import main
 from diabolo.cli.demo import packaged_recordings
 from diabolo.cli.diagnose import check_written
@@ -42,10 +44,10 @@ def found(plant: list[Recording]) -> Diagnosis:
 
 def test_the_friction_of_the_plant_is_named_and_helps(found: Diagnosis) -> None:
     assert found.headline in ("NAMED", "TIE")
-    friction = next(effect for effect in found.effects if effect["name"] == "string_friction")
-    assert friction["kind"] == "physics"
-    assert friction["parameters"][0]["value"] == pytest.approx(0.3, abs=0.03)
-    fit = found.result["fit"]
+    friction = next(effect for effect in found.effects if effect.name == "string_friction")
+    assert friction.kind == "physics"
+    assert friction.parameters[0].value == pytest.approx(0.3, abs=0.03)
+    fit = found.to_dict()["fit"]
     assert fit["heldout"] == "recordings"
     at = fit["horizons_s"].index(0.5)
     assert fit["augmented_error_m"][at] < 0.25 * fit["base_error_m"][at]
@@ -64,6 +66,27 @@ def test_the_result_is_of_its_schema(found: Diagnosis) -> None:
     for effect in result["effects"]:
         for parameter in effect["parameters"]:
             assert parameter["ci90"][0] <= parameter["value"] <= parameter["ci90"][1]
+
+
+def test_the_result_is_an_object_and_a_file(found: Diagnosis, tmp_path: Path) -> None:
+    result = found.result
+    assert result.headline == found.headline
+    assert result.thresholds.physics == 4.0
+    assert result.fit.horizons_s == [0.1, 0.25, 0.5, 1.0]
+    assert result.effects[0].parameters[0].ci90.low < result.effects[0].parameters[0].value
+    assert result.to_dict() == json.loads(result.to_json())
+    (tmp_path / "diagnosis.json").write_text(result.replaced(seconds=1.5).to_json())
+    again = DiagnosisResult.load(tmp_path / "diagnosis.json")
+    assert again.seconds == 1.5 and again != result
+    assert again.replaced(seconds=None) == result
+    assert "NAMED" in repr(result) or "TIE" in repr(result)
+    with pytest.raises(AttributeError):
+        result.headline = "NOTHING_MISSING"  # type: ignore[misc]
+
+
+def test_the_schema_is_the_one_that_is_committed() -> None:
+    committed = Path(__file__).resolve().parents[2] / "docs" / "diagnosis.schema.json"
+    assert json.loads(committed.read_text()) == json.loads(diagnosis_schema())
 
 
 def test_the_model_predicts_and_is_a_file(found: Diagnosis, tmp_path: Path) -> None:
@@ -86,12 +109,12 @@ def test_progress_names_the_steps(played: Recording) -> None:
 
 def test_a_bank_restricts_what_is_claimed(plant: list[Recording]) -> None:
     answer = diagnose(plant, bank=["string_elasticity", "gravity_tilt"])
-    assert {effect["name"] for effect in answer.effects} <= {
+    assert {effect.name for effect in answer.effects} <= {
         "string_elasticity",
         "stick_flex",
         "gravity_tilt",
     }
-    assert {rung["name"] for rung in answer.result["ladder"]} == {"string_elasticity", "gravity_tilt"}
+    assert {row.name for row in answer.result.ladder} == {"string_elasticity", "gravity_tilt"}
     with pytest.raises(ValueError, match='bank: "string_frictions"; expected of string_elasticity, '):
         diagnose(plant, bank=["string_frictions"])
 
@@ -110,11 +133,11 @@ def test_exchanged_bodies_are_claimed_and_do_no_harm(plant: list[Recording], tmp
         lines[row] = ",".join(cells)
     (tmp_path / "swapped.csv").write_text("\n".join(lines) + "\n")
     answer = diagnose(load_recording(tmp_path / "swapped.csv"))
-    claimed = {effect["name"]: effect for effect in answer.effects}
-    assert claimed["body_swap"]["kind"] == "measurement"
-    assert claimed["body_swap"]["parameters"][0]["value"] == pytest.approx(60, abs=3)
+    claimed = {effect.name: effect for effect in answer.effects}
+    assert claimed["body_swap"].kind == "measurement"
+    assert claimed["body_swap"].parameters[0].value == pytest.approx(60, abs=3)
     assert "string_friction" in claimed
-    assert answer.result["fit"]["augmented_error_m"][2] < answer.result["fit"]["base_error_m"][2]
+    assert answer.to_dict()["fit"]["augmented_error_m"][2] < answer.to_dict()["fit"]["base_error_m"][2]
 
 
 @pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
@@ -125,8 +148,8 @@ def test_sticks_under_each_others_names_are_claimed(plant: list[Recording], tmp_
     exchanged = names.replace("left", "none").replace("right", "left").replace("none", "right")
     (tmp_path / "swing.csv").write_text(exchanged + "\n" + rows)
     swap, *others = diagnose(load_recording(tmp_path / "swing.csv")).effects
-    assert swap["name"] == "body_swap"
-    assert swap["parameters"][0]["value"] == len(swing.time)
+    assert swap.name == "body_swap"
+    assert swap.parameters[0].value == len(swing.time)
     assert others == diagnose(swing).effects
 
 
@@ -189,7 +212,7 @@ def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
 def test_a_holdout_without_windows_is_told(played: Recording) -> None:
     other = make_recording("throw")
     unseen = lost_from(other, 5, "diabolo")
-    result = diagnose(played.cut(0, 60), holdout=[other, unseen]).result
+    result = diagnose(played.cut(0, 60), holdout=[other, unseen]).to_dict()
     assert result["fit"]["holdout_unused"] == ["lost"]
     assert "could be compared: lost." in report_html(result)
 
@@ -248,11 +271,11 @@ def test_rules_that_are_numerical_are_told_from_physics() -> None:
     swing = next(path for path in packaged_recordings() if path.stem == "swing")
     take = load_recording(str(swing))
     answer = diagnose(take, "published")
-    names = [effect["name"] for effect in answer.effects]
+    names = [effect.name for effect in answer.effects]
     assert names[0] == "solver_artefact"  # before any physics
-    assert 0.5 < answer.effects[0]["parameters"][0]["value"] <= 1.0
+    assert 0.5 < answer.effects[0].parameters[0].value <= 1.0
     assert "string_friction" in names
-    assert "solver_artefact" not in [effect["name"] for effect in diagnose(take).effects]
+    assert "solver_artefact" not in [effect.name for effect in diagnose(take).effects]
 
 
 def test_the_command_writes_report_result_and_model(
@@ -382,7 +405,7 @@ def test_friction_is_left_out_of_the_real_recordings(real_recordings: Path) -> N
     ]
     answer = diagnose(takes)
     assert answer.headline in ("NAMED", "TIE")
-    assert "string_friction" in {effect["name"] for effect in answer.effects}
-    fit = answer.result["fit"]
+    assert "string_friction" in {effect.name for effect in answer.effects}
+    fit = answer.to_dict()["fit"]
     at = fit["horizons_s"].index(0.5)
     assert fit["augmented_error_m"][at] < 0.5 * fit["base_error_m"][at]

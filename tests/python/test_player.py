@@ -13,7 +13,18 @@ import diabolo
 import numpy as np
 import pytest
 from conftest import Command, make_recording
-from diabolo import Goals, Model, Parameters, StickSpline, StringFriction, TipLimits, Waypoint, robot
+from diabolo import (
+    DiagnosisResult,
+    Goals,
+    LadderRow,
+    Model,
+    Parameters,
+    StickSpline,
+    StringFriction,
+    TipLimits,
+    Waypoint,
+    robot,
+)
 from diabolo.cli.plan import recording_of
 from diabolo.enums import StringState
 from diabolo.player import ACTIONS
@@ -99,10 +110,10 @@ def test_model_for_takes_what_is_the_recordings() -> None:
 def test_best_guess_counts_what_was_too_unsure_to_be_claimed() -> None:
     def guessed(**entries: tuple[float, float, bool]) -> Model:
         ladder = [
-            {"name": name, "estimate": estimate, "z": z, "claimed": claimed}
+            LadderRow(name=name, estimate=estimate, z=z, claimed=claimed)
             for name, (estimate, z, claimed) in entries.items()
         ]
-        return diabolo.best_guess(Model(), {"ladder": ladder})
+        return diabolo.best_guess(Model(), ladder)
 
     assert guessed(air_drag_quadratic=(0.04, 2.0, False)).air.quadratic_drag == pytest.approx(0.03)
     assert guessed(magnus_lift=(-1e-3, -2.0, False)).magnus_lift.coefficient == pytest.approx(-7.5e-4)
@@ -175,11 +186,13 @@ def test_paths_go_on_where_they_meet_only() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('{"schema": 1, "schema": 2}', "a field is there twice"),
-        ('{"ladder": [' + "9" * 400 + "]}", "expected a file of the schema"),
+        ('{"schema": 1, "schema": 2}', 'field "schema" is there twice'),
+        ('{"ladder": [' + "9" * 400 + "]}", "a number is too large"),
+        ('{"ladder": []}', 'field "schema" is missing'),
+        ('{"schema": "diabolo.model/1"}', 'expected "diabolo.diagnosis/1"'),
         ("", "the file is empty"),
-        ("{", "no JSON"),
-        ("[" * 100000, "no JSON"),
+        ("{", "this is not JSON"),
+        ("[" * 100000, "JSON nested deeper"),
         ("\xff", "belongs to another encoding"),
     ],
 )
@@ -373,18 +386,35 @@ def test_bad_input_is_refused_in_a_sentence() -> None:
 
 
 @pytest.mark.parametrize(
-    ("result", "words"),
+    ("parts", "words"),
     [
-        ({}, "ladder: None"),
         ({"ladder": 5}, "ladder: 5; expected a list"),
-        ({"ladder": [{}]}, r"ladder\[0\]"),
-        ({"ladder": [{"name": "magnus_lift", "claimed": False}]}, r"ladder\[0\], z: None"),
-        ({"ladder": [{"name": "magnus_lift", "claimed": False, "z": math.nan, "estimate": 1.0}]}, "z: nan"),
+        ({"ladder": [5]}, r"ladder\[0\]: 5; expected an object"),
+        ({"ladder": [{}]}, r"ladder\[0\]: no name"),
+        (
+            {"ladder": [{"name": "magnus_lift", "claimed": 1}]},
+            r"ladder\[0\], claimed: 1; expected true or false",
+        ),
+        ({"ladder": [{"name": "magnus_lift", "claimed": False}]}, r"ladder\[0\], z: nan; expected a number"),
+        ({"ladder": [{"name": "magnus_lift", "z": 2.0, "estimate": None}]}, r"ladder\[0\], estimate: nan"),
+        ({"headline": 3}, "headline: 3; expected a text"),
+        ({"fit": {"windows": -1}}, "fit, windows: -1; expected a whole number"),
+        (
+            {"locate": {"windows": [{"z": [1.0, "two"]}]}},
+            r'locate, windows\[0\], z\[1\]: "two"; expected a num',
+        ),
+        ({"nuisances": [{"ci90": [1.0]}]}, r"nuisances\[0\], ci90: \[1.0\]; expected two numbers"),
     ],
 )
-def test_a_diagnosis_that_is_none_is_refused(result: dict[str, Any], words: str) -> None:
+def test_a_diagnosis_that_is_none_is_refused(parts: dict[str, Any], words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        diabolo.best_guess(Model(), result)
+        text = json.dumps({"schema": "diabolo.diagnosis/1", **parts})
+        diabolo.best_guess(Model(), DiagnosisResult.from_json(text))
+
+
+def test_best_guess_takes_a_diagnosis_only() -> None:
+    with pytest.raises(ValueError, match=r"result\[0\]: 'ladder'; expected LadderRow"):
+        diabolo.best_guess(Model(), {"ladder": []})  # type: ignore[arg-type]
 
 
 def test_a_search_may_take_any_time() -> None:

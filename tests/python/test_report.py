@@ -468,3 +468,12 @@ def test_odds_of_the_next_experiment_are_told() -> None:
     text = Page(report_html(invented(next_experiment=rows))).text
     for told in ("1.93 to 1", "4,321 to 1", "beyond a million to 1", "not told"):
         assert told in text
+
+
+def test_thresholds_are_those_of_the_result() -> None:
+    thresholds = {"physics": 6.5, "measurement": 7.5, "worthwhile_odds": 3.0}
+    assert (
+        "6.5 for physics and 7.5 for the measurement"
+        in Page(report_html(invented(thresholds=thresholds))).text
+    )
+    assert "4 for physics and 5 for the measurement" in Page(report_html(invented())).text

@@ -79,11 +79,7 @@ inline Recording played_by(const Model& model, Recording recording, const State<
 
 /// A diabolo at rest at the lowest point of the string under the first row's tips.
 inline State<double> hanging(const Recording& recording, double string_length) {
-  State<double> state;
-  state.position =
-      lowest_point(recording.left.position.col(0), recording.right.position.col(0), string_length);
-  state.string_state = StringState::kOnString;
-  return state;
+  return hanging_state(recording.left.position.col(0), recording.right.position.col(0), string_length);
 }
 
 /// A throw over wide tips at rest, and its catch, as the consistent model has it.

@@ -11,6 +11,7 @@
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/recording/recording.hpp"
+#include "diabolo/string/hanging.hpp"
 
 namespace diabolo {
 
@@ -116,16 +117,14 @@ inline Recording imagined(const MotionPart& part, const Model& model, const Reco
     tips.right_velocity = (after.right - before.right) * (scale / (2.0 * h));
     return tips;
   };
-  State<double> state;
   const Tips<double> begin = tips_at(0.0);
+  State<double> state = hanging_state(begin.left, begin.right, length, part.spin);
   const bool thrown = !part.velocity.isZero();
-  const Vector3<double> middle = 0.5 * (begin.left + begin.right);
-  const double apart = (begin.left - begin.right).norm();
-  state.position =
-      middle + Vector3<double>(0.0, 0.0, thrown ? 0.2 : -0.5 * std::sqrt(length * length - apart * apart));
+  if (thrown) {
+    state.position = 0.5 * (begin.left + begin.right) + Vector3<double>(0.0, 0.0, 0.2);
+    state.string_state = StringState::kFlying;
+  }
   state.velocity = part.velocity;
-  state.spin = part.spin;
-  state.string_state = thrown ? StringState::kFlying : StringState::kOnString;
   double turned = 0.0;
   for (Eigen::Index i = 0; i < rows; ++i) {
     r.frame.push_back(i);

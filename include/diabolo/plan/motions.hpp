@@ -16,6 +16,7 @@
 #include "diabolo/plan/goals.hpp"
 #include "diabolo/plan/motion_unknowns.hpp"
 #include "diabolo/state.hpp"
+#include "diabolo/string/hanging.hpp"
 #include "diabolo/text/shown.hpp"
 
 namespace diabolo {
@@ -73,13 +74,9 @@ inline TipColumn<double> home_pose(std::string_view action, double string_length
   return detail::tips_column(0.55, 0.3 * s, 1.25, -0.3 * s, 1.25);
 }
 
-/// A diabolo that hangs at rest below the tips.
+/// A diabolo that hangs at rest below the tips, left over right [m].
 inline State<double> hanging_state(const TipColumn<double>& tips, double string_length, double spin) {
-  State<double> state;
-  state.position = lowest_point(tips.head<3>(), tips.tail<3>(), string_length);
-  state.spin = spin;
-  state.string_state = StringState::kOnString;
-  return state;
+  return hanging_state(Vector3<double>(tips.head<3>()), Vector3<double>(tips.tail<3>()), string_length, spin);
 }
 
 namespace detail {

@@ -14,7 +14,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from .._core import Model, Recording
+from .._core import Estimate, InputFile, Model, Recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import Diagnosis
 from ..diagnosis import diagnose as run_diagnosis
@@ -115,10 +115,9 @@ def run(arguments: argparse.Namespace) -> None:
             threads=arguments.threads,
             progress=report,
         )
-    result = diagnosis.result
-    result["seconds"] = time.monotonic() - begin
-    result["inputs"] = hashes
-    result["model"] = None if folder is None else MODEL_FILE
+    result = diagnosis.result.replaced(
+        seconds=time.monotonic() - begin, inputs=hashes, model=None if folder is None else MODEL_FILE
+    ).to_dict()
     texts = {} if folder is None else _texts(folder, diagnosis.model, result)
     if arguments.json not in (None, files.STDOUT):
         texts[Path(arguments.json)] = files.json_text(result)
@@ -162,20 +161,20 @@ def text_of(diagnosis: Diagnosis) -> str:
     """The answer in a few lines."""
     lines = [f"{diagnosis.headline}: {diagnosis.sentence}"]
     for effect in diagnosis.effects:
-        values = ", ".join(_value(parameter) for parameter in effect["parameters"])
-        p_value = effect["p_value"]
-        lines.append(f"  {effect['name']}: {values}" + ("" if p_value is None else f"; p = {p_value:.1g}"))
-    fit = diagnosis.result["fit"]
-    compared = zip(fit["horizons_s"], fit["base_error_m"], fit["augmented_error_m"], strict=False)
+        values = ", ".join(_value(parameter) for parameter in effect.parameters)
+        p_value = "" if effect.p_value is None else f"; p = {effect.p_value:.1g}"
+        lines.append(f"  {effect.name}: {values}{p_value}")
+    fit = diagnosis.result.fit
+    compared = zip(fit.horizons_s, fit.base_error_m, fit.augmented_error_m, strict=False)
     shown = [
         f"{horizon:g} s: {1e3 * before:.1f} -> {1e3 * after:.1f} mm"
         for horizon, before, after in compared
         if before is not None and after is not None
     ]
     if shown:
-        lines.append(f"  mean error on held-out {fit['heldout']}, after " + "; ".join(shown))
-    if fit["holdout_unused"]:
-        names = ", ".join(fit["holdout_unused"])
+        lines.append(f"  mean error on held-out {fit.heldout}, after " + "; ".join(shown))
+    if fit.holdout_unused:
+        names = ", ".join(fit.holdout_unused)
         lines.append(f"  held out, but without a start that could be compared: {names}")
     return "\n".join(lines)
 
@@ -184,15 +183,15 @@ def _cut(excerpt: Excerpt) -> Recording:
     return excerpt.recording.cut(excerpt.first, excerpt.last)
 
 
-def _value(parameter: dict[str, Any]) -> str:
-    text = f"{parameter['name']} {parameter['value']:.4g}"
-    if parameter["ci90"] is not None:
-        text += f" [{parameter['ci90'][0]:.4g}, {parameter['ci90'][1]:.4g}]"
-    return text if parameter["unit"] == "1" else f"{text} {parameter['unit']}"
+def _value(parameter: Estimate) -> str:
+    text = f"{parameter.name} {parameter.value:.4g}"
+    if parameter.ci90 is not None:
+        text += f" [{parameter.ci90.low:.4g}, {parameter.ci90.high:.4g}]"
+    return text if parameter.unit == "1" else f"{text} {parameter.unit}"
 
 
-def _input(path: str) -> dict[str, str]:
-    return {"file": Path(path).name, "sha256": hashlib.sha256(Path(path).read_bytes()).hexdigest()}
+def _input(path: str) -> InputFile:
+    return InputFile(file=Path(path).name, sha256=hashlib.sha256(Path(path).read_bytes()).hexdigest())
 
 
 def _texts(folder: Path, model: Model, result: dict[str, Any]) -> dict[Path, str]:

@@ -97,7 +97,9 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
 
 
 def text_of(found: dict[str, Any]) -> str:
-    kind = {"motive": "Motive export", "tidy": "tidy recording", "csv": "CSV of mapped columns"}[found["format"]]
+    kind = {"motive": "Motive export", "tidy": "tidy recording", "csv": "CSV of mapped columns"}[
+        found["format"]
+    ]
     lines = [
         f"{found['file']}: {kind}, {found['samples']} samples at {found['rate_hz']:g} Hz, "
         f"{found['duration_s']:.2f} s",

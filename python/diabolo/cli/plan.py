@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ import numpy as np
 
 from .._core import (
     DiaboloProperties,
+    DiagnosisResult,
     Recording,
     RobotLimits,
     SeedGrid,
@@ -21,16 +21,15 @@ from .._core import (
     TipLimits,
     Waypoint,
     load_recording,
-    read_text,
+    played_recording,
 )
-from ..diagnosis import SCHEMA as DIAGNOSIS_SCHEMA
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS
 from ..player import ACTIONS, WANTED, PlannedPlay, best_guess, model_for, plan_action
 from ..view import view_html
 from . import files, plots
 from .arguments import add_command, output_name, read_model
-from .simulate import check_spin, played_recording
+from .simulate import check_spin
 
 SCHEMA = "diabolo.plan/1"
 RATE = 240.0  # of the recording that is written [Hz]
@@ -156,7 +155,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.recording:
         model = model_for(model, load_recording(arguments.recording))
     if arguments.diagnosis:
-        result = _read_diagnosis(Path(arguments.diagnosis))
+        result = DiagnosisResult.load(arguments.diagnosis)
         try:
             model = best_guess(model, result)
         except ValueError as error:
@@ -280,22 +279,6 @@ def text_of(found: dict[str, Any]) -> str:
             f"; flight {found['flight_s']:.2f} s, up to {found['highest_above_tips_m']:.2f} m above the tips"
         )
     return text
-
-
-def _read_diagnosis(path: Path) -> dict[str, Any]:
-    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        if len(dict(pairs)) < len(pairs):
-            raise ValueError(f"a field is there twice among {', '.join(name for name, _ in pairs):.60}")
-        return dict(pairs)
-
-    text = read_text(path)
-    try:
-        result = json.loads(text, object_pairs_hook=once, parse_int=float)
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path}: no JSON: {error}") from None
-    if not isinstance(result, dict) or result.get("schema") != DIAGNOSIS_SCHEMA:
-        raise ValueError(f"{path}: expected a file of the schema {DIAGNOSIS_SCHEMA}")
-    return result
 
 
 def _robot_limits(joints: dict[str, float]) -> RobotLimits:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import DiaboloProperties, Model, Recording, Spheroid, TipMotion
+from .._core import DiaboloProperties, Model, Recording, TipMotion, hanging_state, played_recording
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS, predict
 from ..motions import MOTIONS
@@ -153,9 +153,8 @@ def on_motion(
     tips = MOTIONS[name](duration)
     length = model.parameters.string_length
     start = tips.at(0.0)
-    spheroid = Spheroid(start[0], start[1], length)
-    hanging = spheroid.center - np.array([0.0, 0.0, spheroid.semi_minor])
-    initial = np.concatenate([hanging, np.zeros(3), [spin]])
+    hanging = hanging_state(start[0], start[1], length)
+    initial = np.concatenate([hanging.position, np.zeros(3), [spin]])
     samples = int(duration * RATE)
     result = rollout(
         model,
@@ -173,30 +172,3 @@ def on_motion(
     p = model.parameters
     properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
     return played_recording(title, time, left, right, states, RATE, properties, length), codes
-
-
-def played_recording(
-    name: str,
-    time: NDArray[np.float64],
-    left: NDArray[np.float64],
-    right: NDArray[np.float64],
-    states: NDArray[np.float64],
-    rate: float,
-    properties: DiaboloProperties,
-    string_length: float,
-) -> Recording:
-    """With orientations that turn about world -x by the spin, body x along world x."""
-    angle = np.concatenate([[0.0], np.cumsum(states[:-1, 6])]) / rate
-    zero = np.zeros_like(angle)
-    orientation = np.stack([-np.sin(angle / 2.0), zero, zero, np.cos(angle / 2.0)], axis=1)
-    return Recording(
-        time,
-        left,
-        right,
-        states[:, :3],
-        rate,
-        diabolo_orientation=orientation,
-        name=name,
-        properties=properties,
-        string_length=string_length,
-    )

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diabolo/diagnose/location.hpp"
+#include "diabolo/diagnose/result.hpp"
+#include "diabolo/diagnose/select.hpp"
+#include "diabolo/version.hpp"
+
+namespace diabolo {
+
+inline constexpr const char* kDiagnosisSchema = "diabolo.diagnosis/1";
+
+/// Odds below which a motion that is proposed parts nothing.
+inline constexpr double kWorthwhileOdds = 3.0;
+
+struct Thresholds {
+  static constexpr const char* kName = "Thresholds";
+  static constexpr const char* kDoc = "What decided the claims, so that nobody has to copy it.";
+
+  double physics = kSignificance, measurement = kSignificanceOfFault, worthwhile_odds = kWorthwhileOdds;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("physics", &Thresholds::physics, "Standard deviations beyond which physics counts.");
+    visit("measurement", &Thresholds::measurement, "The same of a fault of measurement.");
+    visit("worthwhile_odds", &Thresholds::worthwhile_odds, "Below these a proposed motion parts nothing.");
+  }
+};
+
+struct InputFile {
+  static constexpr const char* kName = "InputFile";
+  static constexpr const char* kDoc = "A file that was diagnosed.";
+
+  std::string file, sha256;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("file", &InputFile::file, "Name without folders.");
+    visit("sha256", &InputFile::sha256, "");
+  }
+};
+
+/// See docs/diagnosis.md; result_of() makes it.
+struct DiagnosisResult {
+  static constexpr const char* kName = "DiagnosisResult";
+  static constexpr const char* kDoc = "Everything that a diagnosis says, as its file holds it.";
+
+  std::string schema = kDiagnosisSchema, headline, sentence, base;
+  std::vector<ClaimedEffect> effects;
+  std::vector<UnnamedStructure> unnamed;
+  std::vector<UpperLimit> upper_limits;
+  std::vector<Estimate> nuisances;
+  HeldOutErrors fit;
+  std::vector<ProposedMotion> next_experiment;
+  std::vector<std::string> not_done;
+  std::vector<LadderRow> ladder;
+  Location locate;
+  std::vector<RecordingNoise> noise;
+  Thresholds thresholds;
+  std::optional<std::string> model;
+  std::string version{kVersion};
+  std::optional<double> seconds;
+  std::vector<InputFile> inputs;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("schema", &DiagnosisResult::schema, "diabolo.diagnosis/1.");
+    visit("headline", &DiagnosisResult::headline,
+          "The first that holds of INSUFFICIENT_DATA, TIE, NAMED, MEASUREMENT_FAULT, NUMERICAL, "
+          "UNNAMED_STRUCTURE and NOTHING_MISSING.");
+    visit("sentence", &DiagnosisResult::sentence, "The answer in words.");
+    visit("base", &DiagnosisResult::base, "Name of the simulator that was asked about.");
+    visit("effects", &DiagnosisResult::effects, "What is claimed, the surest first.");
+    visit("unnamed", &DiagnosisResult::unnamed, "What is there and has no name.");
+    visit("upper_limits", &DiagnosisResult::upper_limits, "What may be there unseen.");
+    visit("nuisances", &DiagnosisResult::nuisances, "What was measured on the way.");
+    visit("fit", &DiagnosisResult::fit, "Errors on data that was not fitted.");
+    visit("next_experiment", &DiagnosisResult::next_experiment, "Motions that would part ties.");
+    visit("not_done", &DiagnosisResult::not_done, "What budget or base kept from being asked.");
+    visit("ladder", &DiagnosisResult::ladder, "Every candidate, and why it was claimed or not.");
+    visit("locate", &DiagnosisResult::locate, "Where base and recording part, window by window.");
+    visit("noise", &DiagnosisResult::noise, "Of each recording.");
+    visit("thresholds", &DiagnosisResult::thresholds, "What decided the claims.");
+    visit("model", &DiagnosisResult::model, "Name of the model's file; null where none was written.");
+    visit("version", &DiagnosisResult::version, "Of the tool.");
+    visit("seconds", &DiagnosisResult::seconds, "That it took; null where its caller did not say.");
+    visit("inputs", &DiagnosisResult::inputs, "Files that were diagnosed, where its caller said so.");
+  }
+};
+
+}  // namespace diabolo

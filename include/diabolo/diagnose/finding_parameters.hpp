@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/result.hpp"
+
+namespace diabolo {
+
+namespace detail {
+
+inline constexpr double kNormal95 = 1.6448536269514722;  ///< beyond it lie 5 % of a normal variable
+
+inline Estimate with_deviation(std::string name, double value, double deviation, std::string unit) {
+  return {std::move(name), value, std::move(unit),
+          Interval{value - kNormal95 * deviation, value + kNormal95 * deviation}};
+}
+
+/// Length of two numbers, with the deviation that theirs give it.
+inline std::pair<double, double> length_of(double a, double b, double da, double db) {
+  const double length = std::hypot(a, b);
+  return {length, length > 0.0 ? std::hypot(a * da, b * db) / length : std::hypot(da, db)};
+}
+
+/// The parameters of a finding by their fixed names.
+inline std::vector<Estimate> parameters_of(const Finding& f, double given_length, double given_gravity) {
+  const auto value = [&](Unknown u) { return f.estimate[index_of(u)]; };
+  const auto deviation = [&](Unknown u) { return f.deviation[index_of(u)]; };
+  const auto plain = [&](const char* name, Unknown u, const char* unit, double offset = 0.0) {
+    return with_deviation(name, offset + value(u), deviation(u), unit);
+  };
+  // What the data put below zero is none, as in the model.
+  const auto damping = [&](Unknown u) {
+    const auto at = [&](double deviations) { return std::max(0.0, value(u) + deviations * deviation(u)); };
+    return Estimate{"damping", at(0.0), "N s/m", Interval{at(-kNormal95), at(kNormal95)}};
+  };
+  const auto stiffness = [&](Unknown u) {
+    const auto of = [](double compliance) { return 1.0 / std::max(compliance, 1e-6); };
+    const double c = value(u), spread = kNormal95 * deviation(u);
+    return Estimate{"stiffness", of(c), "N/m", Interval{of(c + spread), of(c - spread)}};
+  };
+  using enum Unknown;
+  if (f.swapped > 0) {
+    const double frames = static_cast<double>(f.swapped);
+    return {Estimate{"frames", frames, "1", Interval{frames, frames}}};
+  }
+  switch (first_of(*f.candidate)) {
+    case kCompliance:
+      return {stiffness(kCompliance), damping(kDamping)};
+    case kStickCompliance:
+      return {stiffness(kStickCompliance), damping(kStickDamping)};
+    case kFriction:
+      return {plain("coefficient", kFriction, "1")};
+    case kWraps:
+      return {plain("turns", kWraps, "1")};
+    case kRestitution:
+      return {plain("coefficient", kRestitution, "1")};
+    case kLinearDrag:
+      return {plain("rate", kLinearDrag, "1/s")};
+    case kQuadraticDrag:
+      return {plain("coefficient", kQuadraticDrag, "1/m")};
+    case kWindX:
+      return {plain("x", kWindX, "m/s"), plain("y", kWindY, "m/s")};
+    case kSpinCoupling:
+      return {plain("coefficient", kSpinCoupling, "1/s")};
+    case kGravity: {
+      if (f.candidate->kind == CandidateKind::kPhysics) return {plain("g", kGravity, "m/s^2", given_gravity)};
+      // In the file's seconds gravity is as much stronger as the square of what the rate is too high by.
+      const double factor = std::sqrt(std::max(1e-6, 1.0 + value(kGravity) / given_gravity));
+      return {with_deviation("factor", factor, deviation(kGravity) / (2.0 * factor * given_gravity), "1")};
+    }
+    case kGyroscopicGain:
+      return {plain("gain", kGyroscopicGain, "1/m")};
+    case kPlacebo:
+      return {plain("rate", kPlacebo, "1/s")};
+    case kStringTangent:
+      return {plain("acceleration", kStringTangent, "m/s^2")};
+    case kLift:
+      return {plain("coefficient", kLift, "1/rad")};
+    case kStringMass:
+      return {plain("linear_density", kStringMass, "kg/m")};
+    case kSpinAir:
+      return {plain("coefficient", kSpinAir, "1/rad")};
+    case kSpinAxle:
+      return {plain("rate", kSpinAxle, "rad/s^2")};
+    case kTiltX: {
+      const auto [angle, spread] =
+          length_of(value(kTiltX), value(kTiltY), deviation(kTiltX), deviation(kTiltY));
+      const double direction = std::atan2(value(kTiltY), value(kTiltX));
+      const double turn = spread / std::max(angle, 1e-9);
+      return {with_deviation("angle_deg", std::asin(std::min(1.0, angle)) / kDegree, spread / kDegree, "deg"),
+              with_deviation("azimuth_deg", direction / kDegree, std::min(180.0, turn / kDegree), "deg")};
+    }
+    case kLengthScale:
+      return {plain("factor", kLengthScale, "1", 1.0)};
+    case kLag:
+      return {plain("seconds", kLag, "s")};
+    case kTimeOffset:
+      return {plain("seconds", kTimeOffset, "s")};
+    case kMarkerX: {
+      const auto [radius, spread] =
+          length_of(value(kMarkerY), value(kMarkerZ), deviation(kMarkerY), deviation(kMarkerZ));
+      return {with_deviation("radius", radius, spread, "m"), plain("axial", kMarkerX, "m")};
+    }
+    case kLeftX: {
+      std::vector<Estimate> list;
+      const std::array<const char*, 6> names{"left_x", "left_y", "left_z", "right_x", "right_y", "right_z"};
+      for (int i = 0; i < 6; ++i)
+        list.push_back(
+            plain(names[static_cast<std::size_t>(i)], static_cast<Unknown>(index_of(kLeftX) + i), "m"));
+      return list;
+    }
+    default:
+      return {plain("length", kStringLength, "m", given_length)};
+  }
+}
+
+}  // namespace detail
+
+}  // namespace diabolo

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diabolo/math/bootstrap.hpp"
+#include "diabolo/recording/recording.hpp"
+
+// The parts of a DiagnosisResult. Each lists its fields once: for_each_field() calls visit(name, member, what
+// it is). Files, their schema and the bindings are made from these lists. Units stand in the names.
+namespace diabolo {
+
+/// Interval of each horizon; nothing where it cannot be told.
+using IntervalByHorizon = std::vector<std::optional<Interval>>;
+using NumberByHorizon = std::vector<std::optional<double>>;
+
+struct Estimate {
+  static constexpr const char* kName = "Estimate";
+  static constexpr const char* kDoc = "A number that was estimated.";
+
+  std::string name;
+  double value = kNaN;
+  std::string unit;
+  std::optional<Interval> ci90;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("name", &Estimate::name, "By its fixed name.");
+    visit("value", &Estimate::value, "In its unit.");
+    visit("unit", &Estimate::unit, "1 for a plain number.");
+    visit("ci90", &Estimate::ci90, "90 % interval.");
+  }
+};
+
+struct EffectPlace {
+  static constexpr const char* kName = "EffectPlace";
+  static constexpr const char* kDoc = "Where an effect matters.";
+
+  std::vector<std::string> modes;
+  std::string direction;
+  std::vector<Interval> intervals;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("modes", &EffectPlace::modes, "States of the string in which it matters.");
+    visit("direction", &EffectPlace::direction, "In which it acts.");
+    visit("intervals", &EffectPlace::intervals, "When it matters [s].");
+  }
+};
+
+struct EffectSize {
+  static constexpr const char* kName = "EffectSize";
+  static constexpr const char* kDoc = "What an effect does to a free diabolo; null where it does not act so.";
+
+  std::optional<double> acceleration_mps2, position_1s_m, position_05s_m, spin_share_1s;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("acceleration_mps2", &EffectSize::acceleration_mps2, "As a constant one would move it as far.");
+    visit("position_1s_m", &EffectSize::position_1s_m, "How far it moves the diabolo in 1 s.");
+    visit("position_05s_m", &EffectSize::position_05s_m, "How far it moves the diabolo in 0.5 s.");
+    visit("spin_share_1s", &EffectSize::spin_share_1s, "Which share of the spin it changes in 1 s.");
+  }
+};
+
+struct ClaimedEffect {
+  static constexpr const char* kName = "ClaimedEffect";
+  static constexpr const char* kDoc = "Something that is missing, or was measured wrongly, and is claimed.";
+
+  std::string name, kind;
+  bool material = false;
+  std::vector<std::string> tied_with;
+  std::optional<double> p_value, confidence;
+  std::vector<Estimate> parameters;
+  EffectPlace where;
+  IntervalByHorizon worse_without_ci95_m;
+  EffectSize size;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("name", &ClaimedEffect::name, "Of the candidate.");
+    visit("kind", &ClaimedEffect::kind, "physics, measurement or numerical.");
+    visit("material", &ClaimedEffect::material, "Whether it is large enough to matter.");
+    visit("tied_with", &ClaimedEffect::tied_with, "Candidates that explain as much in its place.");
+    visit("p_value", &ClaimedEffect::p_value, "Over all candidates.");
+    visit("confidence", &ClaimedEffect::confidence, "Chance that the name is right.");
+    visit("parameters", &ClaimedEffect::parameters, "What it comes out as.");
+    visit("where", &ClaimedEffect::where, "Where it matters.");
+    visit("worse_without_ci95_m", &ClaimedEffect::worse_without_ci95_m,
+          "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
+    visit("size", &ClaimedEffect::size, "How much it does to a free diabolo.");
+  }
+};
+
+struct UnnamedPlace {
+  static constexpr const char* kName = "UnnamedPlace";
+  static constexpr const char* kDoc = "Where something without a name acts.";
+
+  std::string direction;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("direction", &UnnamedPlace::direction, "In which it acts.");
+  }
+};
+
+struct UnnamedStructure {
+  static constexpr const char* kName = "UnnamedStructure";
+  static constexpr const char* kDoc = "Something that is there and has no name.";
+
+  UnnamedPlace where;
+  std::string law;
+  double value = kNaN, deviation = kNaN;
+  std::string unit;
+  double z = kNaN, size_m = kNaN;
+  std::string scalar, scalar_unit;
+  double exponent = kNaN, exponent_deviation = kNaN;
+  std::vector<std::array<double, 2>> curve;
+  std::optional<double> explained;
+  bool in_model = false;
+  IntervalByHorizon worse_without_ci95_m;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("where", &UnnamedStructure::where, "Where it acts.");
+    visit("law", &UnnamedStructure::law, "In words.");
+    visit("value", &UnnamedStructure::value, "Mean, in its unit.");
+    visit("deviation", &UnnamedStructure::deviation, "Standard deviation of the mean.");
+    visit("unit", &UnnamedStructure::unit, "");
+    visit("z", &UnnamedStructure::z, "Standard deviations from zero.");
+    visit("size_m", &UnnamedStructure::size_m, "How far it moves a free diabolo in 0.5 s.");
+    visit("scalar", &UnnamedStructure::scalar, "Scalar of the motion that it grows with.");
+    visit("scalar_unit", &UnnamedStructure::scalar_unit, "");
+    visit("exponent", &UnnamedStructure::exponent, "Power of the scalar.");
+    visit("exponent_deviation", &UnnamedStructure::exponent_deviation, "Its standard deviation.");
+    visit("curve", &UnnamedStructure::curve, "Scalar, and the mean around it.");
+    visit("explained", &UnnamedStructure::explained,
+          "Share of what is left over; null where it is in the model.");
+    visit("in_model", &UnnamedStructure::in_model, "Whether its law is part of the model.");
+    visit("worse_without_ci95_m", &UnnamedStructure::worse_without_ci95_m,
+          "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
+  }
+};
+
+struct UpperLimit {
+  static constexpr const char* kName = "UpperLimit";
+  static constexpr const char* kDoc = "Physics that is not claimed: how much of it may still be there.";
+
+  std::string name, parameter;
+  double limit95 = kNaN;
+  std::string unit;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("name", &UpperLimit::name, "Of the candidate that is not claimed.");
+    visit("parameter", &UpperLimit::parameter, "");
+    visit("limit95", &UpperLimit::limit95, "It is below this in size, at 95 %.");
+    visit("unit", &UpperLimit::unit, "");
+  }
+};
+
+struct HeldOutErrors {
+  static constexpr const char* kName = "HeldOutErrors";
+  static constexpr const char* kDoc = "Errors on data that was not fitted, horizon by horizon.";
+
+  std::string heldout;
+  std::vector<double> horizons_s;
+  NumberByHorizon base_error_m, augmented_error_m;
+  IntervalByHorizon improvement_ci95_m;
+  NumberByHorizon start_error_m;
+  std::size_t windows = 0;
+  std::vector<std::string> holdout_unused;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("heldout", &HeldOutErrors::heldout, "recordings, or blocks of one.");
+    visit("horizons_s", &HeldOutErrors::horizons_s, "After the start.");
+    visit("base_error_m", &HeldOutErrors::base_error_m, "Mean position error of the base.");
+    visit("augmented_error_m", &HeldOutErrors::augmented_error_m, "The same with what was found.");
+    visit("improvement_ci95_m", &HeldOutErrors::improvement_ci95_m, "95 % interval of base less augmented.");
+    visit("start_error_m", &HeldOutErrors::start_error_m, "What the noise of the starts alone makes.");
+    visit("windows", &HeldOutErrors::windows, "Predictions that were compared.");
+    visit("holdout_unused", &HeldOutErrors::holdout_unused,
+          "Held-out recordings without a start to compare.");
+  }
+};
+
+struct ProposedMotion {
+  static constexpr const char* kName = "ProposedMotion";
+  static constexpr const char* kDoc = "A motion that would tell ties apart.";
+
+  std::string motion, what;
+  std::vector<std::string> parts;
+  std::optional<double> odds;
+  double seconds = kNaN;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("motion", &ProposedMotion::motion, "By its name.");
+    visit("what", &ProposedMotion::what, "In words.");
+    visit("parts", &ProposedMotion::parts, "Candidates that are tied, and that it tells apart.");
+    visit("odds", &ProposedMotion::odds, "Against the wrong one, to 1.");
+    visit("seconds", &ProposedMotion::seconds, "To record.");
+  }
+};
+
+struct LadderRow {
+  static constexpr const char* kName = "LadderRow";
+  static constexpr const char* kDoc = "A candidate, and what speaks for it.";
+
+  std::string name, kind, parameter;
+  double estimate = kNaN;
+  std::string unit;
+  double z = kNaN, p_value = kNaN;
+  std::optional<double> size_m;
+  bool claimed = false;
+  std::string reason;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("name", &LadderRow::name, "Of the candidate.");
+    visit("kind", &LadderRow::kind, "physics or measurement.");
+    visit("parameter", &LadderRow::parameter, "Of several, the one that stands out most.");
+    visit("estimate", &LadderRow::estimate, "Of the parameter.");
+    visit("unit", &LadderRow::unit, "");
+    visit("z", &LadderRow::z, "Standard deviations from zero.");
+    visit("p_value", &LadderRow::p_value, "Over all candidates.");
+    visit("size_m", &LadderRow::size_m,
+          "How far it moves a free diabolo in 0.5 s; null where it acts on spin.");
+    visit("claimed", &LadderRow::claimed, "");
+    visit("reason", &LadderRow::reason, "Why it is claimed, or not.");
+  }
+};
+
+}  // namespace diabolo

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/diagnosis_result.hpp"
+#include "diabolo/diagnose/finding_parameters.hpp"
+#include "diabolo/diagnose/findings.hpp"
+
+namespace diabolo {
+
+/// In files and in Python.
+inline const char* text_of(Headline headline) {
+  switch (headline) {
+    case Headline::kInsufficientData:
+      return "INSUFFICIENT_DATA";
+    case Headline::kTie:
+      return "TIE";
+    case Headline::kNamed:
+      return "NAMED";
+    case Headline::kMeasurementFault:
+      return "MEASUREMENT_FAULT";
+    case Headline::kNumerical:
+      return "NUMERICAL";
+    case Headline::kUnnamedStructure:
+      return "UNNAMED_STRUCTURE";
+    default:
+      return "NOTHING_MISSING";
+  }
+}
+
+inline const char* text_of(StringState state) {
+  return state == StringState::kOnString ? "ON_STRING" : state == StringState::kLoose ? "LOOSE" : "FLYING";
+}
+
+namespace detail {
+
+inline std::string kind_of(const Candidate& candidate) {
+  return candidate.kind == CandidateKind::kPhysics ? "physics" : "measurement";
+}
+
+/// In which direction a candidate acts.
+inline const char* direction_of(const Candidate& candidate) {
+  switch (first_of(candidate)) {
+    case Unknown::kCompliance:
+    case Unknown::kStickCompliance:
+    case Unknown::kRestitution:
+      return "string_normal";
+    case Unknown::kWindX:
+      return "horizontal";
+    case Unknown::kStringMass:
+      return "vertical";
+    case Unknown::kGravity:
+      return candidate.kind == CandidateKind::kPhysics ? "vertical" : "measurement";
+    case Unknown::kPlacebo:
+      return "horizontal";
+    case Unknown::kFriction:
+    case Unknown::kWraps:
+    case Unknown::kStringTangent:
+      return "string_tangent";
+    case Unknown::kGyroscopicGain:
+      return "axle";
+    case Unknown::kLinearDrag:
+    case Unknown::kQuadraticDrag:
+      return "against_v";
+    case Unknown::kLift:
+      return "axis_x_v";
+    case Unknown::kSpinCoupling:
+    case Unknown::kSpinAir:
+    case Unknown::kSpinAxle:
+      return "spin";
+    default:
+      return "measurement";
+  }
+}
+
+/// Where a finding matters: modes, direction, and joined intervals of time.
+inline EffectPlace place_of(const Finding& f, const std::vector<WindowFinding>& windows) {
+  EffectPlace place;
+  place.direction = direction_of(*f.candidate);
+  std::size_t recording = 0;
+  for (const std::size_t w : f.windows) {
+    const WindowFinding& window = windows[w];
+    if (std::ranges::find(place.modes, text_of(window.mode)) == place.modes.end())
+      place.modes.emplace_back(text_of(window.mode));
+    if (!place.intervals.empty() && recording == window.recording &&
+        window.begin - place.intervals.back().high < 0.2)
+      place.intervals.back().high = window.end;
+    else
+      place.intervals.push_back({window.begin, window.end});
+    recording = window.recording;
+  }
+  return place;
+}
+
+inline ClaimedEffect effect_of(const Finding& f, const Diagnosis& d) {
+  ClaimedEffect effect;
+  effect.name = f.candidate->name;
+  effect.kind = kind_of(*f.candidate);
+  effect.material = f.material;
+  effect.tied_with = f.tied_with;
+  effect.p_value = f.p_value;
+  effect.confidence = f.confidence;
+  effect.parameters = parameters_of(f, d.base_string_length, d.base_gravity);
+  effect.where = place_of(f, d.windows);
+  effect.worse_without_ci95_m = f.worsening_ci95;
+  if (is_of_spin(*f.candidate))
+    effect.size.spin_share_1s = f.size / kSpinTime;
+  else  // as a constant acceleration would: x = a t^2 / 2 at half a second, four times that at one
+    effect.size = {8.0 * f.size, 4.0 * f.size, f.size, std::nullopt};
+  return effect;
+}
+
+inline ClaimedEffect solver_artefact(double share) {
+  ClaimedEffect effect;
+  effect.name = "solver_artefact";
+  effect.kind = "numerical";
+  effect.material = true;
+  effect.parameters = {Estimate{"share", share, "1", std::nullopt}};
+  effect.where = {{"ON_STRING"}, "string_normal", {}};
+  return effect;
+}
+
+inline LadderRow row_of(const Finding& f) {
+  // The unknown that stands out most stands for a candidate of several.
+  Unknown shown_unknown = first_of(*f.candidate);
+  double most = -1.0;
+  for (const Unknown u : f.candidate->unknowns) {
+    const double deviation = f.deviation[index_of(u)];
+    const double out = deviation > 0.0 ? std::abs(f.estimate[index_of(u)]) / deviation : 0.0;
+    if (out > most) most = out, shown_unknown = u;
+  }
+  LadderRow row;
+  row.name = f.candidate->name;
+  row.kind = kind_of(*f.candidate);
+  row.parameter = f.swapped > 0 ? "frames" : info_of(shown_unknown).name;
+  row.estimate = f.swapped > 0 ? static_cast<double>(f.swapped) : f.estimate[index_of(shown_unknown)];
+  row.unit = f.swapped > 0 ? "1" : info_of(shown_unknown).unit;
+  row.z = f.z;
+  row.p_value = f.p_value;
+  if (!is_of_spin(*f.candidate)) row.size_m = f.size;
+  row.claimed = f.claimed;
+  row.reason = f.reason;
+  return row;
+}
+
+/// How much of physics that is not claimed may be there; nothing where the data cannot say.
+inline std::optional<UpperLimit> limit_of(const Finding& f) {
+  const UnknownInfo& info = info_of(f.candidate->unknowns.front());
+  const int u = index_of(f.candidate->unknowns.front());
+  if (f.claimed || f.candidate->kind != CandidateKind::kPhysics || !(f.deviation[u] > 0.0)) return {};
+  const double limit = std::max(0.0, std::abs(f.estimate[u]) + kNormal95 * f.deviation[u]);
+  return UpperLimit{std::string(f.candidate->name), std::string(info.name), limit, std::string(info.unit)};
+}
+
+inline UnnamedStructure unnamed_of(const Leftover& l) {
+  const PowerLaw& law = l.law;
+  const auto rounded = [](double value) {
+    std::ostringstream text;
+    text << std::setprecision(2) << value;
+    return text.str();
+  };
+  UnnamedStructure found;
+  found.where.direction = info_of(l.unknown).name;
+  found.value = l.value;
+  found.deviation = l.deviation;
+  found.unit = info_of(l.unknown).unit;
+  found.z = l.z;
+  found.size_m = l.size;
+  found.scalar = law.scalar;
+  found.scalar_unit = law.unit;
+  found.exponent = law.exponent;
+  found.exponent_deviation = law.deviation;
+  for (const auto& [x, value] : law.curve) found.curve.push_back({x, value});
+  if (!l.in_model) found.explained = law.explained;
+  found.in_model = l.in_model;
+  found.worse_without_ci95_m = l.worsening_ci95;
+  const std::string along = " " + found.unit + " along " + found.where.direction;
+  const bool told = !law.curve.empty() && law.deviation <= kVagueExponent;
+  found.law = !told ? rounded(l.value) + along + "; how it grows cannot be told"
+                    : rounded(law.value) + along + " at " + rounded(law.at) + " " + found.scalar_unit +
+                          " of " + found.scalar + ", growing as " + found.scalar + "^(" +
+                          rounded(law.exponent) + " ± " + rounded(law.deviation) + ")";
+  return found;
+}
+
+inline Location located(const Diagnosis& d, const std::vector<Recording>& recordings) {
+  Location location;
+  for (int k = 0; k < kLatents; ++k) {
+    const UnknownInfo& info = info_of(static_cast<Unknown>(kLatentFirst + k));
+    const bool on_string = k < 2 || k == 5;
+    location.directions.push_back(
+        {std::string(info.name), on_string ? "ON_STRING" : "FLYING", std::string(info.unit)});
+  }
+  for (const WindowFinding& w : d.windows) {
+    LocatedWindow window{recordings[w.recording].name,
+                         w.begin,
+                         w.end,
+                         text_of(w.mode),
+                         w.residual_before,
+                         w.residual_after,
+                         {}};
+    for (const double z : w.z) window.z.push_back(std::isfinite(z) ? std::optional(z) : std::nullopt);
+    location.windows.push_back(std::move(window));
+  }
+  return location;
+}
+
+}  // namespace detail
+
+/// What a diagnosis says, less what only its caller knows: files and time. `recordings` are those that were
+/// diagnosed, `unused` names of held-out recordings on which nothing can be compared, see
+/// comparable_windows().
+inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording>& recordings,
+                                 std::vector<std::string> unused = {}) {
+  DiagnosisResult result;
+  result.headline = text_of(d.headline);
+  result.sentence = d.sentence;
+  result.base = d.base;
+  if (d.numerical && *d.numerical > 0.1) result.effects.push_back(detail::solver_artefact(*d.numerical));
+  for (const Finding& f : d.findings) {
+    result.ladder.push_back(detail::row_of(f));
+    if (f.claimed) result.effects.push_back(detail::effect_of(f, d));
+    if (const std::optional<UpperLimit> limit = detail::limit_of(f)) result.upper_limits.push_back(*limit);
+  }
+  for (int u = 0; u <= index_of(Unknown::kAxleRadius) && d.reason.empty(); ++u) {
+    const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+    result.nuisances.push_back(
+        detail::with_deviation(std::string(info.name), d.at[u], d.deviation[u], std::string(info.unit)));
+  }
+  for (const Leftover& l : d.leftovers) result.unnamed.push_back(detail::unnamed_of(l));
+  result.fit = {d.heldout.whole_recordings ? "recordings" : "blocks",
+                d.heldout.horizons,
+                d.heldout.base_error,
+                d.heldout.augmented_error,
+                d.heldout.improvement_ci95,
+                d.heldout.start_error,
+                d.heldout.windows,
+                std::move(unused)};
+  for (const Proposal& p : d.proposals)
+    result.next_experiment.push_back({std::string(p.experiment->motion), std::string(p.experiment->plain),
+                                      p.parts, p.odds, p.experiment->seconds});
+  result.not_done = d.not_done;
+  result.locate = detail::located(d, recordings);
+  for (const auto& [name, noise] : d.noise) result.noise.push_back({name, noise.position, noise.spin});
+  return result;
+}
+
+/// Starts from which a recording that is held out can be compared, as compare_held_out() would take them.
+/// Throws RecordingError where the recording is none.
+inline std::size_t comparable_windows(const Recording& recording, const Model& base) {
+  check_recording(recording);
+  HorizonOptions options;
+  options.starts_every = 0.2;
+  options.horizons = HeldOut{}.horizons;
+  return HorizonTask(recording, base, options).size();
+}
+
+}  // namespace diabolo
