@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "diabolo/interop/json/records.hpp"
 #include "diabolo/json/fields.hpp"
+#include "diabolo/json/records.hpp"
 
 #include "fields.hpp"
 

@@ -6,13 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "diabolo/diagnose/diagnosis.hpp"
 #include "diabolo/diagnose/diagnosis_result.hpp"
-#include "diabolo/interop/json/records.hpp"
 #include "diabolo/json/fields.hpp"
-#include "diabolo/json/finding.hpp"
+#include "diabolo/json/records.hpp"
 #include "diabolo/text/file.hpp"
-#include "diabolo/version.hpp"
 
 namespace diabolo {
 
