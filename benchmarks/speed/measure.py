@@ -91,6 +91,16 @@ def compile_times(runs: int, compiler: str) -> dict[str, Any]:
         return dict(json.loads(out.read_text()))
 
 
+def uses(brief: bool) -> dict[str, Any] | None:
+    """Figures of what people come for; None where the package is not installed."""
+    if subprocess.run([sys.executable, "-c", "import diabolo"], capture_output=True, cwd=ROOT).returncode:
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "uses.json"
+        run([*python("uses"), "--json", str(out), *(["plan", "--brief"] if brief else [])], cwd=ROOT)
+        return dict(json.loads(out.read_text()))
+
+
 def mujoco(short: bool) -> dict[str, Any] | None:
     """Figures of the comparison with MuJoCo; None where it is not installed."""
     if subprocess.run([sys.executable, "-c", "import mujoco"], capture_output=True).returncode:

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import statistics
-from collections.abc import Iterable
 from typing import Any
 
+from .figures import PROGRAMS, per_step, speed, table
 from .measure import spread
+from .opening import opening
 
 MODELS = {
     "consistent": "`consistent()`",
@@ -17,17 +18,6 @@ MODELS = {
 }
 SCALARS = ("double", "float", "Dual<double,4>", "Dual<double,16>", "Pack<double,4>")
 KERNELS = ("portable", "baseline", "avx2", "avx512")
-PROGRAMS = "build/bench/benchmarks/speed"
-
-
-def table(columns: list[str], rows: Iterable[Iterable[str]], text_columns: int = 1) -> str:
-    marks = ["---"] * text_columns + ["---:"] * (len(columns) - text_columns)
-    return "\n".join(f"| {' | '.join(row)} |" for row in [columns, marks, *rows])
-
-
-def per_step(entry: dict[str, Any], clock: str = "cpu") -> list[float]:
-    """Nanoseconds per step, of every repetition."""
-    return [time / entry["steps"] for time in entry[clock]]
 
 
 def median_and_worst(times: list[float]) -> str:
@@ -36,11 +26,6 @@ def median_and_worst(times: list[float]) -> str:
 
 def count(counts: dict[str, float], name: str, steps: float) -> str:
     return f"{counts[name] / steps:,.0f}" if name in counts else "-"
-
-
-def speed(entry: dict[str, Any], clock: str = "cpu") -> float:
-    """Million steps a second, median."""
-    return 1e3 / statistics.median(per_step(entry, clock))
 
 
 def step_table(results: dict[str, Any], play: str, kind: str = "step") -> str:
@@ -233,7 +218,12 @@ def page(results: dict[str, Any]) -> str:
     headers = sorted(results["compile"]["seconds"].items(), key=lambda item: -item[1])
     return f"""# Benchmarks
 
-`make bench` runs everything below and writes this page; nothing here is typed by hand.
+{opening(results)}
+
+Times of the processor, medians; a step is 1 ms. `make bench` runs everything on this page and writes it; nothing
+is typed by hand. What else there is, and how long it runs: [benchmarks](../benchmarks/README.md).
+
+## The machine
 
 | machine | |
 |---|---|

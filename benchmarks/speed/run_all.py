@@ -46,6 +46,7 @@ def measured(programs: Path, compiler: str, brief: bool) -> dict[str, Any]:
     stage("compile", lambda: measure.compile_times(1 if brief else 3, compiler))
     stage("header_lines", measure.header_lines)
     stage("mujoco", lambda: measure.mujoco(brief))
+    stage("uses", lambda: measure.uses(brief))
     results["load"], results["seconds"] = load, time.monotonic() - started
     return results
 
