@@ -220,8 +220,8 @@ def page(results: dict[str, Any]) -> str:
 
 {opening(results)}
 
-Times of the processor, medians; a step is 1 ms. `make bench` runs everything on this page and writes it; nothing
-is typed by hand. What else there is, and how long it runs: [benchmarks](../benchmarks/README.md).
+Times of the processor, medians. A step is 1 ms. `make bench` runs everything on this page and writes it.
+[What else there is](../benchmarks/README.md), and how long it runs.
 
 ## The machine
 
