@@ -220,7 +220,7 @@ def page(results: dict[str, Any]) -> str:
 
 {opening(results)}
 
-Times of the processor, medians. A step is 1 ms. `make bench` runs everything on this page and writes it.
+Medians of the processor's time, all cores together. A step is 1 ms. `make bench` writes this page.
 [What else there is](../benchmarks/README.md), and how long it runs.
 
 ## The machine
