@@ -29,7 +29,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde plant prove prove-player mujoco browser sanitize \
+.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove prove-player mujoco browser sanitize \
   fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree stubs check-stubs clean
 
 help: ## List the targets
@@ -126,6 +126,7 @@ ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtd
 	@# Those that play keep time, which a machine that others share may take from them: each may be tried once more.
 	@ctest --test-dir $(BUILD)/ur5e/build --output-on-failure --label-regex plays --repeat until-pass:2
 
+.PHONY: plant
 plant: ## Build the independent plant, on which the proofs play
 	@$(packages) build test plant
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
