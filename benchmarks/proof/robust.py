@@ -18,8 +18,8 @@ import numpy as np
 from diabolo import Model, Parameters, PlannedPlay, _core
 from diabolo.enums import StringState
 
-from ... import command
-from .session import spread
+from .. import command
+from .player.session import spread
 
 SPIN = 150.0  # [rad/s]
 
@@ -55,7 +55,7 @@ def caught(play: PlannedPlay, model: Model) -> bool:
 
 def make_parser() -> argparse.ArgumentParser:
     parser = command.make_parser(
-        "benchmarks.proof.player.robust", __doc__, "  python -m benchmarks.proof.player.robust --draws 100"
+        "benchmarks.proof.robust", __doc__, "  python -m benchmarks.proof.robust --draws 100"
     )
     parser.add_argument("--draws", type=int, default=60, help="fresh models for each plan; default: 60")
     parser.add_argument("--seed", type=int, default=1, help="of the models; default: 1")
