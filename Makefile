@@ -126,17 +126,17 @@ ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtd
 	@# Those that play keep time, which a machine that others share may take from them: each may be tried once more.
 	@ctest --test-dir $(BUILD)/ur5e/build --output-on-failure --label-regex plays --repeat until-pass:2
 
-prove: $(VENV)/.package ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
+.PHONY: plant
+plant: ## Build the independent plant, on which the proofs play
 	@$(packages) build test plant
 	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
-	@$(VENV)/bin/python -m diabolo prove quick --cases 16 --plant $(BUILD)/plant/diabolo-plant
 
-prove-player: $(VENV)/.package ## Play a few plans on the independent plant, and see that they do what is wanted
-	@$(packages) build test plant
-	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
-	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
-	@$(VENV)/bin/python benchmarks/player/prove.py small --plant $(BUILD)/plant/diabolo-plant
+prove: $(VENV)/.package plant ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
+	@$(VENV)/bin/python -m benchmarks.proof.diagnosis quick --cases 16 --plant $(BUILD)/plant/diabolo-plant
+
+prove-player: $(VENV)/.package plant ## Play a few plans on the independent plant, and see that they do what is wanted
+	@$(VENV)/bin/python -m benchmarks.proof.player small --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
@@ -174,7 +174,7 @@ stress: # Long random runs: with assertions, but optimised in full.
 	@$(ctest) --test-dir $(BUILD)/heavy -L stress
 
 # With MuJoCo where `make mujoco` has installed it, with instruction counts where valgrind is found.
-run_benchmarks = $(VENV)/bin/python benchmarks/run_all.py $(BUILD)/bench/benchmarks
+run_benchmarks = $(VENV)/bin/python -m benchmarks.speed.run_all $(BUILD)/bench/benchmarks/speed
 
 bench: build-benchmarks $(VENV)/.package ## Run every benchmark and write docs/benchmarks.md
 	@$(packages) mujoco

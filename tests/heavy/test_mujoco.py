@@ -17,7 +17,7 @@ pytestmark = pytest.mark.mujoco
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "mujoco" / "diabolo_in_mujoco.py"
-BENCHMARK = ROOT / "benchmarks" / "mujoco" / "compare.py"
+BENCHMARK = "benchmarks.speed.mujoco.compare"
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,10 @@ def played(example):
 def benchmark(tmp_path_factory):
     report = tmp_path_factory.mktemp("benchmark") / "report.json"
     done = subprocess.run(
-        [sys.executable, str(BENCHMARK), "--short", "--json", str(report)], capture_output=True, text=True
+        [sys.executable, "-m", BENCHMARK, "--short", "--json", str(report)],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("\n|---|") == 2

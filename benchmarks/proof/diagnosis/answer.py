@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""What is kept of an answer: one JSON line per case, which depends on the case and the tool alone."""
+
+from __future__ import annotations
+
+from typing import Any
+
+Answer = dict[str, Any]
+
+_KEPT_OF_EFFECT = ("name", "kind", "tied_with", "confidence")
+_KEPT_OF_PARAMETER = ("name", "value", "ci90")
+_KEPT_OF_RUNG = ("name", "z", "size_m")
+_KEPT_OF_FIT = ("horizons_s", "base_error_m", "augmented_error_m")
+
+
+def rounded(value: Any) -> Any:
+    """Numbers to six digits."""
+    if isinstance(value, float):
+        return float(f"{value:.6g}")
+    if isinstance(value, dict):
+        return {name: rounded(member) for name, member in value.items()}
+    if isinstance(value, list):
+        return [rounded(member) for member in value]
+    return value
+
+
+def _part(names: tuple[str, ...], of: dict[str, Any]) -> dict[str, Any]:
+    return {name: of.get(name) for name in names}
+
+
+def kept(result: Answer) -> Answer:
+    """The part of a result (schema diabolo.diagnosis/1) that the scores are made of, and what has no name."""
+    effects = [
+        {
+            **_part(_KEPT_OF_EFFECT, effect),
+            "parameters": [_part(_KEPT_OF_PARAMETER, parameter) for parameter in effect["parameters"]],
+            "modes": effect.get("where", {}).get("modes", []),
+        }
+        for effect in result.get("effects", [])
+    ]
+    return {
+        "headline": result["headline"],
+        "effects": rounded(effects),
+        "unnamed": rounded(result.get("unnamed", [])),
+        "ladder": rounded([_part(_KEPT_OF_RUNG, rung) for rung in result.get("ladder", [])]),
+        "fit": rounded(_part(_KEPT_OF_FIT, result.get("fit", {}))),
+    }
+
+
+def failed(error: Exception) -> Answer:
+    """The answer of a tool that gave up: it counts as one that claims nothing."""
+    empty = dict.fromkeys(_KEPT_OF_FIT)
+    message = " ".join(str(error).split())
+    return {"headline": "ERROR", "error": message, "effects": [], "unnamed": [], "ladder": [], "fit": empty}
+
+
+def claims(answer: Answer, kind: str) -> list[dict[str, Any]]:
+    """What is claimed of one kind (physics, measurement), the surest first."""
+    return [effect for effect in answer["effects"] if effect["kind"] == kind]
+
+
+def significance(answer: Answer, name: str) -> float | None:
+    """How many standard deviations a name stands out by; None where the tool does not know the name."""
+    for rung in answer["ladder"]:
+        if rung["name"] == name and rung["z"] is not None:
+            return abs(float(rung["z"]))
+    return None
+
+
+def error_after(answer: Answer, which: str, seconds: float) -> float | None:
+    """Mean error on data left out [m]; which: base or augmented."""
+    horizons, errors = answer["fit"]["horizons_s"], answer["fit"][f"{which}_error_m"]
+    if not horizons or not errors or seconds not in horizons:
+        return None
+    value = errors[horizons.index(seconds)]
+    return None if value is None else float(value)

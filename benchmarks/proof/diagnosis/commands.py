@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: MIT
+"""What the actions of `python -m benchmarks.proof.diagnosis` do."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .. import files, plant
+from . import answer, batch, earlier, making, page, record, run, seal, tables, tools
+from .names import physics_among
+
+ARMS_WITH_ORACLE = ("single", "several", "with_fault", "tie", "outside")
+DIAGNOSE = "diagnose"
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where things are."""
+
+    sources: Path
+    """The folder of the sealed batches and of the records of those that were scored."""
+    build: Path
+    """For recordings, keys and answers."""
+    program: Path
+    """The plant's."""
+    report: run.Report
+
+    def published(self, name: str) -> Path:
+        return self.sources / "batches" / f"{name}.json"
+
+    def record(self, name: str) -> Path:
+        return self.sources / "batches" / f"{name}.jsonl.xz"
+
+    @property
+    def earlier(self) -> Path:
+        return self.sources / "batches" / "earlier.json"
+
+    def store(self, name: str) -> batch.Store:
+        return batch.Store(self.build / name)
+
+    def answers(self, name: str, who: str) -> Path:
+        return self.build / name / f"{who}.jsonl"
+
+
+def check_name(name: str) -> None:
+    """Names become those of files."""
+    if not name.replace("_", "").replace("-", "").isalnum():
+        raise ValueError(f"batch {name!r}: expected a name of letters, digits, - and _")
+
+
+def tool_named(name: str) -> tools.Tool:
+    if name not in tools.TOOLS:
+        raise ValueError(f"--tool {name}: expected one of {', '.join(tools.TOOLS)}")
+    return tools.TOOLS[name]
+
+
+def seal_batch(places: Places, name: str, cases: int, jobs: int) -> int:
+    check_name(name)
+    result = seal.seal(
+        name, places.published(name), places.store(name), places.program, cases, jobs, places.report
+    )
+    print(
+        f"{places.published(name)}: {cases} cases sealed at commit {result['commit'][:12]}; "
+        f"commit this file, then run {name}"
+    )
+    return 0
+
+
+def _is_committed(path: Path) -> bool:
+    known = subprocess.run(["git", "ls-files", "--error-unmatch", str(path)], capture_output=True)
+    same = subprocess.run(["git", "diff", "--quiet", "HEAD", "--", str(path)], capture_output=True)
+    return known.returncode == 0 and same.returncode == 0
+
+
+def run_batch(places: Places, name: str, tool: str, minutes: float, jobs: int) -> int:
+    check_name(name)
+    chosen = tool_named(tool)
+    sealed = seal.read(places.published(name))
+    if not _is_committed(places.published(name)):
+        raise ValueError(f"{places.published(name)}: not committed as it is; the seal comes before the run")
+    seal.check_tool(sealed["commit"])
+    store = places.store(name)
+    plant.check(places.program)
+    results = places.answers(name, tool)
+    done = run.answers(results)
+    batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report, but=done)
+    seal.check_recordings(sealed, store, but=done)
+    cases = [entry["case"] for entry in sealed["sealed"]]
+    own = run.answers(places.answers(name, DIAGNOSE)) if tool == "bic" else {}
+
+    def ask(case: str) -> answer.Answer:
+        recording = store.recording(case)
+        return tools.by_bic(own[case], recording) if case in own else chosen(recording)
+
+    left = run.resume(cases, results, ask, places.report, minutes)
+    ending = f"{left} cases are left; run again" if left else f"all done; score {name} comes next"
+    print(f"{results}: {len(cases) - left} of {len(cases)} cases; {ending}")
+    return 0
+
+
+def at_work(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
+    """The physics of each case that has some."""
+    return {key["case"]: physics_among(key["names"]) for key in keys if key["arm"] in ARMS_WITH_ORACLE}
+
+
+def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
+    """The other name of each tie."""
+    return {
+        key["case"]: [name for name in key["tie"] if name not in key["names"]] for key in keys if key["tie"]
+    }
+
+
+def oracles(
+    places: Places,
+    wanted: dict[str, list[str]],
+    answers: dict[str, answer.Answer],
+    store: batch.Store,
+    path: Path,
+) -> dict[str, answer.Answer]:
+    """Answers of who is told the names, for as much of them as the tool knows."""
+    told: dict[str, list[str]] = {}
+    for case, names in wanted.items():
+        ladder = {rung["name"] for rung in answers.get(case, {}).get("ladder", [])}
+        if known := [name for name in names if name in ladder]:
+            told[case] = known
+    run.resume(
+        list(told), path, lambda case: tools.restricted(store.recording(case), told[case]), places.report
+    )
+    return {case: found for case, found in run.answers(path).items() if case in told}
+
+
+def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, jobs: int) -> record.Record:
+    """Opens the keys, asks who is told the truth, and keeps the answers of all tools that have all cases."""
+    cases = {entry["case"] for entry in sealed["sealed"]}
+    found = {who: run.answers(places.answers(name, who)) for who in tools.TOOLS}
+    if missing := cases - found[tool].keys():
+        raise ValueError(f"batch {name}: {len(missing)} cases have no answer of {tool}; run {name} first")
+    store = places.store(name)
+    plant.check(places.program)
+    batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report)
+    keys = seal.open_keys(sealed, store)
+    own = found[DIAGNOSE]
+    told = {
+        who: oracles(places, wanted, own, store, places.answers(name, who))
+        for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
+    }
+    whole = {who: by_case for who, by_case in found.items() if cases <= by_case.keys()}
+    opened = record.Record(keys, whole | told)
+    opened.write(places.record(name))
+    return opened
+
+
+def score_batch(places: Places, name: str, tool: str, jobs: int, json_file: Path | None) -> int:
+    """Opens a batch that was run here; scores one that is recorded already from its record."""
+    check_name(name)
+    tool_named(tool)
+    sealed = seal.read(places.published(name))
+    if places.answers(name, tool).exists():
+        found = open_batch(places, name, sealed, tool, jobs)
+    else:
+        found = record.read(places.record(name))
+        closed = seal.not_as_sealed(sealed, found.keys)
+        print(f"{sealed['cases'] - len(closed)} of {sealed['cases']} keys, drawn again, are those sealed")
+    if tool not in found.answers:
+        raise ValueError(
+            f"{places.record(name)}: no answers of {tool}; expected one of {', '.join(found.answers)}"
+        )
+    return _finish(
+        {"batch": name, "tool": tool, "commit": sealed["commit"], **found.summary(tool)}, json_file
+    )
+
+
+def write_page(places: Places, name: str, out: Path) -> int:
+    check_name(name)
+    sealed = seal.read(places.published(name))
+    found = record.read(places.record(name))
+    others = {tool: found.summary(tool) for tool in tools.TOOLS if tool != DIAGNOSE and tool in found.answers}
+    written = page.write(out, name, sealed, found.summary(DIAGNOSE), others, earlier.read(places.earlier))
+    print("; ".join(str(path) for path in written))
+    return 0
+
+
+def retire_batch(places: Places, name: str) -> int:
+    """Keeps of a scored batch its seed, the hash of its seal and its scores; git has the rest."""
+    check_name(name)
+    published = places.published(name)
+    sealed = seal.read(published)
+    result = record.read(places.record(name)).summary(DIAGNOSE)
+    batches = {
+        **earlier.read(places.earlier),
+        name: earlier.entry(sealed, files.digest_of(published), result),
+    }
+    files.write_text(places.earlier, earlier.text_of(batches))
+    published.unlink()
+    places.record(name).unlink()
+    print(f"{places.earlier}: holds {name} now; {published} and its record are gone")
+    return 0
+
+
+def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file: Path | None) -> int:
+    """Cases that are not sealed: made, diagnosed and scored at once."""
+    chosen = tool_named(tool)
+    plant.check(places.program)
+    store = places.store(f"quick_{seed}_{cases}")
+    planned = batch.make(
+        store, places.program, seed, cases, making.knows_chain(places.program), jobs, places.report
+    )
+    stamp = tools.digest()[:12]
+
+    def answers_of(who: str) -> Path:
+        path = store.folder / f"{who}_{stamp}.jsonl"
+        _drop_if_older(path, store.folder / "stamp.json")
+        return path
+
+    names = [plan.name for plan in planned]
+    results = answers_of(tool)
+    run.resume(names, results, lambda case: chosen(store.recording(case)), places.report)
+    found = run.answers(results)
+    keys = [store.key(case) for case in names]
+    own = found if tool == DIAGNOSE else run.answers(answers_of(DIAGNOSE))
+    told = {
+        who: oracles(places, wanted, own, store, answers_of(who))
+        for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
+    }
+    result = record.Record(keys, {tool: found, **told}).summary(tool)
+    return _finish({"batch": None, "tool": tool, "seed": seed, **result}, json_file)
+
+
+def _drop_if_older(path: Path, than: Path) -> None:
+    """Answers to cases that were made anew since do not count."""
+    if path.exists() and path.stat().st_mtime < than.stat().st_mtime:
+        path.unlink()
+
+
+def _finish(result: dict[str, Any], json_file: Path | None) -> int:
+    """Prints; returns the exit status."""
+    if json_file is not None:
+        files.write_json(json_file, result)
+    print(tables.text_of(result))
+    return 1 if any(entry["fails"] for entry in result["scores"]) else 0

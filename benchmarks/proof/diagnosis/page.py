@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: MIT
+"""The page of a proof: all its figures, failures included."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from .. import files
+from . import tables
+from .earlier import Entry
+from .tables import markdown, percent
+
+COMMAND = "python -m benchmarks.proof.diagnosis"
+FOLDER = "benchmarks/proof/diagnosis/batches"
+
+INTRODUCTION = """\
+`{command}` made this page.
+
+# The diagnosis on concealed data
+
+Batch {name}: {cases} recordings of the project's plant, drawn and sealed at commit `{commit}` before
+any of them was diagnosed. The commit gives the seed, so that no batch can be chosen; hashes of keys and
+recordings are in [{name}.json](../{folder}/{name}.json), keys and answers in
+[{name}.jsonl.xz](../{folder}/{name}.jsonl.xz). `{score}` scores them again.
+
+{arms}
+
+An effect's SNR is how many standard deviations it stands out by for who knows what is at work. Rates have
+Clopper-Pearson intervals. "missed" means by more than the interval allows.
+"""
+
+EARLIER = """\
+## Earlier batches
+
+Each was drawn, scored, and learned from: the tool and some of the scores changed after it. Commits, seeds and
+the hashes of their seals are in [earlier.json](../{folder}/earlier.json). In brackets: cases.
+
+"""
+
+
+def _rate(row: dict[str, Any]) -> list[str]:
+    total = row["total"]
+    if not total:
+        return ["-", "0"]
+    span = f"{percent(row['hits'] / total)} [{percent(row['low'])}, {percent(row['high'])}]"
+    return [span, f"{row['hits']} of {total}"]
+
+
+def _confusion(table: dict[str, dict[str, int]]) -> str:
+    columns = sorted(
+        {claimed for row in table.values() for claimed in row}, key=lambda c: (c == "nothing", c)
+    )
+    rows = [[truth, *(str(row.get(column, "")) for column in columns)] for truth, row in table.items()]
+    return markdown(["at work", *columns], rows)
+
+
+def _power(rows: list[dict[str, Any]]) -> str:
+    shown = [
+        [f"{low:g} to {high:g}" if high is not None else f"above {low:g}", *_rate(row)]
+        for row in rows
+        for low, high in [row["snr"]]
+    ]
+    return markdown(["SNR", "in the answer or its tie", "cases"], shown)
+
+
+def _reliability(rows: list[dict[str, Any]]) -> str:
+    shown = [
+        [
+            f"{low:g} to {high:g}",
+            "-" if row["mean"] is None else percent(row["mean"]),
+            *_rate(row),
+        ]
+        for row in rows
+        for low, high in [row["confidence"]]
+    ]
+    return markdown(["confidence", "mean", "right", "claims"], shown)
+
+
+def _names(rows: list[dict[str, Any]]) -> str:
+    shown = [
+        [
+            row["name"],
+            str(row["cases"]),
+            str(row["found"]),
+            f"{row['clear_found']} of {row['clear']}",
+            str(row["false"]),
+            f"{row['covered']} of {row['intervals']}",
+        ]
+        for row in rows
+    ]
+    header = [
+        "name",
+        "at work",
+        "in the answer",
+        "of those with SNR >= 10",
+        "claimed falsely",
+        "intervals that cover",
+    ]
+    return markdown(header, shown)
+
+
+def _compared(result: dict[str, Any], others: dict[str, dict[str, Any]]) -> str:
+    everyone = {"diagnose": result, **others}
+    rows = [
+        [score["name"], *(tables.row_of(one["scores"][place])[1] for one in everyone.values())]
+        for place, score in enumerate(result["scores"])
+    ]
+    return markdown(["score", *everyone], rows)
+
+
+def _earlier(result: dict[str, Any], batches: dict[str, Entry]) -> str:
+    """The scores that have a bound, of each batch."""
+    scores = {name: {score["name"]: score for score in batch["scores"]} for name, batch in batches.items()}
+    rows = [
+        [name, *(tables.row_of(one[name])[1] if name in one else "-" for one in scores.values())]
+        for name in (score["name"] for score in result["scores"] if tables.bound_of(score))
+    ]
+    return markdown(["score", *(f"{name} ({batches[name]['cases']})" for name in scores)], rows)
+
+
+def text_of(
+    name: str,
+    sealed: dict[str, Any],
+    result: dict[str, Any],
+    others: dict[str, dict[str, Any]],
+    batches: dict[str, Entry],
+    picture: str | None,
+) -> str:
+    """The page."""
+    arms = markdown(["arm", "cases"], [[arm, str(count)] for arm, count in sealed["arms"].items()])
+    parts = [
+        INTRODUCTION.format(
+            command=f"{COMMAND} page {name}",
+            score=f"{COMMAND} score {name}",
+            folder=FOLDER,
+            name=name,
+            cases=result["cases"],
+            commit=sealed["commit"],
+            arms=arms,
+        ),
+        "## Scores\n\n" + markdown(tables.HEADER, [tables.row_of(score) for score in result["scores"]]),
+    ]
+    for structure, scores in result["by_plant"].items():
+        parts.append(
+            f"### Plant: {structure}\n\n"
+            + markdown(tables.HEADER, [tables.row_of(score) for score in scores])
+        )
+    if others:
+        parts.append("## Simpler tools on the same recordings\n\n" + _compared(result, others))
+    parts.append("## By name\n\n" + _names(result["by_name"]))
+    parts.append(
+        "## One effect at work, and the first that was claimed\n\n" + _confusion(result["confusion"])
+    )
+    parts.append("## Power\n\n" + (f"![power]({picture})\n\n" if picture else "") + _power(result["power"]))
+    parts.append("## Confidence\n\n" + _reliability(result["reliability"]))
+    failures = tables.failure_rows(result)
+    shown = markdown(tables.FAILURE_HEADER, failures) if failures else "None."
+    parts.append(f"## Every answer that is wrong in something ({len(failures)})\n\n{shown}")
+    if batches:
+        parts.append(EARLIER.format(folder=FOLDER) + _earlier(result, batches))
+    return "\n\n".join(parts) + "\n"
+
+
+def draw_power(path: Path, rows: list[dict[str, Any]]) -> bool:
+    """The power curve as a picture; False where matplotlib is not installed."""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        return False
+    shown = [row for row in rows if row["total"]]
+    figure = Figure(figsize=(6.0, 3.5), layout="constrained")
+    axes = figure.subplots()
+    places = [(row["snr"][0] + (row["snr"][1] or 1.5 * row["snr"][0])) / 2.0 for row in shown]
+    rates = [row["hits"] / row["total"] for row in shown]
+    below = [rate - row["low"] for rate, row in zip(rates, shown, strict=True)]
+    above = [row["high"] - rate for rate, row in zip(rates, shown, strict=True)]
+    axes.errorbar(places, rates, yerr=[below, above], fmt="o-", capsize=3)
+    axes.axvline(10.0, color="grey", linewidth=0.8)
+    axes.set(xscale="log", ylim=(-0.02, 1.02), xlabel="SNR of the effect", ylabel="in the answer or its tie")
+    temporary = path.with_name(f".{path.name}")
+    figure.savefig(temporary, dpi=120, format="png")
+    temporary.replace(path)
+    return True
+
+
+def write(
+    out: Path,
+    name: str,
+    sealed: dict[str, Any],
+    result: dict[str, Any],
+    others: dict[str, dict[str, Any]],
+    batches: dict[str, Entry],
+) -> list[Path]:
+    """Writes the page, and the picture beside it; returns what was written."""
+    picture = out.with_name("proof_power.png")
+    drawn = draw_power(picture, result["power"])
+    files.write_text(out, text_of(name, sealed, result, others, batches, picture.name if drawn else None))
+    return [out, picture] if drawn else [out]

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""The independent plant (data/plant): every proof plays on it through this driver of its program."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any
+
+PROGRAM = Path("build/plant/diabolo-plant")
+LONGEST_RUN = 120.0  # [s]
+
+
+class RefusedError(ValueError):
+    """The program cannot play such a scenario."""
+
+
+class FailedError(RuntimeError):
+    """The program gave up on a scenario, or took too long."""
+
+
+def add_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--plant",
+        metavar="FILE",
+        type=Path,
+        default=PROGRAM,
+        help=f"the plant's program, which `make plant` builds; default: {PROGRAM}",
+    )
+
+
+def check(program: Path) -> None:
+    """Raises ValueError where the program is not there, or is another one."""
+    if not os.access(program, os.X_OK) or program.is_dir():
+        raise ValueError(f"{program}: the plant's program is not there; `make plant` builds it")
+    try:
+        told = subprocess.run([program.absolute(), "--help"], capture_output=True, text=True, timeout=10.0)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise ValueError(f"{program}: cannot be run ({error}); expected the plant's program") from error
+    if told.returncode != 0 or "--key" not in told.stdout:
+        raise ValueError(f"{program}: another program; expected the plant's, which `make plant` builds")
+
+
+def play(
+    program: Path,
+    scenario: dict[str, Any],
+    out: Path,
+    truth: Path | None = None,
+    longest: float = LONGEST_RUN,
+) -> dict[str, Any]:
+    """Plays a scenario; returns what is at work in it, by the names of the diagnosis.
+
+    `out` gets the filmed recording (CSV, with its JSON beside it), `truth` what really happened (CSV). The
+    program may take `longest` seconds.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        asked, key = Path(folder) / "scenario.json", Path(folder) / "key.json"
+        asked.write_text(json.dumps(scenario), encoding="utf-8")
+        command = [program.absolute(), asked, "--out", out, "--key", key]
+        command += [] if truth is None else ["--truth", truth]
+        try:
+            done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=longest)
+        except subprocess.TimeoutExpired:
+            raise FailedError(f"the plant took more than {longest:g} s") from None
+        said = " ".join(done.stderr.replace(str(asked), "scenario").split())
+        if done.returncode == 2:
+            raise RefusedError(f"the plant refuses: {said}")
+        if done.returncode != 0:
+            raise FailedError(f"the plant failed: {said}")
+        return dict(json.loads(key.read_text(encoding="utf-8"))["effects"])
