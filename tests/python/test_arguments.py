@@ -88,7 +88,7 @@ def test_arrays_are_not_printed_whole() -> None:
         lambda: Parameters(mass=many),
         lambda: State([0.0, 0.0, 0.0], string_state=many),
     ):
-        with pytest.raises((ValueError, TypeError), match=r"an array of the shape \(1000, 3\), float64; exp"):
+        with pytest.raises((ValueError, TypeError), match=r"an array of the shape \([\d, ]+\), float64; exp"):
             call()
 
 
