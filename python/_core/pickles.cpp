@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/json/calibration_file.hpp"
 #include "diabolo/plan/goals.hpp"
 #include "diabolo/plan/limits.hpp"
 #include "diabolo/plan/motion_unknowns.hpp"
 #include "diabolo/plan/stick_spline.hpp"
+#include "diabolo/recording/formats/calibration.hpp"
 
 namespace diabolo::python {
 
@@ -122,6 +122,30 @@ void pickle_spline() {
       });
 }
 
+void pickle_calibration() {
+  using C = Calibration;
+  const auto of_point = [](const BodyPoint& p) { return py::make_tuple(p.bodies, p.point, p.axis); };
+  const auto to_point = [](const py::handle& state) {
+    const py::tuple t = py::reinterpret_borrow<py::tuple>(state);
+    return BodyPoint{t[0].cast<std::vector<std::string>>(), t[1].cast<Eigen::Vector3d>(),
+                     t[2].cast<Eigen::Vector3d>()};
+  };
+  by_state<C>(
+      [of_point](const C& c) {
+        return py::make_tuple(of_point(c.left), of_point(c.right), of_point(c.diabolo), c.world_yaw,
+                              c.world_offset, c.properties, c.string_length);
+      },
+      [to_point](const py::tuple& state) {
+        return C{.left = to_point(state[0]),
+                 .right = to_point(state[1]),
+                 .diabolo = to_point(state[2]),
+                 .world_yaw = state[3].cast<double>(),
+                 .world_offset = state[4].cast<Eigen::Vector3d>(),
+                 .properties = state[5].cast<DiaboloProperties>(),
+                 .string_length = state[6].cast<double>()};
+      });
+}
+
 }  // namespace
 
 void bind_pickles() {
@@ -135,8 +159,7 @@ void bind_pickles() {
   pickle_spline();
   by_members(&DiaboloProperties::mass, &DiaboloProperties::diameter, &DiaboloProperties::length,
              &DiaboloProperties::axle_radius);
-  by_state<Calibration>(&write_calibration,
-                        [](const std::string& text) { return read_calibration(text, "calibration"); });
+  pickle_calibration();
 }
 
 }  // namespace diabolo::python

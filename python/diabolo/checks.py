@@ -58,9 +58,9 @@ def numbers(name: str, given: Any) -> NDArray[np.float64]:
         raise ValueError(f"{name}: {shown(given)}; expected an array of numbers") from None
 
 
-def whole_number(name: str, given: object, least: int, most: int) -> int:
+def whole_number(name: str, given: Any, least: int, most: int) -> int:
     """`given`, a whole number from `least` to `most`; else raises ValueError."""
-    if not isinstance(given, SupportsIndex) or not least <= given.__index__() <= most:
+    if np.ndim(given) > 0 or not isinstance(given, SupportsIndex) or not least <= given.__index__() <= most:
         raise ValueError(f"{name}: {shown(given)}; expected a whole number from {least} to {most}")
     return given.__index__()
 

@@ -88,7 +88,7 @@ def test_arrays_are_not_printed_whole() -> None:
         lambda: Parameters(mass=many),
         lambda: State([0.0, 0.0, 0.0], string_state=many),
     ):
-        with pytest.raises((ValueError, TypeError), match=r"an array of the shape \(1000, 3\), float64; exp"):
+        with pytest.raises((ValueError, TypeError), match=r"an array of the shape \([\d, ]+\), float64; exp"):
             call()
 
 
@@ -141,9 +141,10 @@ import copy, pickle
 from diabolo import _core
 classes = [value for value in vars(_core).values() if type(value).__name__ == "pybind11_type"]
 assert len(classes) > 40
+path = _core.StickSpline([0.0, 1.0], [[0.0, 0.3, 1.0]] * 2, [[0.0, -0.3, 1.0]] * 2).path()
 for one in classes:
     raw = one.__new__(one)
-    uses = [repr, copy.copy, copy.deepcopy, pickle.dumps, len, lambda raw: raw == raw, lambda raw: raw()]
+    uses = [repr, copy.copy, copy.deepcopy, pickle.dumps, len, lambda raw: raw == raw, lambda raw: raw(path)]
     uses += [lambda raw, name=name: getattr(raw, name) for name in dir(one)]
     methods = ("to_dict", "to_json", "path", "to_array")
     uses += [lambda raw, name=name: getattr(raw, name)() for name in methods]
@@ -337,7 +338,8 @@ def test_the_name_of_a_file_does_for_its_recording(
 
 
 def test_no_warning_comes_twice(played: Recording) -> None:
-    odd = Recording(played.time, played.left, played.right, 3.0 * played.diabolo, played.rate)
+    feet = (track / 0.3048 for track in (played.left, played.right, played.diabolo))
+    odd = Recording(played.time, *feet, played.rate)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         diabolo.evaluate([odd, odd, odd.cut(0, 300)], "paper")

@@ -12,14 +12,9 @@ from typing import Any
 
 import diabolo
 import numpy as np
-<<<<<<< HEAD:benchmarks/player/session.py
 from diabolo import Freedom, Goals, LadderRow, Model, Parameters, Plan, State, TipLimits, TipPath, _core
-from plant import STICKS, Plant, Played
-=======
-from diabolo import Freedom, Goals, Model, Parameters, Plan, State, TipLimits, TipPath, _core
 
 from .plant import STICKS, Plant, Played
->>>>>>> proof:benchmarks/proof/player/session.py
 
 REACTION = 0.12
 """From what is seen to the motion that answers it [s]."""
