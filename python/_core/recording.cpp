@@ -285,10 +285,10 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   cls.def("cut", &cut, "first"_a, "last"_a, "Rows first to last, both included.");
   cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
           "The recording at another rate [Hz]; dropouts are not bridged.");
-  cls.def(
-      "warnings", &warnings, Unlocked(),
-      "What its reader changed, and what is odd about it although it is well formed, such as other units, tips "
-      "that are long unseen or rows that are missing; a sentence each.");
+  cls.def("warnings", &warnings, Unlocked(),
+          "What its reader changed, and what is odd about it although it is well formed, such as other "
+          "units, tips "
+          "that are long unseen or rows that are missing; a sentence each.");
   cls.def_readonly("notes", &Recording::notes, "What its reader changed or took for granted, a clause each.");
   cls.def("spin", &spin, "signed"_a = true,
           "Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the "

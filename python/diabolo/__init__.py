@@ -42,6 +42,7 @@ from ._core import (
     baseline,
     load_recording,
     start_state,
+    trim_overlaps,
 )
 from .checks import RecordingWarning
 from .diagnosis import Diagnosis, diagnose
@@ -132,5 +133,6 @@ __all__ = [
     "rollout_gradient",
     "start_state",
     "success_rate",
+    "trim_overlaps",
     "view_html",
 ]

@@ -217,8 +217,7 @@ class MotiveReader {
       csv_.fail("frame " + shown(frame) + "; expected a whole number");
     const long number = static_cast<long>(frame);
     if (i > 0 && number <= take_.frame.back())
-      csv_.fail("frame " + shown(frame) + " does not come after frame " +
-                std::to_string(take_.frame.back()));
+      csv_.fail("frame " + shown(frame) + " does not come after frame " + std::to_string(take_.frame.back()));
     take_.frame.push_back(number);
     take_.time[i] = times_.next(row_[1]);
   }

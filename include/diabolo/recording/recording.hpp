@@ -67,7 +67,7 @@ struct Recording {
   OrientationTrack left_orientation, right_orientation;  ///< body x runs along the stick, outwards
   DiaboloProperties properties = kRedDiabolo;
   double string_length = kPublishedStringLength;  ///< [m]
-  std::vector<std::string> notes;                 ///< what its reader changed or took for granted, a clause each
+  std::vector<std::string> notes;  ///< what its reader changed or took for granted, a clause each
 
   Eigen::Index size() const { return time.size(); }
 

@@ -94,15 +94,16 @@ class TidyReader {
     }
     for (std::size_t k = 0; k < kTidyColumns.size(); ++k) {
       const std::size_t first = k < kDiaboloOrientation ? k : k - (k - kDiaboloOrientation) % 4;
-      const bool is_needed = k < (columns_.empty() ? kLeftOrientation : kDiaboloOrientation) ||
-                             has(first) || has(first + 1) || has(first + 2) || has(first + 3);
+      const bool is_needed = k < (columns_.empty() ? kLeftOrientation : kDiaboloOrientation) || has(first) ||
+                             has(first + 1) || has(first + 2) || has(first + 3);
       if (is_needed && !has(k)) csv_.fail("column " + shown(kTidyColumns[k]) + " is missing");
     }
   }
 
   void place(std::ptrdiff_t tidy, std::size_t cell) {
     std::size_t& at = at_[static_cast<std::size_t>(tidy)];
-    if (at != kAbsent) csv_.fail("column " + shown(kTidyColumns[static_cast<std::size_t>(tidy)]) + " is there twice");
+    if (at != kAbsent)
+      csv_.fail("column " + shown(kTidyColumns[static_cast<std::size_t>(tidy)]) + " is there twice");
     at = cell;
   }
 
@@ -174,8 +175,8 @@ class TidyReader {
 
 /// Reads the text of a tidy CSV: kTidyColumns in any order, empty cells for dropouts. `frame` is time * rate,
 /// rounded; the recording is named after the file. `columns` map a CSV of somebody's own, of which other
-/// columns are left alone and the diabolo's orientation may be missing. Throws RecordingError with file, line and what was
-/// expected.
+/// columns are left alone and the diabolo's orientation may be missing. Throws RecordingError with file, line
+/// and what was expected.
 inline Recording read_tidy(std::string_view text, const std::string& file_name, const TidyMetadata& metadata,
                            const std::vector<Column>& columns = {}) {
   return TidyReader(text, file_name, columns).read(metadata);

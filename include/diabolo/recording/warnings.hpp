@@ -28,7 +28,8 @@ inline constexpr double kLongestRest = 0.1;
 inline constexpr double kLongestWithoutRows = 0.1, kMostMissingRows = 0.05;
 
 /// What its reader changed in a recording, and what is odd about it although it is well formed: each a clause
-/// that says what is found and what it means. Whatever is computed from such a recording deserves a second look.
+/// that says what is found and what it means. Whatever is computed from such a recording deserves a second
+/// look.
 inline std::vector<std::string> warnings(const Recording& recording) {
   std::vector<std::string> result = recording.notes;
   const auto is_odd = [&result](std::string clause) {

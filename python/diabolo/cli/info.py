@@ -26,8 +26,8 @@ def add_parser(commands: Any) -> None:
         "info",
         run=run,
         summary="show what is in a recording",
-        text="Show what is in a recording: rigid bodies and their dropouts, duration, the diabolo's spin, what\n"
-        "was changed in reading it, and what is odd about it.",
+        text="Show what is in a recording: rigid bodies and their dropouts, duration, the diabolo's spin,\n"
+        "what was changed in reading it, and what is odd about it.",
         example="  diabolo info throw_1.csv\n  diabolo info throw_1.csv --json -\n"
         "  diabolo info own.csv --columns time=t[ms],left_x=lx[mm],...",
     )
@@ -97,7 +97,9 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
 
 
 def text_of(found: dict[str, Any]) -> str:
-    kind = {"motive": "Motive export", "tidy": "tidy recording", "csv": "CSV of mapped columns"}[found["format"]]
+    kind = {"motive": "Motive export", "tidy": "tidy recording", "csv": "CSV of mapped columns"}[
+        found["format"]
+    ]
     lines = [
         f"{found['file']}: {kind}, {found['samples']} samples at {found['rate_hz']:g} Hz, "
         f"{found['duration_s']:.2f} s",

@@ -60,7 +60,7 @@ inline std::string write_metadata(const TidyMetadata& metadata) {
 
 /// What a file does not say of itself.
 struct ReadOptions {
-  std::optional<UpAxis> up;     ///< which axis points up; nothing: z, and a motion that contradicts is refused
+  std::optional<UpAxis> up;  ///< which axis points up; nothing: z, and a motion that contradicts is refused
   std::vector<Column> columns;  ///< maps a CSV of somebody's own
 };
 
@@ -100,8 +100,8 @@ inline void check_up(const Recording& recording, double yaw, const std::string& 
   up.mirrored = to_left.y() < -0.5 * to_left.norm();
   throw RecordingError(file_name + ": the motion says that " + text_of({up.axis, false}) +
                        " points up, not z (gravity in flight and on the string)" +
-                       (up.mirrored ? ", and that left and right are mirrored" : "") + "; read it with --up=" +
-                       text_of(up) + ", or with --up=z as it stands");
+                       (up.mirrored ? ", and that left and right are mirrored" : "") +
+                       "; read it with --up=" + text_of(up) + ", or with --up=z as it stands");
 }
 
 /// Reads a recording of either kind, told apart by content: a Motive export, to which `calibration` is
@@ -120,7 +120,8 @@ inline Recording load_recording(const std::filesystem::path& path,
   Recording recording;
   if (is_motive) {
     if (!options.columns.empty())
-      throw RecordingError(file_name + ": columns are mapped, but it is a Motive export; expected another CSV");
+      throw RecordingError(file_name +
+                           ": columns are mapped, but it is a Motive export; expected another CSV");
     MotiveTake take = read_motive(text, file_name);
     recording = apply(calibration, is_turned ? turned_to_z_up(std::move(take), up) : std::move(take));
   } else {

@@ -44,9 +44,9 @@ inline std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace detail
 
-/// The bodies of a take that are wanted: by name, else the only one that has no wanted name but a telling one,
-/// such as "stick_right_2010_10" for the right stick; a note says so. Throws RecordingError that names the
-/// choices where there are several, and all bodies where there is none.
+/// The bodies of a take that are wanted: by name, else the only one that has no wanted name but a telling
+/// one, such as "stick_right_2010_10" for the right stick; a note says so. Throws RecordingError that names
+/// the choices where there are several, and all bodies where there is none.
 inline std::array<const MotiveBody*, 3> find_bodies(const std::array<WantedBody, 3>& wanted,
                                                     const MotiveTake& take, std::vector<std::string>& notes) {
   std::array<const MotiveBody*, 3> found;
@@ -71,8 +71,8 @@ inline std::array<const MotiveBody*, 3> find_bodies(const std::array<WantedBody,
     if (choices.size() > 1)
       throw RecordingError(take.file_name + ": several rigid bodies may be " + role + ": " +
                            detail::listed(choices) + "; expected one, or its name in a calibration");
-    notes.push_back(shown(choices.front()) + " is taken for " + role + ", by its name; the calibration is of " +
-                    detail::listed(wanted[k].names));
+    notes.push_back(shown(choices.front()) + " is taken for " + role +
+                    ", by its name; the calibration is of " + detail::listed(wanted[k].names));
   }
   return found;
 }

@@ -16,8 +16,8 @@ inline constexpr double kLargestStamp = 1e10;
 inline constexpr const char* kCutLineNote =
     "the last line has no line end and may be cut off inside a number: it is left out";
 
-/// Checks the times of a file's rows one after another. A first time beyond kLargestTime is a stamp of a clock
-/// that counts from 1970; such times are counted from the first row on.
+/// Checks the times of a file's rows one after another. A first time beyond kLargestTime is a stamp of a
+/// clock that counts from 1970; such times are counted from the first row on.
 class RowTimes {
  public:
   /// `csv` names file and line, and must outlive this.
@@ -45,7 +45,8 @@ class RowTimes {
  private:
   void start(double read) {
     if (read > kLargestStamp)
-      csv_.fail("time " + shown(read) + " s; expected seconds (a clock's milliseconds: --columns time=NAME[ms])");
+      csv_.fail("time " + shown(read) +
+                " s; expected seconds (a clock's milliseconds: --columns time=NAME[ms])");
     if (read > kLargestTime) origin_ = read;
     first_ = read - origin_;
   }

@@ -51,7 +51,8 @@ inline Eigen::Matrix3d turn_to_z_up(const UpAxis& up) {
 namespace detail {
 
 /// Turns positions, and orientations from body to file; a mirrored body keeps its x and z.
-inline void turn_frame(const Eigen::Matrix3d& turn, Eigen::Matrix3Xd& position, Eigen::Matrix4Xd& quaternion) {
+inline void turn_frame(const Eigen::Matrix3d& turn, Eigen::Matrix3Xd& position,
+                       Eigen::Matrix4Xd& quaternion) {
   const Eigen::Vector3d kept(1.0, turn.determinant(), 1.0);
   for (Eigen::Index i = 0; i < position.cols(); ++i)
     position.col(i) = Eigen::Vector3d(turn * position.col(i));

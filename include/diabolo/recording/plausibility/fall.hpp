@@ -37,8 +37,9 @@ struct Fall {
 /// how much shorter than the string the path is at least where it counts as slack [m].
 inline constexpr double kFallHalf = 0.05, kSlackBy = 0.08;
 
-/// What every sample that is seen all around tells about gravity: accelerations by least squares of parabolas,
-/// the string taken to be slack where its path is shorter throughout. Empty where rows are too far apart.
+/// What every sample that is seen all around tells about gravity: accelerations by least squares of
+/// parabolas, the string taken to be slack where its path is shorter throughout. Empty where rows are too far
+/// apart.
 inline std::vector<Fall> falls(const Recording& r) {
   const Eigen::Index half = std::max<Eigen::Index>(2, std::lround(kFallHalf * r.rate)), n = 2 * half + 1;
   if (static_cast<double>(half) > 2.0 * kFallHalf * r.rate) return {};
@@ -87,8 +88,8 @@ inline double median_residual(const std::vector<Fall>& falls, const Eigen::Vecto
 
 }  // namespace detail
 
-/// The axis, 1 to 3 for x to z and negative for its opposite, that the motion says points up where that is not
-/// z; nothing where it says so of z, or not clearly. Axes are the columns of `axes`, directions in the
+/// The axis, 1 to 3 for x to z and negative for its opposite, that the motion says points up where that is
+/// not z; nothing where it says so of z, or not clearly. Axes are the columns of `axes`, directions in the
 /// recording. Under the true axis friction, air and noise leave a fraction of gravity; under another one at
 /// least gravity itself.
 inline std::optional<int> other_axis_up(const Recording& r, const std::vector<Fall>& falls,

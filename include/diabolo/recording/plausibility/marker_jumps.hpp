@@ -151,8 +151,9 @@ inline Eigen::Index mask_jumps(Recording& r) {
     }
   }
   if (total > 0)
-    r.notes.push_back("samples jump away and back faster than anything moves: they are left out as dropouts (" +
-                      counts + ")");
+    r.notes.push_back(
+        "samples jump away and back faster than anything moves: they are left out as dropouts (" + counts +
+        ")");
   return total;
 }
 

@@ -23,8 +23,8 @@ inline constexpr double kLongestStill = 1.0;
 /// though the diabolo does not fall.
 inline constexpr double kMostTooShort = 0.02, kMostHeldUp = 0.1;
 
-/// A clause about a tip that rests to the last digit while the diabolo moves as if it did not: farther than the
-/// string reaches, or held up by a string that would be slack; else empty.
+/// A clause about a tip that rests to the last digit while the diabolo moves as if it did not: farther than
+/// the string reaches, or held up by a string that would be slack; else empty.
 inline std::string odd_still_tips(const Recording& r, const std::vector<Fall>& falls) {
   constexpr double kReach = 0.03;  // m beyond the usual path, or short of it
   const double usual = usual_path_length(r).value_or(r.string_length);

@@ -17,9 +17,9 @@ namespace diabolo {
 /// longer one may be the wrong file.
 inline constexpr double kLongestOverlap = 0.5;
 
-/// Cuts the samples off a recording that one before it in the list holds, too, where they are its first or its
-/// last and make up at most kLongestOverlap. Samples are the same where time and positions are. Returns what
-/// was trimmed, a sentence each.
+/// Cuts the samples off a recording that one before it in the list holds, too, where they are its first or
+/// its last and make up at most kLongestOverlap. Samples are the same where time and positions are. Returns
+/// what was trimmed, a sentence each.
 inline std::vector<std::string> trim_overlaps(std::vector<Recording>& recordings) {
   const auto same = [](const Recording& a, Eigen::Index i, const Recording& b, Eigen::Index j) {
     const auto alike = [i, j](const Track& x, const Track& y) {
@@ -43,9 +43,8 @@ inline std::vector<std::string> trim_overlaps(std::vector<Recording>& recordings
       for (Eigen::Index j = row_at(later.time[0]); j < rows && first < size && same(given, j, later, first);
            ++j)
         ++first;
-      for (Eigen::Index j = row_at(later.time[last]); j >= 0 && j < rows && last >= first &&
-                                                      same(given, j, later, last);
-           --j)
+      for (Eigen::Index j = row_at(later.time[last]);
+           j >= 0 && j < rows && last >= first && same(given, j, later, last); --j)
         --last;
       const Eigen::Index shared = first + size - 1 - last;
       if (shared == 0 || first > last || static_cast<double>(shared) > kLongestOverlap * later.rate) continue;
