@@ -47,6 +47,7 @@ from ._core import (
     baseline,
     load_recording,
     start_state,
+    trim_overlaps,
 )
 from .checks import RecordingWarning
 from .diagnosis import Diagnosis, diagnose
@@ -140,5 +141,6 @@ __all__ = [
     "rollout_gradient",
     "start_state",
     "success_rate",
+    "trim_overlaps",
     "view_html",
 ]

@@ -17,9 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         diabolo::read_motive(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz.csv");
     diabolo::Calibration calibration = diabolo::published_calibration();
     if (take.bodies.empty()) return 0;
-    calibration.left.bodies = calibration.right.bodies =
-        calibration.diabolo.bodies = {take.bodies.front().name};
     if (take.bodies.front().name.empty()) std::abort();
+    calibration.left.bodies = {take.bodies.front().name};
     const diabolo::Recording recording = diabolo::apply(calibration, take);
     diabolo::signed_spin(recording);
   } catch (const diabolo::RecordingError&) {

@@ -21,6 +21,8 @@ from diabolo import (
     load_recording,
     rollout,
 )
+from diabolo.cli import main
+from diabolo.cli.demo import packaged_recordings
 
 
 def with_dropouts(played: Recording) -> Recording:
@@ -227,11 +229,95 @@ def test_the_real_recordings_are_read(real_recordings: Path) -> None:
         assert np.nanmax(recording.spin()) > 50.0
 
 
+def shipped(name: str) -> Path:
+    return next(path for path in packaged_recordings() if path.stem == name)
+
+
+def test_another_axis_up_is_refused_and_turned_on_demand(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    take = load_recording(shipped("hop"))
+    path = tmp_path / "hop.csv"
+    y_up = [track[:, [0, 2, 1]] * [1, 1, -1] for track in (take.left, take.right, take.diabolo)]
+    Recording(take.time, *y_up, take.rate, properties=take.properties, string_length=1.45).save(path)
+    with pytest.raises(RecordingError, match=r"hop\.csv: the motion says that y points up, not z .* --up=y, "):
+        load_recording(path)
+    turned = load_recording(path, up="y")
+    np.testing.assert_allclose(turned.diabolo, take.diabolo, atol=1e-15)
+    assert turned.warnings() == []
+    assert any("y points up" in sentence for sentence in load_recording(path, up="z").warnings())
+    with pytest.raises(ValueError, match='up: "up"; expected x, y, z'):
+        load_recording(path, up="up")
+    assert main(["evaluate", str(path)]) == 2
+    assert main(["info", str(path)]) == 0
+    out = capsys.readouterr().out
+    assert out.count("points up") == 1 and "odd: the motion says that y points up" in out and "--up=y" in out
+    assert main(["info", str(path), "--up=y"]) == 0
+    assert "nothing odd" in capsys.readouterr().out
+
+
+def test_clocks_jitter_jumps_and_a_cut_line_are_put_right_and_told(tmp_path: Path) -> None:
+    names, *rows = shipped("throw").read_text().splitlines()
+    random = np.random.default_rng(2)
+    cells = [row.split(",") for row in rows]
+    for row in cells:
+        row[0] = f"{1.7e9 + float(row[0]) + random.normal(0.0, 0.4e-3):.6f}"
+    cells[500][9] = f"{float(cells[500][9]) + 0.5:.6f}"  # of the diabolo, up
+    text = "\n".join([names, *(",".join(row) for row in cells)])
+    (tmp_path / "throw.csv").write_text(text[:-3])
+    (tmp_path / "throw.json").write_text(shipped("throw").with_suffix(".json").read_text())
+    take, whole = load_recording(tmp_path / "throw.csv"), load_recording(shipped("throw"))
+    assert len(take) == len(whole) - 1
+    np.testing.assert_allclose(np.diff(take.time), 1.0 / 120.0, atol=1e-6)
+    assert not take.diabolo_valid[500] and whole.diabolo_valid[500]
+    told = ("stamps of a clock", "last line", "jitter by 0.", "(diabolo 1)")
+    assert len(take.notes) == len(told) and take.warnings() == take.notes
+    assert all(words in sentence for words, sentence in zip(told, take.notes, strict=True))
+    assert pickle.loads(pickle.dumps(take)).notes == take.notes
+
+
+def test_columns_of_ones_own_are_mapped(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    take = load_recording(shipped("swing"))
+    path = tmp_path / "own.csv"
+    tracks = {"L": take.left, "R": take.right, "D": take.diabolo}
+    lines = ["label,ms," + ",".join(f"{body}{axis}" for body in tracks for axis in "xyz")]
+    for index, time in enumerate(take.time):
+        numbers = (1e3 * track[index, axis] for track in tracks.values() for axis in range(3))
+        lines.append(
+            f"row {index},{1e3 * time!r}," + ",".join("" if np.isnan(n) else f"{n!r}" for n in numbers)
+        )
+    path.write_text("\n".join(lines).replace("np.float64(", "").replace(")", "") + "\n")
+    columns = {"time": "ms[ms]"} | {
+        f"{name}_{axis}": f"{name[0].upper()}{axis}[mm]" for name in ("left", "right", "diabolo") for axis in "xyz"
+    }
+    own = load_recording(path, columns=columns)
+    np.testing.assert_allclose(own.left, take.left, atol=1e-12)
+    np.testing.assert_allclose(own.time, take.time, atol=1e-9)
+    assert own.rate == 120.0 and own.string_length == 1.46 and "no own.json beside it" in own.notes[0]
+    text = ",".join(f"{tidy}={name}" for tidy, name in columns.items())
+    np.testing.assert_array_equal(load_recording(path, columns=text).diabolo, own.diabolo)
+    assert main(["convert", str(path), str(tmp_path / "tidy.csv"), "--columns", text]) == 0
+    np.testing.assert_array_equal(load_recording(tmp_path / "tidy.csv").diabolo, own.diabolo)
+    capsys.readouterr()
+    assert main(["info", str(path), "--columns", text.replace("Lx", "lx")]) == 2
+    assert 'no column "lx" for left_x; the file has "label", "ms", "Lx"' in capsys.readouterr().err
+
+
+def test_recordings_that_overlap_by_a_few_samples_are_trimmed() -> None:
+    take = load_recording(shipped("swing"))
+    given = [take.cut(0, 400), take.cut(391, 800)]
+    (first, second), told = diabolo.trim_overlaps(given)
+    assert (len(first), len(second)) == (401, 400)
+    assert told == ["'swing' overlaps 'swing' by 10 samples, which are left out of it"]
+    whole, told = diabolo.trim_overlaps([take, take])
+    assert [len(recording) for recording in whole] == [len(take), len(take)] and told == []
+
+
 def test_an_inconsistent_state_is_refused(played: Recording) -> None:
     rebuild, arguments, state = played.__reduce_ex__(2)[:3]
     for broken, text in (
-        (state[:-1], "a state of 14 items; expected 15"),
-        ((*state[:-1], [0, 1]), "2 frame numbers and 481 times"),
+        (state[:-1], "a state of 15 items; expected 16"),
+        ((*state[:-2], [0, 1], []), "2 frame numbers and 481 times"),
         ((state[0].ravel()[:-1], *state[1:]), r"left: shape \(481, 3\); expected \(480, 3\)"),
     ):
         with pytest.raises(ValueError, match=text):

@@ -62,6 +62,11 @@ TEST_CASE("Line ends of other kinds are refused") {
         "f.csv: lines end with CR only (old Mac); expected LF or CRLF");
   CHECK(complaint([] { CsvReader("a\nb", "f.csv"); }) ==
         "f.csv: the last line has no line end; the file may be cut off");
+  CsvReader cut("1\n2\n3", "f.csv", CutLine::kLeaveOut);
+  CHECK(cut.is_cut());
+  CHECK(cut.lines_left() == 2);
+  CHECK(complaint([] { CsvReader("3", "f.csv", CutLine::kLeaveOut); }) ==
+        "f.csv: the last line has no line end; the file may be cut off");
   CHECK(complaint([] { CsvReader("a\rb\n", "f.csv").next_line(); }) ==
         "f.csv, line 1: a CR inside the line; expected LF or CRLF as line end");
   CHECK(complaint([] {

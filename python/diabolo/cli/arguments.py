@@ -57,8 +57,8 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--columns",
         metavar="LIST",
-        help="map a CSV of your own: time=t[ms],left_x=lx[mm],..., TIDY=NAME or TIDY=NAME[UNIT] with s, ms, "
-        "us, ns, m, cm, mm, in, ft",
+        help="map a CSV of your own: time=t[ms],left_x=lx[mm],..., each TIDY=NAME or TIDY=NAME[UNIT] "
+        "with s, ms, us, ns, m, cm, mm, in or ft",
     )
 
 

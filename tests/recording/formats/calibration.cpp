@@ -121,13 +121,42 @@ TEST_CASE("Names of bodies are tried in order, and a missing body is told with a
   Calibration calibration = published_calibration();
   calibration.left.bodies = {"stick_left_2020_10", "stick_left"};
   CHECK(apply(calibration, take).left.valid.all());
+  MotiveTake other = take;
+  other.bodies[2].name = "stick";
   calibration.right.bodies = {"right", "stick_right_2010_10"};
-  CHECK(complaint([&] { apply(calibration, take); }) ==
+  CHECK(complaint([&] { apply(calibration, other); }) ==
         "take.csv: no rigid body for the right stick: tried \"right\", \"stick_right_2010_10\"; the file has "
-        "\"stick_left\", \"diabolo_red\", \"stick_right\"");
+        "\"stick_left\", \"diabolo_red\", \"stick\"");
   MotiveTake empty = take;
   empty.bodies.clear();
   CHECK(complaint([&] { apply(calibration, empty); }).ends_with("the file has none"));
+}
+
+TEST_CASE("A body by a telling name is taken where it is the only one") {
+  const Calibration calibration = published_calibration();
+  const MotiveTake take = read_motive(motive_text(), "take.csv");
+  MotiveTake other = take;
+  other.bodies[1].name = "Diabolo_blue_2020_10";
+  other.bodies[2].name = "stick_right_2010_10";
+  const Recording found = apply(calibration, other), given = apply(calibration, take);
+  CHECK(found.right.position == given.right.position);
+  CHECK(found.notes ==
+        std::vector<std::string>{
+            "\"stick_right_2010_10\" is taken for the right stick, by its name; the calibration "
+            "is of \"stick_right\"",
+            "\"Diabolo_blue_2020_10\" is taken for the diabolo, by its name; the calibration is "
+            "of \"diabolo_red\""});
+  CHECK(given.notes.empty());
+  other.bodies.push_back(other.bodies[1]);
+  other.bodies.back().name = "diabolo_green";
+  CHECK(complaint([&] { apply(calibration, other); }) ==
+        "take.csv: several rigid bodies may be the diabolo: \"Diabolo_blue_2020_10\", \"diabolo_green\"; "
+        "expected "
+        "one, or its name in a calibration");
+  other.bodies.back().name = "diabolo_red";  // by name, whatever else is there
+  CHECK(apply(calibration, other).notes.size() == 1);
+  other.bodies.back().name = "left_diabolo";  // tells two things, so that it tells neither
+  CHECK(apply(calibration, other).notes.size() == 2);
 }
 
 TEST_CASE("Unusable calibrations are refused") {

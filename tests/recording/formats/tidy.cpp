@@ -118,7 +118,7 @@ TEST_CASE("Times have to increase at the stated rate") {
   CHECK(says_of("\n0.02,", "\n0.01,") == "play.csv, line 4: time 0.01 s does not come after 0.01 s");
   CHECK(says_of("\n0.02,", "\n,") == "play.csv, line 4: time nan s; expected a number within 1e9 s");
   CHECK(says_of("\n0.02,", "\n5000,") ==
-        "play.csv, line 4: time 5000 s comes more than an hour after 0.01 s; expected one play a file");
+        "play.csv, line 4: time 5000 s comes more than an hour after 0.01 s; expected one take a file");
   CHECK(says_of("\n0.02,", "\n1e10,") == "play.csv, line 4: time 1e+10 s; expected a number within 1e9 s");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, 120.0}) ==
         "play.csv: rate 120 Hz, but the times step by 0.01 s");
@@ -128,14 +128,38 @@ TEST_CASE("Times have to increase at the stated rate") {
         "play.csv: string_length [m] 0; expected 0.05 to 20");
 }
 
-TEST_CASE("A file cut off inside a line is refused") {
+TEST_CASE("Of a file that is cut off inside a line the lines before are read, with a note") {
   const std::string text = tidy_text();
+  const std::size_t second = text.find("0.01,");
   for (std::size_t length = 0; length < text.size(); ++length) {
-    if (length > 0 && text[length - 1] == '\n')
-      continue;  // whole lines: fewer of them are a shorter recording
+    const std::string part = text.substr(0, length);
     INFO("cut off after " << length << " bytes");
-    CHECK(says(text.substr(0, length)).starts_with("play.csv"));
+    if (length < second) {
+      CHECK(says(part).starts_with("play.csv"));
+      continue;
+    }
+    const Recording recording = read_tidy(part, "play.csv", kMetadata);
+    CHECK(recording.size() == std::count(part.begin(), part.end(), '\n') - 1);
+    CHECK(recording.notes.empty() == part.ends_with('\n'));
   }
+}
+
+TEST_CASE("Stamps of a clock are counted from the first row, in seconds only") {
+  const auto at = [](const std::string& first, const std::string& second, const std::string& third) {
+    return replaced(
+        replaced(replaced(tidy_text(), "\n0,", "\n" + first + ","), "\n0.01,", "\n" + second + ","),
+        "\n0.02,", "\n" + third + ",");
+  };
+  const Recording recording =
+      read_tidy(at("1700000000.5", "1700000000.51", "1700000000.52"), "play.csv", kMetadata);
+  CHECK(recording.time.isApprox(Eigen::Vector3d(0.0, 0.01, 0.02), 1e-5));
+  CHECK(recording.frame == std::vector<long>{0, 1, 2});
+  CHECK(recording.notes ==
+        std::vector<std::string>{"the times are stamps of a clock, from 1700000000.5 s on: they "
+                                 "are counted from there"});
+  CHECK(says(at("1700000000500", "1700000000510", "1700000000520")) ==
+        "play.csv, line 2: time 1700000000500 s; expected seconds (a clock's milliseconds: --columns "
+        "time=NAME[ms])");
 }
 
 TEST_CASE("A broken recording is not written") {

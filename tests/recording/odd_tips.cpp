@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/recording/plausibility/odd_tips.hpp"
+
+#include "catch.hpp"
+#include "diabolo/recording/plausibility/warnings.hpp"
+#include "played.hpp"
+#include "shipped.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+void freeze(Recording& r, Track& tip, Eigen::Index from = 0) {
+  Eigen::Index seen = from;
+  while (!tip.valid[seen]) ++seen;
+  const Eigen::Vector3d place = tip.position.col(seen);
+  for (Eigen::Index i = from; i < r.size(); ++i) tip.position.col(i) = place, tip.valid[i] = true;
+}
+
+/// The diabolo of the row that many samples later.
+Recording shifted(const Recording& r, Eigen::Index by) {
+  Recording result = r;
+  result.diabolo = Track::missing(r.size());
+  for (Eigen::Index i = 0; i + by < r.size(); ++i) {
+    result.diabolo.position.col(i) = r.diabolo.position.col(i + by);
+    result.diabolo.valid[i] = r.diabolo.valid[i + by];
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Shipped play is neither frozen nor shifted nor too wide, nor are tips that rest in a simulation") {
+  for (const char* name : test::kShipped) {
+    const Recording r = test::shipped(name);
+    CAPTURE(name);
+    CHECK(odd_still_tips(r, falls(r)).empty());
+    CHECK(odd_shift(r).empty());
+    CHECK(odd_distance(r).empty());
+  }
+  const Recording thrown = test::thrown();
+  CHECK(odd_still_tips(thrown, falls(thrown)).empty());
+}
+
+TEST_CASE("Frozen tips are told, one or both, and from some row on") {
+  for (const char* name : {"circular_acceleration", "drop_and_catch", "linear_acceleration", "throw"}) {
+    CAPTURE(name);
+    Recording left = test::shipped(name), both = left, late = left;
+    freeze(left, left.left);
+    CHECK(test::has(warnings(left), "the left tip rests to the last digit for "));
+    freeze(both, both.left);
+    freeze(both, both.right);
+    CHECK(test::has(warnings(both), "the left tip and the right tip rest to the last digit for "));
+    freeze(late, late.right, late.size() / 2);
+    CHECK(test::has(warnings(late), "the right tip rests to the last digit for "));
+  }
+}
+
+TEST_CASE("Tips that are half a second late are told, and early ones") {
+  for (const char* name :
+       {"circular_acceleration", "drop_and_catch", "hop", "linear_acceleration", "swing", "throw"}) {
+    const Recording r = test::shipped(name);
+    CAPTURE(name);
+    CHECK(test::has(warnings(shifted(r, 60)), "s earlier than the tips: they are shifted"));
+    Recording early = r;
+    early.left.position.leftCols(r.size() - 60) = r.left.position.rightCols(r.size() - 60);
+    early.right.position.leftCols(r.size() - 60) = r.right.position.rightCols(r.size() - 60);
+    early.left.valid.head(r.size() - 60) = r.left.valid.tail(r.size() - 60);
+    early.right.valid.head(r.size() - 60) = r.right.valid.tail(r.size() - 60);
+    CHECK(test::has(warnings(early), "s later than the tips: they are shifted"));
+  }
+}
+
+TEST_CASE("Tips farther apart than the string are told") {
+  Recording r = test::shipped("hold");
+  r.left.position.row(1).array() += 2.0;
+  CHECK(odd_distance(r).find(
+            "the tips are farther apart than the string is long, 1.45 m, in 100 % of the rows") == 0);
+}

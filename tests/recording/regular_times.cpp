@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/recording/plausibility/regular_times.hpp"
+
+#include <random>
+
+#include "catch.hpp"
+#include "shipped.hpp"
+#include "support.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+Recording with_jitter(Recording r, double seconds, std::uint32_t seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> jitter(0.0, seconds);
+  for (double& time : r.time) time += jitter(generator);
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("Jitter of 0.4 ms at 120 Hz is put right") {
+  const Recording given = test::shipped("throw");
+  Recording r = with_jitter(given, 0.4e-3, test::fresh_seed());
+  REQUIRE(regularise_times(r));
+  CHECK((r.time - given.time).cwiseAbs().maxCoeff() < 1e-4);
+  for (Eigen::Index i = 0; i + 1 < r.size(); ++i) CHECK(r.steps_evenly(i));
+  REQUIRE(r.notes.size() == 1);
+  CHECK(r.notes.front().starts_with("the times jitter by 0."));
+  CHECK(odd_times(r).empty());
+}
+
+TEST_CASE("Gaps stay where they are, also such as are no whole periods") {
+  Recording given = test::shipped("throw");
+  given.time.tail(800).array() += 0.2541;
+  Recording r = with_jitter(given, 0.3e-3, 7);
+  REQUIRE(regularise_times(r));
+  CHECK((r.time - given.time).cwiseAbs().maxCoeff() < 1e-4);
+}
+
+TEST_CASE("Even times stay bit for bit, and so do those of which no rate is clear") {
+  Recording even = test::shipped("swing");
+  const Eigen::VectorXd before = even.time;
+  CHECK(!regularise_times(even));
+  CHECK(even.time == before);
+  Recording random = even;
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> share(0.2, 1.8);
+  for (Eigen::Index i = 1; i < random.size(); ++i)
+    random.time[i] = random.time[i - 1] + share(generator) / 120.0;
+  const Eigen::VectorXd given = random.time;
+  CHECK(!regularise_times(random));
+  CHECK(random.time == given);
+  CHECK(odd_times(random).find("the times step unevenly in ") == 0);
+}
+
+TEST_CASE("The rate of times is found through jitter and gaps") {
+  Recording r = with_jitter(test::shipped("throw"), 0.4e-3, 3);
+  r.time.tail(500).array() += 3.3;
+  CHECK(rate_of(r.time) == 120.0);
+  CHECK(rate_of(Eigen::VectorXd::LinSpaced(1000, 0.0, 999.0 / 119.88)) == Approx(119.88));
+}
+
+TEST_CASE("A second between rows is too long for play") {
+  Recording r = test::shipped("hop");
+  r.time *= 120.0;
+  r.rate = 1.0;
+  CHECK(odd_times(r) == "the rows are 1 s apart, too far for play: the times may be in other units");
+}
