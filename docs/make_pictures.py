@@ -68,7 +68,7 @@ def draw_take(path: Path, folder: Path) -> None:
         image_of(take_figure(take, positions, BEGIN + frame / FRAMES_PER_SECOND))
         for frame in range(round(SECONDS * FRAMES_PER_SECOND))
     ]
-    palette = frames[len(frames) // 2].quantize(32, dither=Image.Dither.NONE)
+    palette = palette_of(frames[len(frames) // 2])
     first, *rest = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     first.save(
         path,
@@ -80,11 +80,19 @@ def draw_take(path: Path, folder: Path) -> None:
     )
 
 
+def palette_of(frame: Image.Image) -> Image.Image:
+    """Colours of a frame, small spots of our own among them."""
+    sample = frame.copy()
+    for place, color in enumerate(("white", INK, LEFT, RIGHT, BEFORE, AFTER)):
+        sample.paste(color, (60 * place, 0, 60 * place + 60, 60))
+    return sample.quantize(48, dither=Image.Dither.NONE)
+
+
 def take_figure(take: diabolo.Recording, positions: dict[str, NDArray[np.float64]], now: float) -> Figure:
     """Two scenes, seen from behind the player, over the errors so far."""
-    figure = Figure(figsize=(7.2, 4.4), dpi=100)
+    figure = Figure(figsize=(7.2, 4.2), dpi=100)
     grid = figure.add_gridspec(
-        2, 2, height_ratios=[3.2, 1], left=0.08, right=0.985, top=0.92, bottom=0.12, hspace=0.12
+        2, 2, height_ratios=[3.2, 1], left=0.095, right=0.985, top=0.92, bottom=0.12, hspace=0.12
     )
     time = take.time - take.time[0]
     for column, (name, color) in enumerate(zip(positions, (BEFORE, AFTER), strict=True)):
@@ -101,7 +109,7 @@ def take_figure(take: diabolo.Recording, positions: dict[str, NDArray[np.float64
         ylim=(0, 200),
         yticks=[0, 100, 200],
         xlabel="time [s]",
-        ylabel="off by [mm]",
+        ylabel="off [mm]",
     )
     panel.grid(alpha=0.25)
     return figure
@@ -123,9 +131,11 @@ def draw_scene(
         axes.add_patch(matplotlib.patches.Circle((center[1], center[2]), radius, ec=shade, fc=fill, lw=2.0))
     for tip, shade in ((left, LEFT), (right, RIGHT)):
         axes.plot(tip[1], tip[2], "o", color=shade, ms=6)
-    axes.set(xlim=(0.62, -0.78), ylim=(0.42, 1.45), aspect="equal", xticks=[], yticks=[])
+    axes.set(xlim=(0.62, -0.78), ylim=(0.45, 1.42), aspect="equal", xticks=[], yticks=[])
     axes.spines[:].set_visible(False)
-    axes.text(0.02, 0.02, "black: the recording", transform=axes.transAxes, color=INK, fontsize=9)
+    off = 1e3 * np.linalg.norm(predicted[row] - recorded)
+    axes.text(0.3, 0.47, f"{off:.0f} mm off", color=color, fontsize=13)
+    axes.text(-0.28, 0.47, "black: recorded", color=INK, fontsize=9)
 
 
 def image_of(figure: Figure) -> Image.Image:
@@ -167,11 +177,11 @@ def draw_prediction(path: Path) -> None:
 def draw_diagnosis(path: Path) -> None:
     """The answer of `diabolo demo` beside the truth, and the errors before and after."""
     paths = packaged_recordings()
-    answer = diabolo.diagnose([diabolo.load_recording(file) for file in paths])
+    answer = diabolo.diagnose([diabolo.load_recording(file) for file in paths]).to_dict()
     truths = concealed_in(paths[0])
     figure, (found, errors) = panels()
     labels = {"string_friction": "friction", "air_drag_quadratic": "air drag", "gravity_tilt": "frame's tilt"}
-    effects = [effect for effect in answer.effects if effect["name"] in truths]
+    effects = [effect for effect in answer["effects"] if effect["name"] in truths]
     for row, effect in enumerate(effects):
         leading = effect["parameters"][0]
         truth = truths[effect["name"]][leading["name"]]
@@ -187,7 +197,7 @@ def draw_diagnosis(path: Path) -> None:
         ylim=(len(effects) - 0.5, -1),
     )
     found.set_yticks(range(len(effects)), [labels.get(effect["name"], effect["name"]) for effect in effects])
-    fit = answer.result["fit"]
+    fit = answer["fit"]
     for key, color, label in (
         ("base_error_m", BEFORE, "as given"),
         ("augmented_error_m", AFTER, "with what was found"),

@@ -128,18 +128,10 @@ def effect(name: str, value: float, interval: list[float]) -> dict[str, Any]:
     }
 
 
-def diagnosed(*effects: dict[str, Any]) -> diabolo.Diagnosis:
-    fit = {"horizons_s": [0.5, 1.0], "base_error_m": [0.08, None], "augmented_error_m": [0.005, None]}
-    result = {"headline": "NAMED", "sentence": "Made up.", "effects": list(effects), "fit": fit}
-    return diabolo.Diagnosis(result, diabolo.Model.consistent())
-
-
 def test_what_is_missed_invented_or_outside_its_interval_is_shown_as_that() -> None:
-    answer = diagnosed(
-        effect("string_friction", 0.2, [0.19, 0.21]), effect("magnus_lift", 1e-3, [0.5e-3, 1.5e-3])
-    )
+    found = [effect("string_friction", 0.2, [0.19, 0.21]), effect("magnus_lift", 1e-3, [0.5e-3, 1.5e-3])]
     truth = {"string_friction": {"coefficient": 0.3}, "axle_drag": {"rate": 2.0}}
-    rows = demo.found_rows(answer, truth, 5.0)
+    rows = demo.found_rows({"effects": found}, truth, 5.0)
     assert [color for _, color in rows] == [demo.YELLOW, demo.RED, demo.RED]
     assert [cells[2] for cells, _ in rows] == ["0.3", "nothing", "2"]
     assert rows[0][0][3] == "along the string, in 3 of 5 s"

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import Model, Recording, load_recording
-from ..diagnosis import Diagnosis, diagnose
+from ..diagnosis import diagnose
 from ..report import check as check_report
 from ..report import quantity, report_html, words
 from ..view import predict_anew, view_html
@@ -83,18 +83,19 @@ def run(arguments: argparse.Namespace) -> None:
         print(introduction(takes), flush=True)
     with progress_steps() as progress:
         diagnosis = diagnose(takes, BASE, progress=progress)
+    answer = diagnosis.to_dict()
     concealed = concealed_in(paths[0])  # only now: nothing that was diagnosed has seen it
     texts = [
-        report_html(diagnosis.result),
+        report_html(answer),
         replay_html(takes[0], diagnosis.model),
-        files.json_text(diagnosis.result),
+        files.json_text(answer),
         diagnosis.model.to_json(),
     ]
     with files.made_folder(folder):
         files.write_texts(dict(zip(outputs, texts, strict=True)))
-    files.write_json(arguments.json, summary(diagnosis, concealed))
+    files.write_json(arguments.json, summary(answer, concealed))
     if not quiet:
-        print(summary_text(diagnosis, concealed, takes, Painter.of_terminal()))
+        print(summary_text(answer, concealed, takes, Painter.of_terminal()))
         print(f"\nreport  {outputs[0]}\nreplay  {outputs[1]}  (before, after and recording, side by side)")
         print("Your own recordings: diabolo diagnose TAKE.csv --out diagnosis")
 
@@ -118,13 +119,13 @@ def replay_html(take: Recording, diagnosed: Model) -> str:
 # ---- what is said ----
 
 
-def summary(diagnosis: Diagnosis, concealed: dict[str, dict[str, float]]) -> dict[str, Any]:
-    """For JSON: the claims, what was concealed, and errors on data left out of the fit."""
-    fit = diagnosis.result["fit"]
+def summary(answer: dict[str, Any], concealed: dict[str, dict[str, float]]) -> dict[str, Any]:
+    """For JSON: the claims, what was concealed, and errors on held-out data."""
+    fit = answer["fit"]
     return {
         "schema": "diabolo.demo/1",
-        "headline": diagnosis.headline,
-        "found": {effect["name"]: effect["parameters"] for effect in diagnosis.effects},
+        "headline": answer["headline"],
+        "found": {effect["name"]: effect["parameters"] for effect in answer["effects"]},
         "concealed": concealed,
         **{key: fit[key] for key in ("heldout", "horizons_s", "base_error_m", "augmented_error_m")},
     }
@@ -158,17 +159,17 @@ def seconds_of(takes: list[Recording]) -> float:
 
 
 def summary_text(
-    diagnosis: Diagnosis, concealed: dict[str, dict[str, float]], takes: list[Recording], paint: Painter
+    answer: dict[str, Any], concealed: dict[str, dict[str, float]], takes: list[Recording], paint: Painter
 ) -> str:
-    lines = ["", f"{paint(diagnosis.headline, BOLD)}: {diagnosis.sentence}", ""]
-    rows = found_rows(diagnosis, concealed, seconds_of(takes))
+    lines = ["", f"{paint(answer['headline'], BOLD)}: {answer['sentence']}", ""]
+    rows = found_rows(answer, concealed, seconds_of(takes))
     header = ("", "found [90 % interval]", "concealed", "where it shows")
     widths = [max(len(row[column]) for row, _ in [(header, ""), *rows]) for column in range(3)]
     for cells, color in [(header, CYAN), *rows]:
         name, found, truth = (cell.ljust(width) for cell, width in zip(cells[:3], widths, strict=True))
         lines.append(f"  {name}  {paint(found, color)}  {truth}  {cells[3]}".rstrip())
-    fit = diagnosis.result["fit"]
-    lines += ["", "  " + paint("error on the recording left out of the fit", CYAN)]
+    fit = answer["fit"]
+    lines += ["", "  " + paint("mean error on the held-out recording", CYAN)]
     compared = zip(fit["horizons_s"], fit["base_error_m"], fit["augmented_error_m"], strict=True)
     for horizon, before, after in compared:
         if before is not None and after is not None:
@@ -178,11 +179,11 @@ def summary_text(
 
 
 def found_rows(
-    diagnosis: Diagnosis, concealed: dict[str, dict[str, float]], seconds: float
+    answer: dict[str, Any], concealed: dict[str, dict[str, float]], seconds: float
 ) -> list[tuple[tuple[str, str, str, str], str]]:
     """Cells and a colour for each parameter that was found, and for what was missed."""
     rows = []
-    for effect in diagnosis.effects:
+    for effect in answer["effects"]:
         truths = concealed.get(effect["name"])
         for index, parameter in enumerate(effect["parameters"]):
             value = number(parameter["value"], parameter["unit"], parameter["ci90"])
@@ -191,7 +192,7 @@ def found_rows(
             shown = "nothing" if truth is None else number(truth, parameter["unit"])
             where = place(effect, seconds) if index == 0 else ""
             rows.append(((name, value, shown, where), color_of(parameter["ci90"], truth)))
-    found = [effect["name"] for effect in diagnosis.effects]
+    found = [effect["name"] for effect in answer["effects"]]
     for name, truths in concealed.items():
         if name not in found:
             rows.append(((words(name), "not found", f"{truths[AT_WORK[name]]:g}", ""), RED))
