@@ -15,7 +15,7 @@ DIABOLO_WARNINGS_AS_ERRORS ?= OFF# of the Python extension; elsewhere they alway
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 packages := PYTHON=$(PYTHON) tools/system_packages.sh
-pip := $(VENV)/bin/python -m pip install --quiet
+pip := $(VENV)/bin/python -m pip install --quiet --quiet# errors alone: warnings are of pip's own set-up
 cmake := cmake -G Ninja
 ifneq ($(shell command -v ccache),)
 cmake += -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
@@ -48,7 +48,7 @@ install_package = $(pip) --no-build-isolation --config-settings=build-dir=$(BUIL
   --config-settings=cmake.define.DIABOLO_WARNINGS_AS_ERRORS=$(DIABOLO_WARNINGS_AS_ERRORS)
 
 $(VENV)/.package: $(VENV)/.created $(package_sources)
-	@echo "Installing the Python package into $(VENV)"
+	@echo "Installing the Python package into $(VENV): compiles its extension, once, in some minutes"
 	@$(install_package) '.[plot]'
 	@touch $@
 
@@ -63,7 +63,7 @@ $(VENV)/.tools: $(VENV)/.created tools/tool-requirements.txt
 
 # ---- what a person runs ----
 
-demo: $(VENV)/.package ## Evaluate the model on the demonstration recordings: a table and a picture
+demo: $(VENV)/.package ## Diagnose recordings whose physics is concealed: what was found, a report and a replay
 	@$(VENV)/bin/python -m diabolo demo --out $(BUILD)/demo
 
 test: test-cpp test-plant test-python ## Run the C++ tests, the plant's and the Python tests

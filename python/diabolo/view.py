@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import warnings
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import Waypoint
-from .checks import AnyRecording, list_of, recording_of
+from ._core import Model, Recording, Waypoint
+from .checks import AnyRecording, RecordingWarning, list_of, recording_of, warn_of
+from .evaluation import predict
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
 MOST_FRAMES = 40_000
@@ -23,21 +25,25 @@ def view_html(
     recording: AnyRecording,
     *,
     title: str | None = None,
-    prediction: NDArray[np.float64] | None = None,
+    predictions: Mapping[str, NDArray[np.float64]] | None = None,
     goals: Sequence[Waypoint] = (),
     note: str = "",
 ) -> str:
     """The page of a recording, or of the file of that name: tips, string, spheroid, diabolo, a time slider.
 
-    prediction: positions [m] at the recording's rows, shape (N, 3), NaN where there is none.
+    predictions: by name, positions [m] at the recording's rows, shape (N, 3), NaN where there is none. Each
+        plays as a ghost, or in a scene of its own beside the others.
     goals: states that were wanted. note: a sentence below the title.
     """
     recording = recording_of("recording", recording)
     goals = list_of("goals", goals, (Waypoint,))
     step = max(1, -(-len(recording) // MOST_FRAMES))
     rows = slice(None, None, step)
-    if prediction is not None and np.shape(prediction) != (len(recording), 3):
-        raise ValueError(f"prediction: shape {np.shape(prediction)}; expected ({len(recording)}, 3)")
+    for name, positions in (predictions or {}).items():
+        if np.shape(positions) != (len(recording), 3):
+            raise ValueError(
+                f"prediction '{name}': shape {np.shape(positions)}; expected ({len(recording)}, 3)"
+            )
     orientation = recording.diabolo_orientation
     if orientation is None:
         orientation = np.full((len(recording), 4), np.nan)
@@ -49,7 +55,10 @@ def view_html(
         "right": _numbers(recording.right[rows]),
         "diabolo": _numbers(recording.diabolo[rows]),
         "orientation": _numbers(orientation[rows]),
-        "prediction": None if prediction is None else _numbers(prediction[rows]),
+        "predictions": [
+            {"name": name, "positions": _numbers(positions[rows])}
+            for name, positions in (predictions or {}).items()
+        ],
         "string_length": recording.string_length,
         "size": [recording.properties.diameter, recording.properties.length],
         "goals": [
@@ -59,6 +68,30 @@ def view_html(
     text = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     page = TEMPLATE.read_text(encoding="utf-8")
     return page.replace("/*DATA*/null", text, 1)
+
+
+def predict_anew(recording: Recording, model: Model, every: float) -> NDArray[np.float64]:
+    """Positions [m] that a model predicts, begun again from the recorded play each `every` seconds.
+
+    Shape (N, 3), to be shown beside the recording. Each begins at the first row that has a fair start; rows
+    without a prediction are NaN.
+    """
+    warn_of([recording])
+    positions = np.full((len(recording), 3), np.nan)
+    step = max(1, round(every * recording.rate))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RecordingWarning)  # of each piece, once more
+        for first in range(0, len(recording), step):
+            last = min(first + step, len(recording)) - 1
+            piece = recording.cut(0, last)
+            for row in range(first, last + 1):
+                try:
+                    states = predict(piece, model, row=row, start="fair").states
+                except ValueError:  # no start here, such as in a dropout
+                    continue
+                positions[row : last + 1] = states[row:, :3]
+                break
+    return positions
 
 
 def _numbers(values: NDArray[np.float64]) -> Any:

@@ -26,15 +26,20 @@ from diabolo import (
 )
 from diabolo._core import diagnosis_schema
 from diabolo.cli import main
-from diabolo.cli.demo import packaged_recordings
 from diabolo.cli.diagnose import check_written
 from diabolo.report import report_html
+
+RECORDINGS = Path(__file__).parents[2] / "data" / "recordings"
+
+
+def plant_recordings() -> list[Path]:
+    return [RECORDINGS / f"{name}.csv" for name in ("hop", "linear_acceleration", "swing")]
 
 
 @pytest.fixture(scope="module")
 def plant() -> list[Recording]:
     """Recordings of the plant, whose string rubs, stretches and whose sticks bend."""
-    return [load_recording(path) for path in packaged_recordings()]
+    return [load_recording(path) for path in plant_recordings()]
 
 
 @pytest.fixture(scope="module")
@@ -268,7 +273,7 @@ def test_a_spent_budget_is_told(played: Recording) -> None:
 
 
 def test_rules_that_are_numerical_are_told_from_physics() -> None:
-    swing = next(path for path in packaged_recordings() if path.stem == "swing")
+    swing = next(path for path in plant_recordings() if path.stem == "swing")
     take = load_recording(str(swing))
     answer = diagnose(take, "published")
     names = [effect.name for effect in answer.effects]
@@ -281,7 +286,7 @@ def test_rules_that_are_numerical_are_told_from_physics() -> None:
 def test_the_command_writes_report_result_and_model(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    takes = [str(path) for path in packaged_recordings() if path.stem in ("swing", "hop")]
+    takes = [str(path) for path in plant_recordings() if path.stem in ("swing", "hop")]
     out = tmp_path / "out"
     assert main(["diagnose", *takes, "--out", str(out), "--json", str(tmp_path / "r.json")]) == 0
     text = capsys.readouterr().out
@@ -294,7 +299,7 @@ def test_the_command_writes_report_result_and_model(
 
 
 def test_a_written_model_that_predicts_otherwise_is_a_failure(tmp_path: Path) -> None:
-    take = next(str(path) for path in packaged_recordings() if path.stem == "swing")
+    take = next(str(path) for path in plant_recordings() if path.stem == "swing")
     file, model = tmp_path / "model.json", Model.consistent()
     model.save(file)
     arguments = Namespace(recordings=[take], calibration=None, threads=1)
@@ -318,7 +323,7 @@ def test_the_command_overwrites_no_input(
     kind = Model.named("consistent") if option == "--base" else Calibration.published()
     given.write_text(kind.to_json())
     before = given.read_bytes()
-    take = str(packaged_recordings()[0])
+    take = str(plant_recordings()[0])
     out = ["--out", str(given.parent)] if given.parent != tmp_path else ["--json", str(given)]
     assert main(["diagnose", take, option, str(given), *out]) == 2
     assert f"{given}: this file is read; choose" in capsys.readouterr().err
@@ -390,7 +395,7 @@ def test_bad_input_makes_no_folder(short: Path) -> None:
 def test_the_command_complains_in_one_sentence(
     arguments: list[str], complaint: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    take = str(next(path for path in packaged_recordings() if path.stem == "hop"))
+    take = str(next(path for path in plant_recordings() if path.stem == "hop"))
     assert main(["diagnose", *[take if word == "TAKE" else word for word in arguments]]) == 2
     error = capsys.readouterr().err
     assert complaint in error

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "key.hpp"
 #include "support.hpp"
 #include "take.hpp"
 
@@ -17,8 +18,10 @@ using namespace plant;
 namespace {
 
 const std::filesystem::path kFolder = DIABOLO_PLANT_RECORDINGS;
-const std::vector<std::string> kNames{"circular_acceleration", "drop_and_catch", "hold", "hop",
-                                      "linear_acceleration",   "swing",          "throw"};
+const std::vector<std::string> kPuzzles{"puzzle_1", "puzzle_2"};
+const std::vector<std::string> kNames{"circular_acceleration", "drop_and_catch", "hold",     "hop",
+                                      "linear_acceleration",   "puzzle_1",       "puzzle_2", "swing",
+                                      "throw"};
 
 std::string content(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -107,6 +110,15 @@ TEST_CASE("each shipped recording comes out of its scenario to one unit of its l
   }
 }
 
+TEST_CASE("the shipped keys tell what is at work in the puzzles") {
+  for (const std::string& name : kPuzzles) {
+    CAPTURE(name);
+    std::ostringstream key;
+    write_key(key, scenario_of(name));
+    CHECK(key.str() == content(kFolder / (name + ".key.json")));
+  }
+}
+
 TEST_CASE("tables that differ are told apart") {
   const std::string table = "time,x\n0.000000,1.000000\n0.008333,\n";
   CHECK(first_difference(table, table, 1e-6) == "");
@@ -139,6 +151,7 @@ TEST_CASE("each shipped recording shows what its name says") {
   CHECK(modes(moments_of("hold")) == std::set<Mode>{kOnString});
   CHECK(modes(moments_of("swing")) == std::set<Mode>{kOnString});
   CHECK(modes(moments_of("hop")) == std::set<Mode>{kOnString, kLoose});
+  CHECK(modes(moments_of("puzzle_1")) == std::set<Mode>{kOnString, kLoose});
   for (const char* name : {"throw", "drop_and_catch"}) {
     const std::vector<Moment>& moments = moments_of(name);
     CHECK(modes(moments) == std::set<Mode>{kOnString, kLoose, kFlying});

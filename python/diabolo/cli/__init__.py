@@ -28,7 +28,7 @@ Motive, or a tidy CSV with a JSON file beside it.
 
 EXAMPLES = """\
 begin here:
-  diabolo demo --out demo              evaluate on the recordings that come with the package; draw pictures
+  diabolo demo --out demo              diagnose recordings whose physics is concealed; a report and a replay
   diabolo info TAKE.csv                what is in a recording
   diabolo evaluate TAKE.csv            the error of the models on it
   diabolo diagnose TAKE.csv --out out  what physics is missing; a report and a better model

@@ -4,16 +4,40 @@
 from __future__ import annotations
 
 import argparse
+import json
+import os
+import sys
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from .._core import Model, load_recording
-from ..evaluation import ALL_RECORDINGS, DEFAULT_MODELS, Evaluation, Excerpt, predict
-from . import evaluate, files
-from .arguments import add_command, output_name
+from .._core import Model, Recording, load_recording
+from ..diagnosis import diagnose
+from ..report import check as check_report
+from ..report import quantity, report_html, words
+from ..view import predict_anew, view_html
+from . import files
+from .arguments import add_command, output_name, progress_steps
+from .diagnose import MODEL_FILE, REPORT_FILE, RESULT_FILE
 
-SHOWN, SHOWN_SECONDS = "swing", 3.0  # what the picture of a trajectory shows
+REPLAY_FILE = "replay.html"
+BASE = "consistent"
+PREDICTED_ANEW = 1.0  # between the starts of the replay's predictions [s]
+AT_WORK = {
+    "string_friction": "coefficient",
+    "string_wrap": "turns",
+    "air_drag_linear": "rate",
+    "air_drag_quadratic": "coefficient",
+    "magnus_lift": "coefficient",
+    "spin_drag": "coefficient",
+    "axle_drag": "rate",
+    "gravity_tilt": "angle_deg",
+    "time_offset": "seconds",
+    "marker_offset": "radius",
+}
+"""By name in a key of the plant, the parameter that is 0 where the effect is not at work."""
+
+BOLD, RED, GREEN, YELLOW, CYAN = "1", "31", "32", "33", "36"
 
 
 def add_parser(commands: Any) -> None:
@@ -21,9 +45,10 @@ def add_parser(commands: Any) -> None:
         commands,
         "demo",
         run=run,
-        summary="evaluate on recordings that come with the package, and draw pictures",
-        text="Evaluate the models on recordings that come with the package: print the table of errors,\n"
-        "and draw one recording, measured and predicted, and the error against the time after the start.",
+        summary="diagnose recordings whose physics is concealed, and show what was found",
+        text="Diagnose two recordings that come with the package. Another simulator made them, with physics\n"
+        "that the tool cannot see. Print what was found beside what was concealed, and write a report\n"
+        "and a replay for the browser.",
         example="  diabolo demo --out demo",
     )
     parser.add_argument(
@@ -31,9 +56,11 @@ def add_parser(commands: Any) -> None:
         metavar="DIR",
         type=output_name,
         default="diabolo-demo",
-        help="folder for the pictures; default: diabolo-demo",
+        help="folder for report and replay; default: diabolo-demo",
     )
-    parser.add_argument("--json", metavar="FILE", help="write the figures as JSON; - is standard output")
+    parser.add_argument(
+        "--json", metavar="FILE", help="write found and concealed values as JSON; - is standard output"
+    )
 
 
 def packaged_recordings() -> list[Path]:
@@ -43,28 +70,149 @@ def packaged_recordings() -> list[Path]:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    from . import plots
-
     folder = Path(arguments.out)
-    trajectory, errors = folder / "trajectory.png", folder / "errors.png"
-    plots.check(trajectory)
+    outputs = [folder / name for name in (REPORT_FILE, REPLAY_FILE, RESULT_FILE, MODEL_FILE)]
+    check_report(outputs[0])
     paths = packaged_recordings()
     if not paths:
         raise ValueError("this installation of diabolo came without its recordings")
-    files.check_outputs([arguments.json, trajectory, errors], paths, folder)
-    recordings = [load_recording(path) for path in paths]
-    excerpts = [Excerpt(take, 0, len(take) - 1) for take in recordings]
-    models = [Model.named(name) for name in DEFAULT_MODELS]
-    table = evaluate.evaluate_excerpts(excerpts, models)
-    horizons = evaluate.evaluate_excerpts(excerpts, models, starts_every=0.1)
-    whole = next(take for take in recordings if take.name == SHOWN)
-    shown = whole.cut(0, round(SHOWN_SECONDS * whole.rate))
+    files.check_outputs([arguments.json, *outputs], paths, folder)
+    takes = [load_recording(path) for path in paths]
+    quiet = arguments.json == files.STDOUT
+    if not quiet:
+        print(introduction(takes), flush=True)
+    with progress_steps() as progress:
+        diagnosis = diagnose(takes, BASE, progress=progress)
+    answer = diagnosis.to_dict()
+    concealed = concealed_in(paths[0])  # only now: nothing that was diagnosed has seen it
+    texts = [
+        report_html(answer),
+        replay_html(takes[0], diagnosis.model),
+        files.json_text(answer),
+        diagnosis.model.to_json(),
+    ]
     with files.made_folder(folder):
-        plots.draw_trajectory(trajectory, shown, {model.name: predict(shown, model) for model in models})
-        plots.draw_errors(errors, horizons, excerpts, models)
-    files.write_json(arguments.json, Evaluation(table.rows, horizons.horizons).to_dict())
-    if arguments.json != files.STDOUT:
-        together = [row for row in horizons.horizons if row.recording == ALL_RECORDINGS]
-        print(evaluate.text_of(table), evaluate.text_of(Evaluation([], together)), sep="\n\n")
-        print("\nWhat the models leave out, `diabolo diagnose TAKE.csv` finds.")
-        print(f"pictures: {trajectory} ({SHOWN}, measured and predicted), {errors} (error against time)")
+        files.write_texts(dict(zip(outputs, texts, strict=True)))
+    files.write_json(arguments.json, summary(answer, concealed))
+    if not quiet:
+        print(summary_text(answer, concealed, takes, Painter.of_terminal()))
+        print(f"\nreport  {outputs[0]}\nreplay  {outputs[1]}  (before, after and recording, side by side)")
+        print("Your own recordings: diabolo diagnose TAKE.csv --out diagnosis")
+
+
+def concealed_in(recording: Path) -> dict[str, dict[str, float]]:
+    """What is at work in a recording of the plant, by its key: effects with their parameters."""
+    key = json.loads(recording.with_suffix(".key.json").read_text(encoding="utf-8"))
+    return {name: key["effects"][name] for name, leading in AT_WORK.items() if key["effects"][name][leading]}
+
+
+def replay_html(take: Recording, diagnosed: Model) -> str:
+    models = {"simulator as given": Model.named(BASE), "with what was found": diagnosed}
+    return view_html(
+        take,
+        title=f"{take.name}: before and after the diagnosis",
+        predictions={name: predict_anew(take, model, PREDICTED_ANEW) for name, model in models.items()},
+        note=f"predicted anew each {PREDICTED_ANEW:g} s from the recorded play",
+    )
+
+
+# ---- what is said ----
+
+
+def summary(answer: dict[str, Any], concealed: dict[str, dict[str, float]]) -> dict[str, Any]:
+    """For JSON: the claims, what was concealed, and errors on held-out data."""
+    fit = answer["fit"]
+    return {
+        "schema": "diabolo.demo/1",
+        "headline": answer["headline"],
+        "found": {effect["name"]: effect["parameters"] for effect in answer["effects"]},
+        "concealed": concealed,
+        **{key: fit[key] for key in ("heldout", "horizons_s", "base_error_m", "augmented_error_m")},
+    }
+
+
+class Painter:
+    """Colours, where there is someone to see them."""
+
+    def __init__(self, colored: bool) -> None:
+        self.colored = colored
+
+    @classmethod
+    def of_terminal(cls) -> Painter:
+        plain = bool(os.environ.get("NO_COLOR")) or os.environ.get("TERM") == "dumb"
+        return cls(sys.stdout.isatty() and not plain)
+
+    def __call__(self, text: str, color: str) -> str:
+        return f"\033[{color}m{text}\033[0m" if self.colored else text
+
+
+def introduction(takes: list[Recording]) -> str:
+    names = " and ".join(take.name for take in takes)
+    return (
+        f"Recordings: {names}, {seconds_of(takes):.0f} s of play from another simulator, data/plant.\n"
+        f"It knows physics that our base model lacks. What that is stays concealed until the answer is there."
+    )
+
+
+def seconds_of(takes: list[Recording]) -> float:
+    return sum(float(take.time[-1] - take.time[0]) for take in takes)
+
+
+def summary_text(
+    answer: dict[str, Any], concealed: dict[str, dict[str, float]], takes: list[Recording], paint: Painter
+) -> str:
+    lines = ["", f"{paint(answer['headline'], BOLD)}: {answer['sentence']}", ""]
+    rows = found_rows(answer, concealed, seconds_of(takes))
+    header = ("", "found [90 % interval]", "concealed", "where it shows")
+    widths = [max(len(row[column]) for row, _ in [(header, ""), *rows]) for column in range(3)]
+    for cells, color in [(header, CYAN), *rows]:
+        name, found, truth = (cell.ljust(width) for cell, width in zip(cells[:3], widths, strict=True))
+        lines.append(f"  {name}  {paint(found, color)}  {truth}  {cells[3]}".rstrip())
+    fit = answer["fit"]
+    lines += ["", "  " + paint("mean error on the held-out recording", CYAN)]
+    compared = zip(fit["horizons_s"], fit["base_error_m"], fit["augmented_error_m"], strict=True)
+    for horizon, before, after in compared:
+        if before is not None and after is not None:
+            better = paint(f"{1e3 * after:5.1f} mm", GREEN if after < before else RED)
+            lines.append(f"  {f'{horizon:g} s ahead':12} {1e3 * before:6.1f} mm -> {better}")
+    return "\n".join(lines)
+
+
+def found_rows(
+    answer: dict[str, Any], concealed: dict[str, dict[str, float]], seconds: float
+) -> list[tuple[tuple[str, str, str, str], str]]:
+    """Cells and a colour for each parameter that was found, and for what was missed."""
+    rows = []
+    for effect in answer["effects"]:
+        truths = concealed.get(effect["name"])
+        for index, parameter in enumerate(effect["parameters"]):
+            value = number(parameter["value"], parameter["unit"], parameter["ci90"])
+            truth = truths.get(parameter["name"]) if truths is not None else None
+            name = words(effect["name"]) if index == 0 else f"  {words(parameter['name'])}"
+            shown = "nothing" if truth is None else number(truth, parameter["unit"])
+            where = place(effect, seconds) if index == 0 else ""
+            rows.append(((name, value, shown, where), color_of(parameter["ci90"], truth)))
+    found = [effect["name"] for effect in answer["effects"]]
+    for name, truths in concealed.items():
+        if name not in found:
+            rows.append(((words(name), "not found", f"{truths[AT_WORK[name]]:g}", ""), RED))
+    return rows
+
+
+def color_of(interval: list[float] | None, truth: float | None) -> str:
+    """Green where the interval holds the truth; it should in nine of ten."""
+    if truth is None:
+        return RED
+    return GREEN if interval is not None and interval[0] <= truth <= interval[1] else YELLOW
+
+
+def number(value: float, unit: str, interval: list[float] | None = None) -> str:
+    return quantity(value, unit, interval).removesuffix(" (no unit)")
+
+
+def place(effect: dict[str, Any], seconds: float) -> str:
+    """Where an effect was located: its direction, and in how much of the play."""
+    if effect["kind"] == "measurement":
+        return "in what was recorded, not in the play"
+    shown = sum(end - begin for begin, end in effect["where"]["intervals"])
+    return f"{words(effect['where']['direction'])}, in {shown:.0f} of {seconds:.0f} s"

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._core import Model, Recording, baseline
+from .._core import Model, baseline
 from ..enums import StringState
 from ..evaluation import ALL_RECORDINGS, Evaluation, Excerpt, HorizonRow, position_errors, predict
 from ..player import PlannedPlay
-from ..rollout import Rollout
 from .files import whole_file
 
 if TYPE_CHECKING:
@@ -41,32 +40,6 @@ def check(path: str | Path) -> None:
 def draw_errors(path: str | Path, result: Evaluation, excerpts: list[Excerpt], models: list[Model]) -> None:
     """Error against the time after the start: over many starts, or of the one prediction."""
     figure = _horizon_figure(result) if result.horizons else _first_start_figure(excerpts, models)
-    _save(figure, path)
-
-
-def draw_trajectory(path: str | Path, recording: Recording, predictions: dict[str, Rollout]) -> None:
-    """Measured and predicted trajectory, seen from behind the player, and height over time."""
-    figure, axes = _panels(3, columns=3, width=4.6)
-    side, sideways, height = axes
-    time = recording.time - recording.time[0]
-    measured = recording.diabolo
-    side.plot(measured[:, 1], measured[:, 2], label="measured", **MEASURED_STYLE)
-    sideways.plot(time, measured[:, 1], **MEASURED_STYLE)
-    height.plot(time, measured[:, 2], **MEASURED_STYLE)
-    for index, (name, predicted) in enumerate(predictions.items()):
-        style: dict[str, Any] = {"color": _color(name, index), "linewidth": 1.3}
-        side.plot(predicted.states[:, 1], predicted.states[:, 2], label=name, **style)
-        sideways.plot(time, predicted.states[:, 1], **style)
-        height.plot(time, predicted.states[:, 2], **style)
-    side.plot(recording.left[:, 1], recording.left[:, 2], color="0.75", linewidth=1.0, label="stick tips")
-    side.plot(recording.right[:, 1], recording.right[:, 2], color="0.75", linewidth=1.0)
-    side.set(title="seen from behind the player", xlabel="y, to the left [m]", ylabel="z, up [m]")
-    side.set_aspect("equal", adjustable="datalim")
-    side.invert_xaxis()
-    side.legend(fontsize="small")
-    sideways.set(title="sideways", xlabel="time [s]", ylabel="y [m]")
-    height.set(title="height", xlabel="time [s]", ylabel="z [m]")
-    figure.suptitle(f"{recording.name}: the diabolo, measured and predicted from its first row")
     _save(figure, path)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..evaluation import DEFAULT_MODELS, predict
-from ..view import view_html
+from ..view import predict_anew, view_html
 from . import files
 from .arguments import (
     RECORDING_HELP,
@@ -30,31 +30,52 @@ def add_parser(commands: Any) -> None:
         summary="show a recording or a plan in three dimensions",
         text="Write a page that shows tips, string, spheroid and diabolo in a browser; it needs no network.",
         example="  diabolo view throw_1.csv --out throw.html\n"
-        "  diabolo view throw_1.csv:0-180 --model consistent --out throw.html",
+        "  diabolo view swing.csv --model consistent --model out/model.json --every 1 --out swing.html",
     )
     parser.add_argument("recording", metavar="RECORDING", help=f"or a plan: {RECORDING_HELP}")
     parser.add_argument("--out", metavar="FILE.html", type=output_name, required=True, help="what to write")
     parser.add_argument(
         "--model",
         metavar="NAME",
-        help="predict the diabolo too, from the first row that allows it: published, paper, consistent or a "
-        "model file",
+        action="append",
+        default=[],
+        help="show what a model predicts beside the recording: published, paper, consistent or a model file; "
+        "may be given several times",
+    )
+    parser.add_argument(
+        "--every",
+        metavar="S",
+        type=float,
+        help="begin predictions again from the recorded play each so many seconds; "
+        "default: once, at the first row that allows it",
     )
     add_calibration(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
+    if arguments.every is not None and not 0.0 < arguments.every < float("inf"):
+        raise ValueError(f"--every: {arguments.every} s; expected more than 0")
+    if arguments.every is not None and not arguments.model:
+        raise ValueError("--every: there is no prediction to begin again; expected --model too")
     inputs = [split_excerpt(arguments.recording)[0]]
     inputs += [arguments.calibration] if arguments.calibration else []
-    inputs += [arguments.model] if arguments.model and arguments.model not in DEFAULT_MODELS else []
+    inputs += [name for name in arguments.model if name not in DEFAULT_MODELS]
     files.check_outputs([arguments.out], inputs)
     excerpt = read_excerpt(arguments.recording, reading_of(arguments))
     take = excerpt.recording.cut(excerpt.first, excerpt.last)
-    prediction = note = None
-    if arguments.model:
-        model = read_model(arguments.model)
-        prediction = predict(take, model).states[:, :3]
-        note = f"predicted by {model.name}"
-    page = view_html(take, prediction=prediction, note=note or "")
-    files.write_texts({Path(arguments.out): page})
+    predictions = {}
+    for name in arguments.model:
+        model = read_model(name)
+        if model.name in predictions:
+            raise ValueError(f"--model {name}: another model is named '{model.name}' too; expected each once")
+        predictions[model.name] = (
+            predict(take, model).states[:, :3]
+            if arguments.every is None
+            else predict_anew(take, model, arguments.every)
+        )
+    again = (
+        "" if arguments.every is None else f", begun again from the recorded play each {arguments.every:g} s"
+    )
+    note = f"predicted by {' and '.join(predictions)}{again}" if predictions else ""
+    files.write_texts({Path(arguments.out): view_html(take, predictions=predictions, note=note)})
     print(f"{arguments.out}: {len(take)} samples, {take.time[-1] - take.time[0]:.2f} s")
