@@ -7,7 +7,7 @@
 
 #include "diabolo/diagnose/location.hpp"
 #include "diabolo/diagnose/result.hpp"
-#include "diabolo/diagnose/select.hpp"
+#include "diabolo/diagnose/significance.hpp"
 #include "diabolo/version.hpp"
 
 namespace diabolo {

@@ -9,13 +9,9 @@
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
 #include "diabolo/math/solve_symmetric.hpp"
+#include "diabolo/diagnose/significance.hpp"
 
 namespace diabolo {
-
-/// An effect stays in the model above so many standard deviations: with a score of candidates about 1e-3 of
-/// recordings without any effect would show one. A fault needs more: what the model does not know ends up in
-/// the nuisances.
-inline constexpr double kSignificance = 4.0, kSignificanceOfFault = 5.0;
 
 /// What stands out by so many standard deviations may be there, where it would explain something else.
 inline constexpr double kMayBe = 2.0;

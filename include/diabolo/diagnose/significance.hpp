@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace diabolo {
+
+/// An effect stays in the model above so many standard deviations: with a score of candidates about 1e-3 of
+/// recordings without any effect would show one. A fault needs more: what the model does not know ends up in
+/// the nuisances.
+inline constexpr double kSignificance = 4.0, kSignificanceOfFault = 5.0;
+
+}  // namespace diabolo
