@@ -258,6 +258,9 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
                            {"parts", p.parts},
                            {"odds", detail::number_or_null(p.odds)},
                            {"seconds", p.experiment->seconds}});
+  Json fit = detail::heldout_of(d.heldout);
+  if (d.windows.size() < d.windows_seen && !d.windows.empty())  // else all were fitted
+    fit.update({{"fitted_windows", d.windows.size()}, {"of_windows", d.windows_seen}});
   for (const auto& [name, n] : d.noise)
     noise.push_back({{"recording", name}, {"position_m", n.position}, {"spin_rad_s", n.spin}});
   return {{"schema", kDiagnosisSchema},
@@ -268,7 +271,7 @@ inline nlohmann::ordered_json diagnosis_to_json(const Diagnosis& d,
           {"unnamed", unnamed},
           {"upper_limits", limits},
           {"nuisances", nuisances},
-          {"fit", detail::heldout_of(d.heldout)},
+          {"fit", fit},
           {"next_experiment", experiments},
           {"not_done", d.not_done},
           {"ladder", ladder},
