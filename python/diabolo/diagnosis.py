@@ -73,14 +73,16 @@ def diagnose(
 ) -> Diagnosis:
     """Find what a simulator leaves out, or what a measurement got wrong.
 
-    recordings: of one set-up, or the names of their files; they are looked at together.
+    recordings: of one set-up, or the names of their files; they are looked at together. Of more than two
+        minutes those windows are fitted that say most, from all takes and times.
     base: the simulator: a Model, "consistent", "paper" or "published".
     holdout: recordings that nothing is fitted to, to compare base and answer on; by default recordings, or
         thirds of a single one, are left out in turn. Those on which nothing can be compared are named in
         `result.fit.holdout_unused`.
     bank: names of what may be claimed, such as "string_friction"; by default everything known but placebos.
         What no measurement is without stays free in every fit.
-    budget: nothing more is looked for after so many seconds.
+    budget: seconds after which it ends. Fewer windows are fitted where that takes longer, then trials are
+        left out; `result.not_done` tells of it.
     seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.
     progress: called with the name of the step and the fraction done.
 

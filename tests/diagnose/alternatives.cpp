@@ -2,6 +2,7 @@
 #include "diabolo/diagnose/alternatives.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -106,7 +107,9 @@ TEST_CASE("each law of drag alone is an alternative to both") {
 
 TEST_CASE("a wrong rate begins where it moves as the wrong scale did") {
   Fit fit;
-  fit.stages.emplace_back().recording.string_length = 1.4;
+  const auto take = std::make_shared<Take>();
+  take->recording.string_length = 1.4;
+  fit.stages.push_back({take, {}});
   fit.at[index_of(Unknown::kLengthScale)] = -0.03;
   fit.at[index_of(Unknown::kStringLength)] = 0.04;
   const Alternative a = rate_for_scale(fit, with(nuisances(), candidate_of("length_scale")));

@@ -308,6 +308,36 @@ TEST_CASE("what a base with a force that has no name kept from being asked is to
   CHECK(d.not_done.front() == "looking for forces without a name beside the base's own");
 }
 
+TEST_CASE("a budget holds by what is predicted, and what it leaves is told") {
+  // A clock that goes on by the work alone: by one thread, each prediction is looked at once.
+  long predictions = 0;
+  DiagnosisWatch watch;
+  watch.cancelled = [&] { return ++predictions < 0; };
+  watch.clock = [&] { return 1e-3 * static_cast<double>(predictions); };
+  DiagnosisOptions options;
+  options.threads = 1;
+  const std::vector<Recording> takes{played({}, 30.0, 12)};
+  const auto diagnosed = [&](double budget) {
+    options.budget = budget;
+    predictions = 0;
+    return diagnose(takes, options, watch);
+  };
+  const Diagnosis whole = diagnosed(1e9);
+  const double wanted = watch.clock();
+  CHECK(whole.not_done.empty());
+  CHECK(whole.windows.size() == whole.windows_seen);
+  for (const double share : {0.5, 0.2}) {
+    const double budget = share * wanted;
+    const Diagnosis hurried = diagnosed(budget);
+    CAPTURE(share, wanted);
+    CHECK(watch.clock() < 1.2 * budget);
+    CHECK_FALSE(hurried.not_done.empty());
+  }
+  const Diagnosis nothing = diagnosed(1e-6);
+  CHECK(nothing.headline == Headline::kInsufficientData);
+  CHECK(nothing.sentence.find("budget") != std::string::npos);
+}
+
 TEST_CASE("one thread and two come to the same, bit for bit") {
   const std::vector<Recording> takes{played({}, 6.0, 4)};
   DiagnosisOptions one, two;

@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
-from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
@@ -17,16 +17,15 @@ from diabolo import (
     Diagnosis,
     DiagnosisResult,
     Model,
-    Parameters,
     Recording,
     RecordingError,
     RecordingWarning,
     diagnose,
+    evaluate,
     load_recording,
 )
 from diabolo._core import diagnosis_schema
 from diabolo.cli import main
-from diabolo.cli.diagnose import check_written
 from diabolo.report import report_html
 
 RECORDINGS = Path(__file__).parents[2] / "data" / "recordings"
@@ -267,8 +266,9 @@ def test_bad_input_is_named(played: Recording) -> None:
 
 def test_a_spent_budget_is_told(played: Recording) -> None:
     hurried = diagnose(played, budget=1e-6)
-    assert "proposing what to record next (no time left)" in hurried.to_dict()["not_done"]
-    assert "Not done: " in hurried.sentence
+    assert hurried.headline == "INSUFFICIENT_DATA"
+    assert "the budget of 1e-06 s is spent" in hurried.sentence
+    assert hurried.model == Model.named("consistent")
     assert diagnose(played).to_dict()["not_done"] == []
 
 
@@ -298,17 +298,16 @@ def test_the_command_writes_report_result_and_model(
     assert result["sentence"].split(",")[0] in (out / "report.html").read_text()
 
 
-def test_a_written_model_that_predicts_otherwise_is_a_failure(tmp_path: Path) -> None:
+def test_a_new_process_predicts_the_same_by_the_written_model(found: Diagnosis, tmp_path: Path) -> None:
     take = next(str(path) for path in plant_recordings() if path.stem == "swing")
-    file, model = tmp_path / "model.json", Model.consistent()
-    model.save(file)
-    arguments = Namespace(recordings=[take], calibration=None, threads=1)
-    check_written(file, model, arguments, Calibration.published())
-    file.write_text(Model(parameters=Parameters(string_length=1.2), own_string_length=True).to_json())
-    with pytest.raises(
-        SystemExit, match=r"model\.json: a new process that reads this model predicts otherwise"
-    ):
-        check_written(file, model, arguments, Calibration.published())
+    file = tmp_path / "model.json"
+    found.model.save(file)
+    command = [sys.executable, "-m", "diabolo", "evaluate", take, f"--model={file}", "--starts=every=0.2"]
+    process = subprocess.run([*command, "--json=-"], capture_output=True, text=True, check=True)
+    here = evaluate(load_recording(take), found.model, starts_every=0.2).to_dict()["horizons"]
+    there = json.loads(process.stdout)["horizons"]
+    assert [row["mean_m"] for row in there] == [row["mean_m"] for row in here]
+    assert here[0]["mean_m"] is not None
 
 
 @pytest.mark.parametrize(

@@ -19,8 +19,14 @@ namespace {
 
 const std::filesystem::path kFolder = DIABOLO_PLANT_RECORDINGS;
 const std::vector<std::string> kPuzzles{"puzzle_1", "puzzle_2"};
-const std::vector<std::string> kNames{"circular_acceleration", "drop_and_catch", "hold",     "hop",
-                                      "linear_acceleration",   "puzzle_1",       "puzzle_2", "swing",
+const std::vector<std::string> kNames{"circular_acceleration",
+                                      "drop_and_catch",
+                                      "hold",
+                                      "hop",
+                                      "linear_acceleration",
+                                      "puzzle_1",
+                                      "puzzle_2",
+                                      "swing",
                                       "throw"};
 
 std::string content(const std::filesystem::path& file) {

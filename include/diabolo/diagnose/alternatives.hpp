@@ -58,7 +58,7 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
 /// Whether wraps of the string are worth a trial, which multiply friction by three to five: it rubs no less
 /// than three times what the smoothest string does, on a spin that was seen.
 inline bool may_be_wrapped(const Fit& fit) {
-  return fit.at[index_of(Unknown::kWraps)] == 0.0 && std::ranges::all_of(fit.stages, &Stage::has_spin) &&
+  return fit.at[index_of(Unknown::kWraps)] == 0.0 && std::ranges::all_of(fit.stages, has_spin) &&
          fit.at[index_of(Unknown::kFriction)] > 0.1;
 }
 
@@ -88,7 +88,7 @@ inline Alternative rate_for_scale(const Fit& fit, const ActiveSet& set) {
   result.set[index_of(Unknown::kGravity)] = true;
   const double scale = fit.at[index_of(Unknown::kLengthScale)];
   double& length = result.at[index_of(Unknown::kStringLength)];
-  length += scale * (fit.stages.front().recording.string_length + length);
+  length += scale * (fit.stages.front().take->recording.string_length + length);
   result.at[index_of(Unknown::kGravity)] = scale * kStandardGravity;
   return result;
 }
@@ -168,7 +168,7 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
 /// `fit`, `bank` and `set` are moved to what is best.
 template <class D = detail::FitDual>
 std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
-                                      const Model& base, int threads, const Watch& watch) {
+                                      const Model& base, int threads, const FitWatch& watch) {
   struct Option {
     std::string_view name;
     Fit fit;
@@ -187,7 +187,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
     look<D>(fit, base, threads, watch);
   }
   for (const Finding& finding : draft.findings) {
-    if (!finding.claimed) continue;
+    if (!finding.claimed || watch.is_enough()) continue;
     const std::string_view name = finding.candidate->name;
     const std::vector<Alternative> others = alternatives_to(name, fit, set);
     if (others.empty()) continue;
@@ -204,6 +204,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       for (int u = 0; u < kUnknowns; ++u)
         if (!other.set[u]) trial.at[u] = trial.centre[u];
       refine<D>(trial, base, other.set, kMostIterations, threads, watch);
+      if (watch.is_enough()) return result;  // it may not have settled
       // A wrap is there to explain why the string is short: with one, its length must be right.
       if (other.name == "string_wrap" &&
           std::abs(trial.at[index_of(Unknown::kStringLength)]) > kWrappedLength)

@@ -25,21 +25,21 @@ inline AxleWindow axle_window(const Stage& stage, const TipMotion<double>& motio
   State<double> state = window.start;
   state.position /= scale;
   state.velocity /= scale;
-  state.axis = stage.axis.col(window.first);
+  state.axis = stage.take->axis.col(window.first);
   const Vector3<double> begin = state.axis;
   Eigen::Matrix3Xd predicted(3, window.last - window.first + 1), seen = predicted;
   Eigen::Index rows = 0;
   std::size_t hint = 0;
-  Tips<double> now = motion.at(stage.times[window.first], hint);
+  Tips<double> now = motion.at(stage.take->times[window.first], hint);
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
-    if (stage.recording.diabolo_orientation.valid[row]) {
+    if (stage.take->recording.diabolo_orientation.valid[row]) {
       predicted.col(rows) = state.axis - begin;
-      seen.col(rows++) = stage.axis.col(row);
+      seen.col(rows++) = stage.take->axis.col(row);
     }
     if (row == window.last) break;
-    const double dt = (stage.times[row + 1] - stage.times[row]) / stage.substeps;
-    for (int s = 1; s <= stage.substeps; ++s) {
-      const Tips<double> next = motion.at(stage.times[row] + s * dt, hint);
+    const double dt = (stage.take->times[row + 1] - stage.take->times[row]) / stage.take->substeps;
+    for (int s = 1; s <= stage.take->substeps; ++s) {
+      const Tips<double> next = motion.at(stage.take->times[row] + s * dt, hint);
       predictor.step(state, now, next, dt);
       now = next;
     }
@@ -61,8 +61,8 @@ inline Finding find_axle_motion(const Fit& fit, const Model& found) {
   std::size_t first = 0;  // of the stage's windows among all
   for (const Stage& stage : fit.stages) {
     const std::size_t begin = std::exchange(first, first + stage.windows.size());
-    if (!stage.has_orientation || !stage.has_spin) continue;
-    const Recording recording = corrected(stage.recording, fit.at);
+    if (!stage.take->has_orientation || !stage.take->has_spin) continue;
+    const Recording recording = corrected(stage.take->recording, fit.at);
     const FullPredictor<double> predictor(parameters_for(turning, recording), turning.effects);
     const auto motion = RecordedTips(recording, Interpolation::kSpline).motion(0, recording.size() - 1);
     for (std::size_t w = 0; w < stage.windows.size(); ++w) {

@@ -96,6 +96,7 @@ struct Diagnosis {
   bool withdrawn = false;             ///< physics that stands out, but does not help on what was left out
   std::optional<double> numerical;    ///< share of the base's error that its numerical rules make
   std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
+  std::size_t windows_seen = 0;       ///< in the recordings, of which `windows` were fitted
 };
 
 inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7, kLatentForces = 5;
@@ -109,8 +110,8 @@ inline void remember_before(Diagnosis& result, const Fit& fit) {
       const WindowScore& score = fit.scores[i++];
       WindowFinding found{};
       found.recording = s;
-      found.begin = fit.stages[s].times[window.first];
-      found.end = fit.stages[s].times[window.last];
+      found.begin = fit.stages[s].take->times[window.first];
+      found.end = fit.stages[s].take->times[window.last];
       found.mode = window.start.string_state;
       found.residual_before = system.position_residual();
       for (int k = 0; k < kLatents; ++k) {
@@ -240,7 +241,7 @@ inline double left_over(const Fit& fit) {
 /// ratio of what the consistent rules leave to what the base's do, starts fitted to each. Not above one.
 template <class D = detail::FitDual>
 double compare_rules(const Fit& fit, const Model& base, const Model& physics, int threads,
-                     const Watch& watch = {}) {
+                     const FitWatch& watch = {}) {
   const auto rest = [&](Fit trial, const Model& model) {
     approach<D>(trial, model, ActiveSet::Constant(false), 3, threads, watch);
     return left_over(trial);

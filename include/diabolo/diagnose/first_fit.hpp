@@ -19,6 +19,19 @@ inline constexpr double kSoftStart = 3e-3;
 
 namespace detail {
 
+/// What a diagnosis begins with. The published rules are numerical: physics is looked for on the string that
+/// obeys its constraint. A force without a name is constant at first, as what is looked for.
+inline Model physics_without_rules(const Model& base) {
+  Model physics = base;
+  if (base.parameters.string_law != StringLaw::kInextensible) {
+    physics = consistent_model();
+    physics.effects = base.effects;
+  }
+  auto& unnamed = physics.effects.get<UnnamedForce>();
+  if (unnamed.neutral()) unnamed = {};
+  return physics;
+}
+
 /// Recordings made ready, and what is expected of the unknowns.
 inline Fit prepared(const std::vector<Recording>& recordings, const Model& physics) {
   Fit fit;
@@ -40,7 +53,8 @@ inline Fit prepared(const std::vector<Recording>& recordings, const Model& physi
 /// and uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone
 /// on with. At the end it has been looked at with `set`.
 template <class D>
-void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
+void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
+                    const FitWatch& watch) {
   fit.far_window = kFarWindowAtFirst;
   Fit soft = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
@@ -55,6 +69,16 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
   descend<D>(fit, physics, set, kMostIterations, threads, watch);
 }
 
+/// What is free in the first fit. A bounce throws every later catch about: it is asked about once the rest
+/// fits.
+inline ActiveSet asked_at_first(const Bank& bank) {
+  ActiveSet set = nuisances();
+  for (const Candidate* candidate : bank) set = with(set, *candidate);
+  set[index_of(Unknown::kRestitution)] = false;
+  if (set[index_of(Unknown::kGravity)]) set[index_of(Unknown::kLengthScale)] = false;  // see bank_for()
+  return set;
+}
+
 /// Leaves out what acts on the spin, or by it in a direction that nobody saw.
 inline void without_spin(Bank& bank, ActiveSet& set) {
   for (const Unknown u :
@@ -67,7 +91,8 @@ inline void without_spin(Bank& bank, ActiveSet& set) {
 /// Where nobody saw the diabolo turn: friction is begun with a fast spin of either sense, and what fits
 /// better is gone on with. (It saturates with the slip: how fast does not matter.)
 template <class D>
-void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int threads, const Watch& watch) {
+void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
+                     const FitWatch& watch) {
   const auto begun = [&](double spin) {
     Fit trial = fit;
     for (Stage& stage : trial.stages)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/window_rollout.hpp"
@@ -18,6 +19,10 @@ namespace diabolo {
 /// says nothing of the forces. A first fit is more patient, lest it settle for what explains the most windows
 /// well and the others not at all.
 inline constexpr double kFarWindow = 1.5, kFarWindowAtFirst = 10.0;
+
+/// Most windows that are fitted: two minutes of play. The cost of a fit grows with them, its intervals shrink
+/// with their root.
+inline constexpr std::size_t kMostWindows = 240;
 
 /// What a window says of the unknowns once its start has been fitted, in the scales of kUnknownInfos.
 struct WindowScore {
@@ -58,12 +63,13 @@ struct Fit {
   ActiveSet active = ActiveSet::Constant(false);
   Delay delay = Delay::kClock;
   double far_window = kFarWindow;
-  bool noise_is_known = false;        ///< else it is estimated again as a fit goes on
-  double usual = 1.0;                 ///< what the middle window leaves [noise]; settled with the noise
-  bool bounces = false;               ///< windows may begin in the middle of a bounce on soft springs
-  std::vector<Stage> stages;          ///< with the fitted starts
-  std::vector<CameraNoise> noise;     ///< of each stage
-  std::vector<WindowSystem> systems;  ///< of all windows, stage after stage
+  bool noise_is_known = false;              ///< else it is estimated again as a fit goes on
+  double usual = 1.0;                       ///< what the middle window leaves [noise]; settled with the noise
+  bool bounces = false;                     ///< windows may begin in the middle of a bounce on soft springs
+  std::size_t most_windows = kMostWindows;  ///< that are fitted; see thin()
+  std::vector<Stage> stages;                ///< with the fitted starts
+  std::vector<CameraNoise> noise;           ///< of each stage
+  std::vector<WindowSystem> systems;        ///< of all windows, stage after stage
   std::vector<WindowScore> scores;
   double cost = 0.0;  ///< weighted chi^2 and priors
   double dispersion =
@@ -124,24 +130,41 @@ inline void weigh(Fit& fit) {
   fit.cost += fit.dispersion * scaled.dot(prior.cwiseProduct(scaled));
 }
 
+/// Predicts all windows at `fit.at`, with derivatives by the unknowns of `carried`, and calls
+/// `use(i, stage, system)` for each, i counting windows stage after stage: in no certain order, by several
+/// threads.
+template <class D, class Use>
+void predict_windows(const Fit& fit, const Model& base, const ActiveSet& carried, int threads,
+                     const Watch& watch, const Use& use) {
+  const detail::Carried<D> x(fit.at, carried);
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;
+  std::vector<detail::FitModel<D>> models;
+  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
+    models.push_back(detail::fit_model(base, fit.stages[s].take->recording, x));
+    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
+  }
+  for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
+    const auto [stage, w] = jobs[i];
+    use(i, stage,
+        window_system(*fit.stages[stage].take, fit.stages[stage].windows[w], models[stage], x, fit.delay,
+                      fit.bounces));
+  });
+}
+
+/// How many windows there are.
+inline std::size_t window_count(const std::vector<Stage>& stages) {
+  std::size_t count = 0;
+  for (const Stage& stage : stages) count += stage.windows.size();
+  return count;
+}
+
 /// Predicts all windows at `fit.at`: systems and scores, with derivatives by the unknowns of `carried`.
 template <class D>
 void look_by(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
-  const detail::Carried<D> x(fit.at, carried);
-  std::vector<std::pair<std::size_t, std::size_t>> jobs;
-  std::vector<std::vector<StageTips>> grids;
-  std::vector<detail::FitModel<D>> models;
-  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
-    grids.push_back(stage_tips(fit.stages[s], fit.at, fit.delay));
-    models.push_back(detail::fit_model(base, fit.stages[s].recording, x));
-    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
-  }
-  fit.systems.resize(jobs.size());
-  for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
-    const auto [stage, w] = jobs[i];
-    fit.systems[i] = window_system(fit.stages[stage], grids[stage], fit.stages[stage].windows[w],
-                                   models[stage], x, fit.delay, fit.bounces);
-  });
+  fit.systems.resize(window_count(fit.stages));
+  predict_windows<D>(
+      fit, base, carried, threads, watch,
+      [&](std::size_t i, std::size_t, WindowSystem system) { fit.systems[i] = std::move(system); });
   weigh(fit);
 }
 

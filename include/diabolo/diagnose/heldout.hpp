@@ -40,7 +40,7 @@ inline std::vector<Fold> folds_of(const std::vector<Stage>& stages) {
   constexpr Eigen::Index kBlocks = 3;
   std::vector<Fold> folds;
   for (std::size_t s = 0; s < stages.size(); ++s) {
-    const Eigen::Index size = stages[s].recording.size(), blocks = stages.size() > 1 ? 1 : kBlocks;
+    const Eigen::Index size = stages[s].take->recording.size(), blocks = stages.size() > 1 ? 1 : kBlocks;
     for (Eigen::Index b = 0; b < blocks; ++b)
       folds.push_back({s, size * b / blocks, size * (b + 1) / blocks - 1});
   }
@@ -80,7 +80,7 @@ inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& e
   std::vector<bool> nothing;
   for (const Stage& stage : fit.stages) nothing.resize(nothing.size() + stage.windows.size());
   for (const Recording& recording : holdout) {
-    add(make_stage(recording).recording, nothing);
+    add(make_stage(recording).take->recording, nothing);
     result.back().at = fit.at;
   }
   if (!holdout.empty()) return result;
@@ -90,18 +90,30 @@ inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& e
       for (const FitWindow& window : fit.stages[s].windows)
         left_out.push_back(s == fold.stage && window.first <= fold.last && window.last >= fold.first);
     if (std::ranges::count(left_out, false) < 4) continue;
-    add(cut(fit.stages[fold.stage].recording, fold.first, fold.last), left_out);
+    add(cut(fit.stages[fold.stage].take->recording, fold.first, fold.last), left_out);
   }
   return result;
 }
 
+/// Starts on what was held out for each window that may be fitted, and least time between them [s].
+inline constexpr double kStartsPerWindow = 2.5, kStartsEvery = 0.2;
+
+/// Time between the starts [s] on recordings that were held out: there are not more than belong to so many
+/// windows.
+inline double starts_every(const std::vector<HeldOutRecording>& recordings, std::size_t most_windows) {
+  double seconds = 0.0;
+  for (const HeldOutRecording& held : recordings)
+    seconds += held.recording.time[held.recording.size() - 1] - held.recording.time[0];
+  return std::max(kStartsEvery, seconds / (kStartsPerWindow * static_cast<double>(most_windows)));
+}
+
 /// Predicts each recording from fair starts, by the base and by `physics` with its unknowns.
 inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings, const Model& base,
-                                const Model& physics, std::uint64_t seed, int threads,
-                                const Watch& watch = {}) {
+                                const Model& physics, std::uint64_t seed, std::size_t most_windows,
+                                int threads, const Watch& watch = {}) {
   HeldOut result;
   HorizonOptions options;
-  options.starts_every = 0.2;
+  options.starts_every = starts_every(recordings, most_windows);
   options.horizons = result.horizons;
   options.threads = threads;
   const std::size_t horizons = options.horizons.size();

@@ -25,9 +25,9 @@ namespace detail {
 /// it alone, in units of twice the logarithm of odds. The noise is that of the camera which saw the tie.
 template <class D>
 double left_of(const Experiment& experiment, const Model& truth, const Alternative& explanation,
-               const Fit& seen, const Model& physics, int threads, const Watch& watch) {
+               const Fit& seen, const Model& physics, int threads, const FitWatch& watch) {
   Fit fit;
-  Recording like = seen.stages.front().recording;
+  Recording like = seen.stages.front().take->recording;
   like.string_length += seen.at[index_of(Unknown::kStringLength)];
   for (const MotionPart& part : experiment.parts) {
     const Recording recording = imagined(part, truth, like);
@@ -74,10 +74,10 @@ inline std::string_view motion_for_measurement(std::string_view name) {
 /// and rates without odds.
 template <class D = detail::FitDual>
 std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const Model& physics,
-                                       const ActiveSet& set, int threads, const Watch& watch = {}) {
+                                       const ActiveSet& set, int threads, const FitWatch& watch = {}) {
   std::vector<Proposal> result;
   for (const Finding& f : d.findings) {
-    if (!f.claimed || f.tied_with.empty()) continue;
+    if (!f.claimed || f.tied_with.empty() || watch.is_enough()) continue;
     Proposal best{nullptr, f.tied_with, std::nullopt};
     best.parts.insert(best.parts.begin(), std::string(f.candidate->name));
     const std::string_view fixed = detail::motion_for_measurement(f.candidate->name);

@@ -34,12 +34,12 @@ namespace detail {
 
 /// Mean speed of the recorded diabolo in a window [m/s].
 inline double mean_speed(const Stage& stage, const FitWindow& window) {
-  const Track& track = stage.recording.diabolo;
+  const Track& track = stage.take->recording.diabolo;
   double length = 0.0, seconds = 0.0;
   for (Eigen::Index i = window.first; i < window.last; ++i) {
     if (!track.valid[i] || !track.valid[i + 1]) continue;
     length += (track.position.col(i + 1) - track.position.col(i)).norm();
-    seconds += stage.times[i + 1] - stage.times[i];
+    seconds += stage.take->times[i + 1] - stage.take->times[i];
   }
   return seconds > 0.0 ? length / seconds : 0.0;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "diabolo/diagnose/budget.hpp"
 #include "diabolo/diagnose/fit.hpp"
 
 namespace diabolo {
@@ -52,13 +53,14 @@ inline void move_starts(Fit& fit, const Fit& from, const UnknownVector& scaled_s
 
 /// Gauss and Newton's method on the active unknowns and all starts, from a `fit` that was looked at with
 /// them, damped where a step leads uphill. Once one has, the next are looked at by their starts alone, which
-/// is enough for their cost; the one that does not is looked at again.
+/// is enough for their cost; the one that does not is looked at again. It ends early where the watch has
+/// enough.
 template <class D>
 void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
-             const Watch& watch) {
+             const FitWatch& watch) {
   fit.active = active;
   double damping = 0.0;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_iterations && !watch.is_enough(); ++iteration) {
     ++fit.iterations;
     const Normal normal = normal_equations(fit, active);
     const Fit best = fit;
@@ -94,7 +96,7 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
 /// The same from wherever `fit` is.
 template <class D>
 void approach(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
-              const Watch& watch = {}) {
+              const FitWatch& watch = {}) {
   look<D>(fit, base, active, threads, watch);
   descend<D>(fit, base, active, most_iterations, threads, watch);
 }
@@ -102,7 +104,7 @@ void approach(Fit& fit, const Model& base, const ActiveSet& active, int most_ite
 /// The same, and a last look with derivatives by all unknowns.
 template <class D = detail::FitDual>
 void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
-            const Watch& watch = {}) {
+            const FitWatch& watch = {}) {
   approach<D>(fit, base, active, most_iterations, threads, watch);
   look<D>(fit, base, threads, watch);
 }

@@ -174,6 +174,7 @@ struct HeldOutErrors {
   NumberByHorizon start_error_m;
   std::size_t windows = 0;
   std::vector<std::string> holdout_unused;
+  std::size_t fitted_windows = 0, of_windows = 0;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
@@ -186,6 +187,8 @@ struct HeldOutErrors {
     visit("windows", &HeldOutErrors::windows, "Predictions that were compared.");
     visit("holdout_unused", &HeldOutErrors::holdout_unused,
           "Held-out recordings without a start to compare.");
+    visit("fitted_windows", &HeldOutErrors::fitted_windows, "Windows that were fitted.");
+    visit("of_windows", &HeldOutErrors::of_windows, "Of so many; the others say least.");
   }
 };
 

@@ -244,7 +244,9 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
                 d.heldout.improvement_ci95,
                 d.heldout.start_error,
                 d.heldout.windows,
-                std::move(unused)};
+                std::move(unused),
+                d.windows.size(),
+                d.windows_seen};
   for (const Proposal& p : d.proposals)
     result.next_experiment.push_back({std::string(p.experiment->motion), std::string(p.experiment->plain),
                                       p.parts, p.odds, p.experiment->seconds});

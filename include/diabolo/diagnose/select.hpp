@@ -8,8 +8,8 @@
 
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
-#include "diabolo/math/solve_symmetric.hpp"
 #include "diabolo/diagnose/significance.hpp"
+#include "diabolo/math/solve_symmetric.hpp"
 
 namespace diabolo {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -39,18 +40,27 @@ struct StageTips {
   Eigen::Matrix3d left_frame_rate, right_frame_rate;  ///< their derivatives [1/s]
 };
 
-/// A recording, made ready for a diagnosis.
-struct Stage {
+/// A recording, made ready for a diagnosis. All fits share it.
+struct Take {
   Recording recording;              ///< tips smoothed, edges of dropouts taken out
   Eigen::VectorXd times;            ///< of the rows [s]
   Spin spin;                        ///< between each row and the next
   Eigen::Matrix3Xd axis;            ///< of the axle in each row
   std::vector<StringState> states;  ///< as guessed
   std::shared_ptr<const TipMotion<double>> motion;
-  int substeps = 4;  ///< per row
-  std::vector<FitWindow> windows;
+  std::vector<Eigen::Matrix3d> left_frames, right_frames;  ///< of the sticks in each row, to the world
+  int substeps = 4;                                        ///< per row
   bool has_spin = false, has_orientation = false;
 };
+
+/// A take, and the windows that a fit predicts of it.
+struct Stage {
+  std::shared_ptr<const Take> take;
+  std::vector<FitWindow> windows;
+};
+
+/// Whether anybody saw the diabolo turn.
+inline bool has_spin(const Stage& stage) { return stage.take->has_spin; }
 
 /// Length of a window [s].
 inline constexpr double kFitWindow = 0.5;
@@ -58,11 +68,11 @@ inline constexpr double kFitWindow = 0.5;
 inline constexpr double kFitStep = 4.2e-3;
 
 /// Cuts the rows into windows of about kFitWindow that begin where the string's state is not about to change.
-inline std::vector<FitWindow> fit_windows(const Stage& stage) {
-  const Recording& r = stage.recording;
+inline std::vector<FitWindow> fit_windows(const Take& take) {
+  const Recording& r = take.recording;
   const Eigen::Index size = r.size(), wanted = std::max<Eigen::Index>(6, std::lround(kFitWindow * r.rate)),
                      margin = std::max<Eigen::Index>(2, std::lround(0.035 * r.rate));
-  const std::vector<bool> left = in_long_gap(r.left, stage.times), right = in_long_gap(r.right, stage.times);
+  const std::vector<bool> left = in_long_gap(r.left, take.times), right = in_long_gap(r.right, take.times);
   const Velocity centred = velocity(
       r, r.diabolo, local_polynomial(std::max(5, static_cast<int>(2 * margin + 1)), 2, Window::kCentred));
   const auto row_ok = [&](Eigen::Index i) {
@@ -72,8 +82,7 @@ inline std::vector<FitWindow> fit_windows(const Stage& stage) {
   const auto start_ok = [&](Eigen::Index i) {
     if (i < margin || i + margin >= size || !row_ok(i) || !centred.valid[i]) return false;
     for (Eigen::Index j = i - margin; j <= i + margin; ++j)
-      if (stage.states[static_cast<std::size_t>(j)] != stage.states[static_cast<std::size_t>(i)])
-        return false;
+      if (take.states[static_cast<std::size_t>(j)] != take.states[static_cast<std::size_t>(i)]) return false;
     return true;
   };
   std::vector<FitWindow> windows;
@@ -96,10 +105,10 @@ inline std::vector<FitWindow> fit_windows(const Stage& stage) {
       FitWindow window{i, last, {}};
       window.start.position = r.diabolo.position.col(i);
       window.start.velocity = centred.velocity.col(i);
-      window.start.string_state = stage.states[static_cast<std::size_t>(i)];
+      window.start.string_state = take.states[static_cast<std::size_t>(i)];
       for (Eigen::Index j = i; j < std::min(size, i + 10); ++j)
-        if (stage.spin.valid[j]) {
-          window.start.spin = stage.spin.value[j];
+        if (take.spin.valid[j]) {
+          window.start.spin = take.spin.value[j];
           break;
         }
       windows.push_back(window);
@@ -111,23 +120,25 @@ inline std::vector<FitWindow> fit_windows(const Stage& stage) {
 
 /// Makes a recording ready. Throws RecordingError where the tips are never seen together.
 inline Stage make_stage(const Recording& given) {
-  Stage stage;
-  stage.recording = without_dropout_edges(given);
-  stage.recording.left = smoothed(given.left, given.rate);
-  stage.recording.right = smoothed(given.right, given.rate);
-  const RecordedTips tips(stage.recording, Interpolation::kSpline);
-  stage.times = tips.times();
-  stage.motion = tips.motion(0, given.size() - 1);
-  stage.spin = signed_spin(stage.recording);
-  stage.has_spin = stage.spin.valid.any();
-  stage.has_orientation = !given.diabolo_orientation.empty() && given.diabolo_orientation.valid.any();
-  stage.axis = axes(stage.recording);
-  Recording guessed = stage.recording;
-  if (const std::optional<double> usual = usual_path_length(stage.recording)) guessed.string_length = *usual;
-  stage.states = guess_string_states(guessed);
-  stage.substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (given.rate * kFitStep))));
-  stage.windows = fit_windows(stage);
-  return stage;
+  const auto made = std::make_shared<Take>();
+  Take& take = *made;
+  take.recording = without_dropout_edges(given);
+  take.recording.left = smoothed(given.left, given.rate);
+  take.recording.right = smoothed(given.right, given.rate);
+  const RecordedTips tips(take.recording, Interpolation::kSpline);
+  take.times = tips.times();
+  take.motion = tips.motion(0, given.size() - 1);
+  take.spin = signed_spin(take.recording);
+  take.has_spin = take.spin.valid.any();
+  take.has_orientation = !given.diabolo_orientation.empty() && given.diabolo_orientation.valid.any();
+  take.axis = axes(take.recording);
+  take.left_frames = stick_frames(take.recording.left_orientation, given.size());
+  take.right_frames = stick_frames(take.recording.right_orientation, given.size());
+  Recording guessed = take.recording;
+  if (const std::optional<double> usual = usual_path_length(take.recording)) guessed.string_length = *usual;
+  take.states = guess_string_states(guessed);
+  take.substeps = std::max(1, static_cast<int>(std::ceil(1.0 / (given.rate * kFitStep))));
+  return {made, fit_windows(take)};
 }
 
 /// Shortest time constant of a lag that is told from none [s].
@@ -173,38 +184,42 @@ inline void lag_behind(std::vector<StageTips>& grid, double step, double tau) {
   }
 }
 
-/// Tips at each substep from row 0 on, read at the recorded time plus the time offset, as kServo lagging
-/// behind the recorded ones, less the tip offsets.
-inline std::vector<StageTips> stage_tips(const Stage& stage, const UnknownVector& at,
-                                         Delay delay = Delay::kClock) {
-  const Eigen::Index rows = stage.times.size();
-  const std::vector<Eigen::Matrix3d> left = stick_frames(stage.recording.left_orientation, rows),
-                                     right = stick_frames(stage.recording.right_orientation, rows);
+/// After so many of its time constants a lag has forgotten what it began with, to the last digit.
+inline constexpr double kForgotten = 40.0;
+
+/// Tips at each substep from row `first` to row `last`, read at the recorded time plus the time offset, as
+/// kServo lagging behind the recorded ones, less the tip offsets.
+inline std::vector<StageTips> stage_tips(const Take& take, const UnknownVector& at, Eigen::Index first,
+                                         Eigen::Index last, Delay delay = Delay::kClock) {
+  const bool lags = delay == Delay::kServo && last > first;
+  const double tau = lag_of(at), rate = take.recording.rate;
+  const Eigen::Index lead = lags ? static_cast<Eigen::Index>(std::ceil(kForgotten * tau * rate)) : 0,
+                     begin = std::max<Eigen::Index>(0, first - lead);
   const double clock = at[index_of(Unknown::kTimeOffset)];
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));
-  std::vector<StageTips> result(static_cast<std::size_t>((rows - 1) * stage.substeps + 1));
+  std::vector<StageTips> result(static_cast<std::size_t>((last - begin) * take.substeps + 1));
   std::size_t hint = 0, hint_before = 0, hint_after = 0;
-  for (Eigen::Index i = 0, k = 0; i < rows; ++i)
-    for (int s = 0; s < (i + 1 < rows ? stage.substeps : 1); ++s, ++k) {
+  for (Eigen::Index i = begin, k = 0; i <= last; ++i)
+    for (int s = 0; s < (i < last ? take.substeps : 1); ++s, ++k) {
       StageTips& out = result[static_cast<std::size_t>(k)];
-      const double fraction = static_cast<double>(s) / stage.substeps;
-      const Eigen::Index next = std::min(i + 1, rows - 1);
-      const double gap = std::max(stage.times[next] - stage.times[i], 1e-6);
-      const double time = stage.times[i] + fraction * gap + clock, h = 5e-4;
-      out.tips = stage.motion->at(time, hint);
-      const Tips<double> before = stage.motion->at(time - h, hint_before),
-                         after = stage.motion->at(time + h, hint_after);
+      const double fraction = static_cast<double>(s) / take.substeps;
+      const Eigen::Index next = std::min(i + 1, take.times.size() - 1);
+      const double gap = std::max(take.times[next] - take.times[i], 1e-6);
+      const double time = take.times[i] + fraction * gap + clock, h = 5e-4;
+      out.tips = take.motion->at(time, hint);
+      const Tips<double> before = take.motion->at(time - h, hint_before),
+                         after = take.motion->at(time + h, hint_after);
       out.left_acceleration = (after.left_velocity - before.left_velocity) / (2.0 * h);
       out.right_acceleration = (after.right_velocity - before.right_velocity) / (2.0 * h);
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(next);
-      out.left_frame = left[a] * (1.0 - fraction) + left[b] * fraction;
-      out.right_frame = right[a] * (1.0 - fraction) + right[b] * fraction;
-      out.left_frame_rate = (left[b] - left[a]) / gap;
-      out.right_frame_rate = (right[b] - right[a]) / gap;
+      out.left_frame = take.left_frames[a] * (1.0 - fraction) + take.left_frames[b] * fraction;
+      out.right_frame = take.right_frames[a] * (1.0 - fraction) + take.right_frames[b] * fraction;
+      out.left_frame_rate = (take.left_frames[b] - take.left_frames[a]) / gap;
+      out.right_frame_rate = (take.right_frames[b] - take.right_frames[a]) / gap;
     }
-  if (delay == Delay::kServo && result.size() > 1)
-    lag_behind(result, 1.0 / (stage.recording.rate * stage.substeps), lag_of(at));
+  if (lags) lag_behind(result, 1.0 / (rate * take.substeps), tau);
+  result.erase(result.begin(), result.begin() + (first - begin) * take.substeps);
   for (StageTips& out : result) {
     out.tips.left -= out.left_frame * left_offset;
     out.tips.right -= out.right_frame * right_offset;

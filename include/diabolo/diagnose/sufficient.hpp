@@ -24,10 +24,10 @@ inline std::string insufficient(const std::vector<Stage>& stages) {
     windows += stage.windows.size();
     for (const FitWindow& window : stage.windows)
       taut += window.start.string_state == StringState::kOnString ? 1 : 0;
-    length_known = length_known || usual_path_length(stage.recording);
+    length_known = length_known || usual_path_length(stage.take->recording);
     if (!odd.empty()) continue;
-    odd = odd_path_length(stage.recording);
-    if (!odd.empty() && stages.size() > 1) odd += " (in " + stage.recording.name + ")";
+    odd = odd_path_length(stage.take->recording);
+    if (!odd.empty() && stages.size() > 1) odd += " (in " + stage.take->recording.name + ")";
   }
   if (windows < kFewestWindows)
     return "only " + std::to_string(windows) + " windows of half a second can be compared; " +

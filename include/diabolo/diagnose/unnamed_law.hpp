@@ -33,7 +33,7 @@ inline double usual_of(const PowerLaw& law) {
 /// constant one stands out; nothing where none does.
 template <class D>
 std::optional<Leftover> growing_leftover(const Fit& fit, const Model& physics, const ActiveSet& set,
-                                         int threads, const Watch& watch) {
+                                         int threads, const FitWatch& watch) {
   std::optional<Leftover> strongest;
   ActiveSet asked = set;
   asked.segment<kLatentForces>(kLatentFirst).setConstant(true);
@@ -67,7 +67,7 @@ std::optional<Leftover> growing_leftover(const Fit& fit, const Model& physics, c
 /// first.
 template <class D>
 std::vector<Leftover> laws_to_try(std::vector<Leftover>& leftovers, const Fit& fit, const Model& physics,
-                                  const ActiveSet& set, int threads, const Watch& watch) {
+                                  const ActiveSet& set, int threads, const FitWatch& watch) {
   std::ranges::stable_sort(leftovers, std::greater<>(), [](const Leftover& l) { return std::abs(l.z); });
   std::vector<Leftover> result;
   if (const auto growing = growing_leftover<D>(fit, physics, set, threads, watch)) result.push_back(*growing);
@@ -115,7 +115,7 @@ struct UnnamedTrial {
 template <class D>
 UnnamedTrial try_unnamed(const Leftover& leftover, const Fit& fit, const Model& base, const Model& physics,
                          const ActiveSet& set, const Bank& bank, const std::vector<Recording>& holdout,
-                         std::uint64_t seed, int threads, const Watch& watch) {
+                         std::uint64_t seed, int threads, const FitWatch& watch) {
   const PowerLaw& law = leftover.law;
   UnnamedTrial trial{with_growth(physics, law), fit, set, {}};
   const int u = index_of(leftover.unknown), power = index_of(Unknown::kPower);
@@ -128,11 +128,12 @@ UnnamedTrial try_unnamed(const Leftover& leftover, const Fit& fit, const Model& 
   for (int i = 0; i < kUnknowns; ++i)
     if (!trial.set[i]) trial.fit.at[i] = trial.fit.centre[i];
   refine<D>(trial.fit, trial.physics, trial.set, 6, threads, watch);
+  if (watch.is_enough()) return trial;  // it may not have settled
   ActiveSet without = trial.set;
   without[u] = without[power] = false;
   const HeldOut heldout =
       compare_held_out(leave_out(trial.fit, Evidence(trial.fit), trial.set, {without}, holdout), base,
-                       trial.physics, seed, threads, watch);
+                       trial.physics, seed, trial.fit.most_windows, threads, watch);
   trial.worsening_ci95 = heldout.worsening_ci95.front();
   bool better = false, worse = false;
   for (const std::optional<Interval>& interval : trial.worsening_ci95) {

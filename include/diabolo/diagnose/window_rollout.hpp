@@ -32,9 +32,9 @@ inline Eigen::Matrix3d frame_of(const OrientationTrack& track, Eigen::Index row)
 }
 
 /// The same where it is first seen in a window; zero where it never is.
-inline Eigen::Matrix3d first_frame(const Stage& stage, const FitWindow& window) {
-  const OrientationTrack& track = stage.recording.diabolo_orientation;
-  for (Eigen::Index row = window.first; stage.has_orientation && row <= window.last; ++row)
+inline Eigen::Matrix3d first_frame(const Take& take, const FitWindow& window) {
+  const OrientationTrack& track = take.recording.diabolo_orientation;
+  for (Eigen::Index row = window.first; take.has_orientation && row <= window.last; ++row)
     if (track.valid[row]) return frame_of(track, row);
   return Eigen::Matrix3d::Zero();
 }
@@ -83,11 +83,10 @@ struct WindowSystem {
 /// Predicts a window and compares it with the recording, with derivatives by its start and the unknowns that
 /// are carried; by the others they are told to be zero.
 template <class D>
-WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& grid, const FitWindow& window,
-                           const detail::FitModel<D>& model, const detail::Carried<D>& x,
-                           Delay delay = Delay::kClock, bool bounces = false) {
+WindowSystem window_system(const Take& take, const FitWindow& window, const detail::FitModel<D>& model,
+                           const detail::Carried<D>& x, Delay delay = Delay::kClock, bool bounces = false) {
   const Eigen::Index n = static_cast<Eigen::Index>(x.columns.size());
-  const Recording& r = stage.recording;
+  const Recording& r = take.recording;
   WindowSystem system;
   const double usual = detail::usual_pull(r, window);
   const D stretch =
@@ -99,26 +98,27 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
   using FitPredictor = detail::FitPredictor<D>;
   const FitPredictor predictor(parameters, model.effects, typename FitPredictor::AlreadyValid{});
   FitWindow begun = window;
-  begun.start.axis = stage.axis.col(window.first);
+  begun.start.axis = take.axis.col(window.first);
+  const std::vector<StageTips> grid = stage_tips(take, x.at, window.first, window.last, delay);
   const auto tips_at = [&](Eigen::Index k) { return detail::fit_tips(grid[static_cast<std::size_t>(k)], x); };
-  Eigen::Index k = window.first * stage.substeps;
+  Eigen::Index k = 0;
   Tips<D> now = tips_at(k), next = tips_at(k + 1);
   const auto step_of = [&](Eigen::Index row) {
-    return D((stage.times[row + 1] - stage.times[row]) / stage.substeps);
+    return D((take.times[row + 1] - take.times[row]) / take.substeps);
   };
   State<D> state = detail::fit_start(begun, predictor, now, next, step_of(window.first), bounces);
-  const double half = stage.times[window.first] + 0.5;
+  const double half = take.times[window.first] + 0.5;
   bool measured_reach = false;
   // A low pass of the diabolo's track: y' = (x - y) / tau, begun with what was recorded.
   const bool filtered = delay == Delay::kFilter;
   const D lag = D(lag_of(x.at)) + (x(Unknown::kLag) - D(x.at[index_of(Unknown::kLag)]));
   Vector3<D> centre_before, trail = r.diabolo.position.col(window.first).template cast<D>();
-  Eigen::Matrix3d frame = detail::first_frame(stage, window);  ///< body to world, as last seen
+  Eigen::Matrix3d frame = detail::first_frame(take, window);  ///< body to world, as last seen
   Eigen::VectorXd line(n + 1);
   Eigen::MatrixXd positions = Eigen::MatrixXd::Zero(n + 1, n + 1), spins = positions;  // of what is carried
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
-    const bool turned = stage.has_orientation && r.diabolo_orientation.valid[row];
+    const bool turned = take.has_orientation && r.diabolo_orientation.valid[row];
     if (turned) frame = detail::frame_of(r.diabolo_orientation, row);
     Vector3<D> centre = state.position;
     const double pull = value_of(squared_norm(state.string_acceleration));
@@ -128,7 +128,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     if (filtered) {
       if (row > window.first)
         trail =
-            detail::low_passed(trail, centre_before, centre, D(stage.times[row] - stage.times[row - 1]), lag);
+            detail::low_passed(trail, centre_before, centre, D(take.times[row] - take.times[row - 1]), lag);
       centre_before = centre;
       centre = trail;
     }
@@ -143,7 +143,7 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
       }
       // (What a filtered track begins with is taken from the first row, which then says nothing; nor may it
       // under another delay, which is compared with this one.)
-      const bool known = (!stage.has_orientation || turned) && row > window.first;
+      const bool known = (!take.has_orientation || turned) && row > window.first;
       for (int c = 0; c < 3 && known; ++c) {
         const double residual = seen[c] - centre[c].value;
         line.head(n) = centre[c].gradient.head(n).matrix().template cast<double>();
@@ -153,18 +153,18 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
         ++system.position_numbers;
       }
     }
-    if (row > window.first && stage.spin.valid[row - 1]) {
+    if (row > window.first && take.spin.valid[row - 1]) {
       const D mean = (spin_before + state.spin) * D(0.5);
-      double residual = stage.spin.value[row - 1] - mean.value;
+      double residual = take.spin.value[row - 1] - mean.value;
       line.head(n) = mean.gradient.head(n).matrix().template cast<double>();
       line[n] = residual;
       spins.selfadjointView<Eigen::Lower>().rankUpdate(line);
       system.spin_square += residual * residual;
       ++system.spin_numbers;
     }
-    if (!measured_reach && (row == window.last || stage.times[row] >= half)) {
+    if (!measured_reach && (row == window.last || take.times[row] >= half)) {
       measured_reach = true;
-      const double seconds = std::max(stage.times[row] - stage.times[window.first], 1e-3);
+      const double seconds = std::max(take.times[row] - take.times[window.first], 1e-3);
       for (Eigen::Index i = kStartUnknowns; i < n; ++i) {
         const int u = x.columns[static_cast<std::size_t>(i)] - kStartUnknowns;
         double square = 0.0;
@@ -177,12 +177,12 @@ WindowSystem window_system(const Stage& stage, const std::vector<StageTips>& gri
     }
     if (row == window.last) break;
     spin_before = state.spin;
-    for (int s = 0; s < stage.substeps; ++s, ++k) {
+    for (int s = 0; s < take.substeps; ++s, ++k) {
       next = tips_at(k + 1);
       predictor.step(state, now, next, step_of(row));
       now = next;
     }
-    state.axis = stage.axis.col(row + 1).cast<D>();
+    state.axis = take.axis.col(row + 1).cast<D>();
   }
   system.numbers = system.position_numbers + system.spin_numbers;
   system.spin = std::abs(state.spin.value);

@@ -5,10 +5,6 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-import json
-import os
-import subprocess
-import sys
 import time
 from contextlib import nullcontext
 from pathlib import Path
@@ -18,12 +14,11 @@ from .._core import Estimate, InputFile, Model, Recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import Diagnosis
 from ..diagnosis import diagnose as run_diagnosis
-from ..evaluation import DEFAULT_MODELS, Excerpt, evaluate
+from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..report import check as check_report
 from ..report import report_html
 from . import files
 from .arguments import (
-    Reading,
     add_calibration,
     add_command,
     output_name,
@@ -31,12 +26,10 @@ from .arguments import (
     read_excerpt,
     read_model,
     reading_of,
-    reading_options,
     split_excerpt,
 )
 
 MODEL_FILE, REPORT_FILE, RESULT_FILE = "model.json", "report.html", "diagnosis.json"
-BETWEEN_CHECKS = 0.2  # of the predictions that a written model is checked by [s]
 
 
 def add_parser(commands: Any) -> None:
@@ -78,7 +71,11 @@ def add_parser(commands: Any) -> None:
         help=f"folder for {REPORT_FILE}, {RESULT_FILE} and {MODEL_FILE}",
     )
     parser.add_argument(
-        "--budget", metavar="SECONDS", type=float, default=1e9, help="look for nothing more after so long"
+        "--budget",
+        metavar="SECONDS",
+        type=float,
+        default=1e9,
+        help="end after so long, reading aside; what is left out for it is told",
     )
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the intervals; default: 1")
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
@@ -129,32 +126,6 @@ def run(arguments: argparse.Namespace) -> None:
         print(text_of(diagnosis))
         if folder is not None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
-    if folder is not None and diagnosis.headline != "INSUFFICIENT_DATA":
-        check_written(folder / MODEL_FILE, diagnosis.model, arguments, reading)
-
-
-def check_written(file: Path, model: Model, arguments: argparse.Namespace, reading: Reading) -> None:
-    """Has a new process predict the recordings by the written model: that must be what it predicts here."""
-    excerpts = [read_excerpt(text, reading) for text in arguments.recordings]
-    try:
-        here = evaluate(excerpts, model, starts_every=BETWEEN_CHECKS, threads=arguments.threads).to_dict()
-    except ValueError:  # no start that an evaluation takes
-        return
-    command = [sys.executable, "-m", "diabolo", "evaluate", f"--model={file}", f"--json={files.STDOUT}"]
-    command += [f"--starts=every={BETWEEN_CHECKS}"]
-    command += [*reading_options(arguments), "--", *arguments.recordings]
-    environment = {**os.environ, "PYTHONSAFEPATH": "1"}
-    process = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    found = _means(json.loads(process.stdout)) if process.returncode == 0 else process.stderr.strip()
-    if found != _means(here):
-        raise SystemExit(
-            f"{file}: a new process that reads this model predicts otherwise: mean errors of {found}; "
-            f"expected {_means(here)}"
-        )
-
-
-def _means(evaluation: dict[str, Any]) -> list[float | None]:
-    return [row["mean_m"] for row in evaluation["horizons"]]
 
 
 def text_of(diagnosis: Diagnosis) -> str:
