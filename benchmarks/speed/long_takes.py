@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What a diagnosis of long takes costs, with and without a budget: seconds and the most memory.
 
-.venv/bin/python benchmarks/diagnosis/long_takes.py --plant build/plant/diabolo-plant
+.venv/bin/python -m benchmarks.speed.long_takes --plant build/plant/diabolo-plant
 """
 
 from __future__ import annotations
