@@ -19,14 +19,15 @@ INTRODUCTION = """\
 
 # The diagnosis on concealed data
 
-Batch {name}: {cases} recordings of the project's plant, drawn and sealed at commit `{commit}` before
-any of them was diagnosed. The commit gives the seed, so that no batch can be chosen; hashes of keys and
-recordings are in [{name}.json](../{folder}/{name}.json), keys and answers in
-[{name}.jsonl.xz](../{folder}/{name}.jsonl.xz). `{score}` scores them again.
+Batch {name}: {cases} recordings of the project's plant. They were drawn and sealed at commit
+`{commit}` before any of them was diagnosed. The commit gives the seed, so
+that no batch can be chosen. Hashes of keys and recordings are in [{name}.json](../{folder}/{name}.json),
+keys and answers in [{name}.jsonl.xz](../{folder}/{name}.jsonl.xz).
+`{score}` scores them again.
 
 {arms}
 
-An effect's SNR is how many standard deviations it stands out by for who knows what is at work. Rates have
+The SNR of an effect is its z-score in the oracle's fit, which is told what is at work. Rates have
 Clopper-Pearson intervals. "missed" means by more than the interval allows.
 """
 
