@@ -38,7 +38,19 @@ TEST_CASE("Shipped play is neither frozen nor shifted nor too wide, nor are tips
     CHECK(odd_shift(r).empty());
     CHECK(odd_distance(r).empty());
   }
-  const Recording thrown = test::thrown();
+  // Tips that rest exactly while the diabolo flies over them, farther than the string reaches, and is caught.
+  const Recording at_rest = test::with_tips(500, [](double) {
+    Tips<double> tips;
+    tips.left = Vector3<double>(0.0, 0.71, 1.0);
+    tips.right = Vector3<double>(0.0, -0.71, 1.0);
+    return tips;
+  });
+  State<double> start;
+  start.position = Vector3<double>(0.0, 0.01, 0.95);
+  start.velocity = Vector3<double>(0.0, 0.02, 3.5);
+  start.string_state = StringState::kLoose;
+  const Recording thrown = test::played_by(consistent_model(), at_rest, start);
+  CHECK(thrown.time.tail(1)[0] - thrown.time[0] > kFewestSeconds);
   CHECK(odd_still_tips(thrown, falls(thrown)).empty());
 }
 

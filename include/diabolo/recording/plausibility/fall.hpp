@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -117,7 +117,7 @@ inline constexpr double kOddFall = 2.0;
 /// A clause about a diabolo that falls much too fast or too slowly, in flight and across its string; else
 /// empty. Only samples with a pull that leaves out a tenth of gravity or more tell.
 inline std::string odd_fall(const Recording& r, const std::vector<Fall>& falls) {
-  constexpr double kLeastShare = 0.1, kFewest = 0.25;  // of gravity squared; s
+  constexpr double kLeastShare = 0.1, kFewest = 0.15;  // of gravity squared; s
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const double gravity = Parameters<double>{}.gravity;
   std::vector<Fall> telling;
@@ -138,10 +138,10 @@ inline std::string odd_fall(const Recording& r, const std::vector<Fall>& falls) 
   if (detail::median_residual(telling, -strength * up) >
       0.5 * detail::median_residual(telling, -gravity * up))
     return {};
-  return "the diabolo falls by " + shown_rounded(strength) + " m/s^2 instead of " + shown(gravity) +
-         ", in flight and across the string: " +
+  return "the diabolo falls by " + shown(std::round(10.0 * strength) / 10.0) + " m/s^2 instead of " +
+         shown(gravity) + ", in flight and across the string: " +
          (strength < 0.0 ? "it falls upwards"
-                         : "played " + shown_rounded(std::sqrt(strength / gravity)) +
+                         : "played about " + shown(std::round(10.0 * std::sqrt(strength / gravity)) / 10.0) +
                                " times as fast (a wrong rate), or lengths in other units");
 }
 

@@ -16,18 +16,15 @@
 
 namespace diabolo {
 
-/// A tip that does not move by a digit for this long [s] is asked whether the string allows it.
-inline constexpr double kLongestStill = 1.0;
+/// Largest share of the rows of a still tip in which the diabolo may neither fall freely nor be where the
+/// taut string has it [m from the usual path]; catches take some.
+inline constexpr double kMostUnexplained = 0.1, kOffUsualPath = 0.03;
 
-/// Shares of the rows of a still tip in which the string may seem too short, and in which it may be slack
-/// though the diabolo does not fall.
-inline constexpr double kMostTooShort = 0.02, kMostHeldUp = 0.1;
-
-/// A clause about a tip that rests to the last digit while the diabolo moves as if it did not: farther than
-/// the string reaches, or held up by a string that would be slack; else empty.
+/// A clause about a tip that rests to the last digit while the diabolo moves as if it did not; else empty. On
+/// a taut string the path over the diabolo has its usual length; off it, or slack, the diabolo falls freely.
 inline std::string odd_still_tips(const Recording& r, const std::vector<Fall>& falls) {
-  constexpr double kReach = 0.03;  // m beyond the usual path, or short of it
   const double usual = usual_path_length(r).value_or(r.string_length);
+  const Eigen::Vector3d gravity(0.0, 0.0, -Parameters<double>{}.gravity);
   std::string sides;
   double longest = 0.0;
   for (const auto& [name, tip] : {std::pair{"left", &r.left}, std::pair{"right", &r.right}}) {
@@ -37,23 +34,15 @@ inline std::string odd_still_tips(const Recording& r, const std::vector<Fall>& f
       if (i - 1 - first > still.second - still.first) still = {first, i - 1};
       first = i;
     }
-    if (r.size() == 0 || !(r.time[still.second] - r.time[still.first] > kLongestStill)) continue;
-    Eigen::Index known = 0, too_far = 0, fitted = 0, held_up = 0;
-    for (Eigen::Index i = still.first; i <= still.second; ++i) {
-      if (!r.left.valid[i] || !r.right.valid[i] || !r.diabolo.valid[i]) continue;
-      ++known;
-      too_far += path_at(r, i).length() > usual + kReach;
-    }
-    const Eigen::Vector3d gravity(0.0, 0.0, -Parameters<double>{}.gravity);
+    if (r.size() == 0 || !(r.time[still.second] - r.time[still.first] > kFewestSeconds)) continue;
+    Eigen::Index fitted = 0, unexplained = 0;
     for (const Fall& fall : falls) {
       if (fall.row < still.first || fall.row > still.second) continue;
       ++fitted;
-      held_up += path_at(r, fall.row).length() < usual - kReach &&
-                 (fall.acceleration - gravity).norm() > 0.5 * gravity.norm();
+      unexplained += std::abs(path_at(r, fall.row).length() - usual) > kOffUsualPath &&
+                     (fall.acceleration - gravity).norm() > 0.5 * gravity.norm();
     }
-    if (static_cast<double>(too_far) <= kMostTooShort * static_cast<double>(known) &&
-        static_cast<double>(held_up) <= kMostHeldUp * static_cast<double>(fitted))
-      continue;
+    if (static_cast<double>(unexplained) <= kMostUnexplained * static_cast<double>(fitted)) continue;
     sides += (sides.empty() ? "" : " and the ") + std::string(name) + " tip";
     longest = std::max(longest, r.time[still.second] - r.time[still.first]);
   }
