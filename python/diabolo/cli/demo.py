@@ -160,7 +160,8 @@ def introduction(takes: list[Recording]) -> str:
     names = " and ".join(take.name for take in takes)
     return (
         f"Recordings: {names}, {seconds_of(takes):.0f} s of play from another simulator, data/plant.\n"
-        f"It knows physics that our base model lacks. What that is stays concealed until the answer is there."
+        "It knows physics that our base model lacks. What that is stays concealed until the answer is there,\n"
+        "in some ten seconds."
     )
 
 
