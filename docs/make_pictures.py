@@ -27,7 +27,7 @@ from PIL import Image
 
 IMAGES = Path(__file__).with_name("images")
 SHOWN = "2020-07-11_basic_physics/right_hand_extend_1.csv"  # in the moving picture; no fit sees it
-BEGIN, SECONDS, FRAMES_PER_SECOND = 1.0, 6.0, 15
+BEGIN, SECONDS, BETWEEN_FRAMES = 1.0, 6.0, 0.07  # real time: GIF counts in hundredths of a second
 ANEW = 1.0  # between the starts of its predictions [s]
 TRAIL = 0.6  # [s]
 INK, SOFT, LEFT, RIGHT = "#111827", "#9ca3af", "#c2410c", "#1d4ed8"
@@ -65,8 +65,8 @@ def draw_take(path: Path, folder: Path) -> None:
         models = {"published simulator": diabolo.Model.named("published"), "diagnosed simulator": diagnosed}
         positions = {name: predict_anew(take, model, ANEW) for name, model in models.items()}
     frames = [
-        image_of(take_figure(take, positions, BEGIN + frame / FRAMES_PER_SECOND))
-        for frame in range(round(SECONDS * FRAMES_PER_SECOND))
+        image_of(take_figure(take, positions, BEGIN + frame * BETWEEN_FRAMES))
+        for frame in range(round(SECONDS / BETWEEN_FRAMES))
     ]
     palette = palette_of(frames[len(frames) // 2])
     first, *rest = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
@@ -74,7 +74,7 @@ def draw_take(path: Path, folder: Path) -> None:
         path,
         save_all=True,
         append_images=rest,
-        duration=round(1000 / FRAMES_PER_SECOND),
+        duration=round(1000 * BETWEEN_FRAMES),
         loop=0,
         optimize=True,
     )

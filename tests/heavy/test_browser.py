@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 
 import diabolo
+import matplotlib.colors
 import matplotlib.image
 import numpy as np
 import pytest
@@ -99,3 +100,24 @@ def test_a_view_plays_and_draws(tmp_path: Path) -> None:
     assert clock is not None, dom[-500:]
     assert float(clock[1]) > 0.0, "the play does not run"
     assert colors(page, 1000) > 20
+
+
+def test_a_replay_shows_each_prediction_in_its_color_beside_the_recording(tmp_path: Path) -> None:
+    take = diabolo.load_recording(RECORDINGS / "puzzle_1.csv")
+    beside = {
+        "above": take.diabolo + np.array([0.0, 0.0, 0.3]),
+        "below": take.diabolo - np.array([0.0, 0.0, 0.1]),
+    }
+    page = tmp_path / "replay.html"
+    html = diabolo.view_html(take, predictions=beside)
+    page.write_text(html.replace("<body>", "<body>" + FRAMES), encoding="utf-8")
+    picture = tmp_path / "replay.png"
+    opened(page, 1200, f"--screenshot={picture}")
+    pixels = matplotlib.image.imread(picture)[..., :3]
+    scenes = pixels[200:600, :600], pixels[200:600, 600:]
+    for scene, own, other in ((scenes[0], "#e11d48", "#059669"), (scenes[1], "#059669", "#e11d48")):
+        near = [
+            (np.abs(scene - matplotlib.colors.to_rgb(color)).max(axis=2) < 0.02).sum()
+            for color in (own, other)
+        ]
+        assert near[0] > 50 and near[1] == 0, near

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import os
 import sys
+import time
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -81,9 +83,17 @@ def run(arguments: argparse.Namespace) -> None:
     quiet = arguments.json == files.STDOUT
     if not quiet:
         print(introduction(takes), flush=True)
+    begin = time.monotonic()
     with progress_steps() as progress:
         diagnosis = diagnose(takes, BASE, progress=progress)
-    answer = diagnosis.to_dict()
+    answer = {
+        **diagnosis.to_dict(),
+        "seconds": time.monotonic() - begin,
+        "inputs": [
+            {"file": path.name, "sha256": hashlib.sha256(path.read_bytes()).hexdigest()} for path in paths
+        ],
+        "model": MODEL_FILE,
+    }
     concealed = concealed_in(paths[0])  # only now: nothing that was diagnosed has seen it
     texts = [
         report_html(answer),
@@ -150,7 +160,8 @@ def introduction(takes: list[Recording]) -> str:
     names = " and ".join(take.name for take in takes)
     return (
         f"Recordings: {names}, {seconds_of(takes):.0f} s of play from another simulator, data/plant.\n"
-        f"It knows physics that our base model lacks. What that is stays concealed until the answer is there."
+        "It knows physics that our base model lacks. What that is stays concealed until the answer is there,\n"
+        "in some ten seconds."
     )
 
 
