@@ -22,7 +22,7 @@ diabolo::TipPath<double> circular_motion(double seconds, double spin) {
   const Predictor<double, StringFriction> model(parameters, effects);
   const double length = model.parameters().string_length;
   const TipColumn<double> home = home_pose(kName, length);
-  Horizon<StringFriction> horizon(model, home, hanging_state(home, length, spin), 0.0);
+  RecedingHorizon<StringFriction> horizon(model, home, hanging_state(home, length, spin), 0.0);
   while (horizon.path().end() < seconds) {
     const Seam seam = horizon.seam_at(horizon.path().end());
     const Action action = action_named(kName, seam.tips, seam.state, length, {.spin = 3.0});

@@ -9,7 +9,7 @@
 
 namespace diabolo {
 
-namespace detail {
+namespace face_detail {
 
 template <class Set>
 struct PredictorWith;
@@ -18,12 +18,12 @@ struct PredictorWith<EffectSet<Scalar, Effects...>> {
   using Type = Predictor<Scalar, Effects...>;
 };
 
-}  // namespace detail
+}  // namespace face_detail
 
 /// The predictor with every effect of the library, for models that are chosen at run time (model files,
 /// Python). With all amplitudes at zero it gives the bits of the plain one.
 template <class Scalar>
-using FullPredictor = typename detail::PredictorWith<AllEffects<Scalar>>::Type;
+using FullPredictor = typename face_detail::PredictorWith<AllEffects<Scalar>>::Type;
 
 /// Gives each effect of `to` the values that it has in `from`, which may know fewer.
 template <class From, class To>

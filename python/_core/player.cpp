@@ -34,10 +34,10 @@ using Path = TipPath<double>;
 template <template <class> class... Effects>
 PlanProblem<Effects...> problem_type(const Predictor<double, Effects...>&);
 template <template <class> class... Effects>
-Horizon<Effects...> horizon_type(const Predictor<double, Effects...>&);
+RecedingHorizon<Effects...> horizon_type(const Predictor<double, Effects...>&);
 using Simulator = FullPredictor<double>;
 using Problem = decltype(problem_type(std::declval<Simulator>()));
-using FullHorizon = decltype(horizon_type(std::declval<Simulator>()));
+using FullRecedingHorizon = decltype(horizon_type(std::declval<Simulator>()));
 
 Column column(const Vector& left, const Vector& right) {
   Column both;
@@ -516,22 +516,23 @@ void bind_plans(py::module_& module) {
           },
           "home_left"_a, "home_right"_a, "model"_a, "others"_a = std::vector<State<double>>(),
           "The action that catches the diabolo, which flies, as it is or as in one of the other states.");
-  py::class_<FullHorizon>(module, "Horizon", R"(Motion that is planned piece by piece while it is played.
+  py::class_<FullRecedingHorizon>(module, "Horizon",
+                                  R"(Motion that is planned piece by piece while it is played.
 
     seam = horizon.seam(now)         # where a plan that is begun now can set in
     piece = ...                      # a plan from seam.state, its seed seam.joined(...)
     horizon.join(seam, piece, now, planning_time)  # False where it comes too late)")
       .def(py::init([](const Model& model, const Vector& left, const Vector& right,
                        const State<double>& state, double begin, const Column& sticks) {
-             return FullHorizon(simulator(model), column(left, right), state, begin, sticks);
+             return FullRecedingHorizon(simulator(model), column(left, right), state, begin, sticks);
            }),
            "model"_a, "left"_a, "right"_a, "state"_a, "begin"_a = 0.0, "sticks"_a = Column(Column::Zero()))
-      .def_property_readonly("path", &FullHorizon::path)
-      .def("observe", &FullHorizon::observe, "time"_a, "state"_a,
+      .def_property_readonly("path", &FullRecedingHorizon::path)
+      .def("observe", &FullRecedingHorizon::observe, "time"_a, "state"_a,
            "Takes over an observed state; predictions begin with the latest one.")
-      .def("seam", &FullHorizon::seam, "now"_a)
-      .def("seam_at", &FullHorizon::seam_at, "time"_a)
-      .def("join", &FullHorizon::join, "seam"_a, "plan"_a, "now"_a, "planning_time"_a);
+      .def("seam", &FullRecedingHorizon::seam, "now"_a)
+      .def("seam_at", &FullRecedingHorizon::seam_at, "time"_a)
+      .def("join", &FullRecedingHorizon::join, "seam"_a, "plan"_a, "now"_a, "planning_time"_a);
 }
 
 }  // namespace

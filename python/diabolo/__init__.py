@@ -14,7 +14,7 @@ from ._core import (
     Goals,
     GravityTilt,
     GyroscopicTilt,
-    Horizon,
+    RecedingHorizon,
     HorizonScore,
     Interval,
     LadderRow,

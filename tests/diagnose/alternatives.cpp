@@ -109,7 +109,7 @@ TEST_CASE("a wrong rate begins where it moves as the wrong scale did") {
   Fit fit;
   const auto take = std::make_shared<Take>();
   take->recording.string_length = 1.4;
-  fit.stages.push_back({take, {}});
+  fit.fit_takes.push_back({take, {}});
   fit.at[index_of(Unknown::kLengthScale)] = -0.03;
   fit.at[index_of(Unknown::kStringLength)] = 0.04;
   const Alternative a = rate_for_scale(fit, with(nuisances(), candidate_of("length_scale")));

@@ -145,7 +145,7 @@ TEST_CASE("a track that went through a low pass is no delay, and no lag of the s
   Vector trail = r.diabolo.position.col(0), before = trail;
   for (Eigen::Index i = 1; i < r.size(); ++i) {
     const Vector now = r.diabolo.position.col(i);
-    trail = detail::low_passed(trail, before, now, 1.0 / kRate, kLag);
+    trail = diagnose_detail::low_passed(trail, before, now, 1.0 / kRate, kLag);
     r.diabolo.position.col(i) = trail;
     before = now;
   }
@@ -212,8 +212,9 @@ TEST_CASE("a force that has no name is left, and its law predicts what was left 
   const Diagnosis d = diagnose({played(effects, 14.0, 8)});  // later it is pushed off
   CAPTURE(d.sentence);
   CHECK(d.headline == Headline::kUnnamedStructure);
-  const auto left = std::ranges::find(d.leftovers, Unknown::kStringBinormal, &Leftover::unknown);
-  REQUIRE(left != d.leftovers.end());
+  const auto left =
+      std::ranges::find(d.unexplained_forces, Unknown::kStringBinormal, &UnexplainedForce::unknown);
+  REQUIRE(left != d.unexplained_forces.end());
   CAPTURE(left->law.scalar, left->law.exponent, left->law.deviation, left->law.at, left->law.value);
   CHECK(left->law.scalar == "speed");
   CHECK(std::abs(left->law.exponent - 2.0) < 3.0 * left->law.deviation + 0.1);
@@ -236,8 +237,8 @@ TEST_CASE("a force that grows is found where a constant one, or a tilt, would st
     CAPTURE(f.candidate->name, f.z);
     CHECK_FALSE(f.claimed);
   }
-  REQUIRE_FALSE(d.leftovers.empty());
-  const Leftover& left = d.leftovers.front();
+  REQUIRE_FALSE(d.unexplained_forces.empty());
+  const UnexplainedForce& left = d.unexplained_forces.front();
   CAPTURE(left.law.scalar, left.law.exponent, left.law.deviation, left.value, left.deviation);
   CHECK(left.unknown == Unknown::kStringTangent);
   CHECK(left.in_model);
@@ -246,11 +247,12 @@ TEST_CASE("a force that grows is found where a constant one, or a tilt, would st
 }
 
 TEMPLATE_TEST_CASE("by the unknowns that are carried, derivatives are as by all; by the others they are zero",
-                   "", (detail::Shortened<detail::FitDual, 8>), (detail::Shortened<detail::FitDual, 32>),
-                   (detail::Shortened<detail::FitDual, 40>)) {
+                   "", (diagnose_detail::Shortened<diagnose_detail::FitDual, 8>),
+                   (diagnose_detail::Shortened<diagnose_detail::FitDual, 32>),
+                   (diagnose_detail::Shortened<diagnose_detail::FitDual, 40>)) {
   AllEffects<double> effects;
   effects.get<StringFriction>().coefficient = 0.1;
-  Fit fit = detail::prepared({played(effects, 3.0, 9)}, consistent_model());
+  Fit fit = diagnose_detail::prepared({played(effects, 3.0, 9)}, consistent_model());
   for (const auto& [u, value] : {std::pair{Unknown::kFriction, 0.1},
                                  {Unknown::kLinearDrag, 0.05},
                                  {Unknown::kCompliance, 1e-3},
@@ -261,8 +263,8 @@ TEMPLATE_TEST_CASE("by the unknowns that are carried, derivatives are as by all;
   for (const Unknown u : {Unknown::kFriction, Unknown::kCompliance, Unknown::kDamping, Unknown::kLag})
     carried[index_of(u)] = true;
   if (TestType::Gradient::SizeAtCompileTime == 8) carried.setConstant(false);  // starts alone
-  look(fit, consistent_model(), 2);
-  look_by<TestType>(few, consistent_model(), carried, 2, {});
+  linearize(fit, consistent_model(), 2);
+  linearize_by<TestType>(few, consistent_model(), carried, 2, {});
   REQUIRE(few.systems.size() >= 4);
   CHECK(few.cost == Approx(fit.cost).epsilon(1e-12));
   const auto is_carried = [&](Eigen::Index c) {
@@ -291,8 +293,8 @@ TEMPLATE_TEST_CASE("by the unknowns that are carried, derivatives are as by all;
 TEST_CASE("a fit that begins far off ends with the noise that it leaves") {
   AllEffects<double> effects;
   effects.get<StringFriction>().coefficient = 0.1;
-  Fit fit = detail::prepared({played(effects, 6.0, 10)}, consistent_model());
-  for (FitWindow& window : fit.stages.front().windows) window.start.velocity += Vector(0.3, -0.2, 0.2);
+  Fit fit = diagnose_detail::prepared({played(effects, 6.0, 10)}, consistent_model());
+  for (FitWindow& window : fit.fit_takes.front().windows) window.start.velocity += Vector(0.3, -0.2, 0.2);
   refine(fit, consistent_model(), with(nuisances(), candidate_of("string_friction")), 2 * kMostIterations, 2);
   CHECK(std::abs(fit.usual - 1.0) < kNoiseSettled);
   CHECK(fit.noise.front().position > 0.7 * kNoise);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "diabolo/diagnose/stage.hpp"
+#include "diabolo/diagnose/fit_take.hpp"
 
 using namespace diabolo;
 
@@ -14,8 +14,8 @@ constexpr double kStep = 2e-3;
 
 /// Tips that are told to follow `path(t)`, left and right alike, at each substep.
 template <class Path>
-std::vector<StageTips> commanded(const Path& path, int count) {
-  std::vector<StageTips> grid(static_cast<std::size_t>(count));
+std::vector<FitTips> commanded(const Path& path, int count) {
+  std::vector<FitTips> grid(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < grid.size(); ++k) {
     const double t = static_cast<double>(k) * kStep, h = 1e-5;
     grid[k].tips.left = grid[k].tips.right = path(t);
@@ -30,7 +30,7 @@ const Vector3<double> kBegin(0.1, 0.3, 1.2), kSpeed(0.4, -0.2, 0.1);
 
 TEST_CASE("tips that lag are tau behind a straight command") {
   const double tau = 0.03;
-  std::vector<StageTips> grid = commanded([](double t) { return Vector3<double>(kBegin + kSpeed * t); }, 200);
+  std::vector<FitTips> grid = commanded([](double t) { return Vector3<double>(kBegin + kSpeed * t); }, 200);
   lag_behind(grid, kStep, tau);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     const double t = static_cast<double>(k) * kStep;
@@ -43,7 +43,7 @@ TEST_CASE("tips that lag are tau behind a straight command") {
 
 TEST_CASE("of a swing a lag passes the amplitude and phase of a low pass of first order") {
   const double tau = 0.025, omega = 2.0 * std::numbers::pi * 2.0;
-  std::vector<StageTips> grid =
+  std::vector<FitTips> grid =
       commanded([&](double t) { return Vector3<double>(kBegin + kSpeed * std::sin(omega * t)); }, 1000);
   lag_behind(grid, kStep, tau);
   const double gain = 1.0 / std::hypot(1.0, omega * tau), phase = std::atan(omega * tau);
@@ -60,7 +60,7 @@ TEST_CASE("what a longer lag changes is what its derivatives say") {
                            Vector3<double>(0.0, 0.1, 0.2) * std::cos(4.0 * t));
   };
   const double tau = 0.02, more = 1e-5;
-  std::vector<StageTips> grid = commanded(path, 300), shorter = grid, longer = grid;
+  std::vector<FitTips> grid = commanded(path, 300), shorter = grid, longer = grid;
   lag_behind(grid, kStep, tau);
   lag_behind(shorter, kStep, tau - more);
   lag_behind(longer, kStep, tau + more);

@@ -30,10 +30,11 @@ std::vector<Proposal> proposed(std::string_view claim, const std::string& other,
                                double value) {
   const Model physics = consistent_model();
   const MotionPart& part = experiments()[2].parts.front();
-  UnknownVector at = detail::prepared({imagined(part, physics, camera())}, physics).centre;
+  UnknownVector at = diagnose_detail::prepared({imagined(part, physics, camera())}, physics).centre;
   at[index_of(unknown)] = value;
   at[index_of(Unknown::kStickDamping)] = 5.0;
-  Fit fit = detail::prepared({imagined(part, augmented_model(physics, at, "truth"), camera())}, physics);
+  Fit fit =
+      diagnose_detail::prepared({imagined(part, augmented_model(physics, at, "truth"), camera())}, physics);
   fit.at = at;
   fit.noise.front() = {4e-4, 0.5};
   fit.noise_is_known = true;
@@ -54,7 +55,7 @@ TEST_CASE("every part of a motion can be simulated and seen, whatever the string
         const Recording r = imagined(part, consistent_model(), like);
         CHECK(r.diabolo.position.allFinite());
         CHECK(static_cast<double>(r.size()) / r.rate == Approx(part.seconds).margin(0.02));
-        CHECK(make_stage(r).windows.size() >= 1);
+        CHECK(make_fit_take(r).windows.size() >= 1);
       }
 }
 

@@ -49,8 +49,8 @@ TEST_CASE("no point of the box is nearer than the one that counts") {
 TEST_CASE("one number alone that is weak does not carry others that are strong, but small") {
   // A centre: 5 +- 2 mm along the axle, and 0.2 +- 0.01 mm off it; the floor is 0.5 mm.
   const Candidate& marker = candidate_of("marker_offset");
-  Standing standing{UnknownVector::Zero(), Eigen::MatrixXd::Zero(kUnknowns, kUnknowns),
-                    Eigen::MatrixXd::Zero(kUnknowns, kUnknowns)};
+  Estimates standing{UnknownVector::Zero(), Eigen::MatrixXd::Zero(kUnknowns, kUnknowns),
+                     Eigen::MatrixXd::Zero(kUnknowns, kUnknowns)};
   constexpr int kX = index_of(Unknown::kMarkerX), kY = index_of(Unknown::kMarkerY);
   standing.estimate[kX] = 5e-3;
   standing.estimate[kY] = 2e-4;

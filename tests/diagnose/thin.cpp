@@ -28,13 +28,13 @@ std::vector<UnknownVector> play() {
   return result;
 }
 
-std::vector<Stage> stages_of(const std::vector<int>& counts) {
-  std::vector<Stage> stages;
+std::vector<FitTake> takes_of(const std::vector<int>& counts) {
+  std::vector<FitTake> fit_takes;
   for (const int count : counts) {
-    stages.emplace_back();
-    for (int w = 0; w < count; ++w) stages.back().windows.push_back({w, w + 1, {}});
+    fit_takes.emplace_back();
+    for (int w = 0; w < count; ++w) fit_takes.back().windows.push_back({w, w + 1, {}});
   }
-  return stages;
+  return fit_takes;
 }
 
 }  // namespace
@@ -73,12 +73,12 @@ TEST_CASE("evenly spread windows keep their distance") {
 }
 
 TEST_CASE("windows are kept by their number, take after take") {
-  std::vector<Stage> stages = stages_of({3, 0, 4});
-  keep_windows(stages, {1, 2, 3, 6});
-  REQUIRE(stages[0].windows.size() == 2);
-  CHECK(stages[0].windows[0].first == 1);
-  CHECK(stages[1].windows.empty());
-  REQUIRE(stages[2].windows.size() == 2);
-  CHECK(stages[2].windows[0].first == 0);
-  CHECK(stages[2].windows[1].first == 3);
+  std::vector<FitTake> fit_takes = takes_of({3, 0, 4});
+  keep_windows(fit_takes, {1, 2, 3, 6});
+  REQUIRE(fit_takes[0].windows.size() == 2);
+  CHECK(fit_takes[0].windows[0].first == 1);
+  CHECK(fit_takes[1].windows.empty());
+  REQUIRE(fit_takes[2].windows.size() == 2);
+  CHECK(fit_takes[2].windows[0].first == 0);
+  CHECK(fit_takes[2].windows[1].first == 3);
 }

@@ -116,10 +116,10 @@ TEST_CASE("limits that the seed broke, but the plan is far from, are told apart 
   const LimitUse near{"speed", 3.9, 4.0, "m/s", 0.5, -0.025},
       far{"acceleration", 20.0, 60.0, "m/s^2", 0.2, -0.67},
       broken{"acceleration", 80.0, 60.0, "m/s^2", 0.2, 0.33}, unused{"jerk", 1.0, 9.0, "m/s^3", 0.0, -0.9};
-  CHECK(detail::binding_limits({near, far, unused}, {{near, broken, unused}}) ==
+  CHECK(plan_detail::binding_limits({near, far, unused}, {{near, broken, unused}}) ==
         "; what binds: speed (3.9 of 4 m/s at 0.5 s); made smaller for: acceleration (20 of 60 m/s^2 at 0.2 "
         "s)");
-  CHECK(detail::binding_limits({far, unused}, {{far, unused}}).empty());
+  CHECK(plan_detail::binding_limits({far, unused}, {{far, unused}}).empty());
 }
 
 TEST_CASE("the random walk stays within its reach of the seed") {

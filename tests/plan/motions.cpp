@@ -8,23 +8,24 @@ using namespace diabolo;
 using Catch::Matchers::Contains;
 
 TEST_CASE("the authors' motions pass through the points that they gave") {
-  const TipColumn<double> linear_home = detail::tips_column(0.55, 0.1, 1.47, -0.1, 1.07);
+  const TipColumn<double> linear_home = plan_detail::tips_column(0.55, 0.1, 1.47, -0.1, 1.07);
   const TipPath<double> linear = path_of(authors_linear_acceleration(linear_home, 1.0, 1.0));
   CHECK(linear.end() == Approx(1.2));
   CHECK(linear.at(0.5).right.z() == Approx(1.47));
   CHECK(linear.at(0.25).left.y() == Approx(0.05));
   CHECK((linear.at(1.2).left - linear.at(0.0).left).norm() < 1e-12);
-  const TipColumn<double> circle_home = detail::tips_column(0.55, 0.21, 1.27, -0.28, 1.27);
+  const TipColumn<double> circle_home = plan_detail::tips_column(0.55, 0.21, 1.27, -0.28, 1.27);
   const TipPath<double> circle = path_of(authors_circular_acceleration(circle_home, 1.0, 1.0));
   CHECK(circle.end() == Approx(1.85));
   CHECK(circle.at(0.95).left.y() == Approx(0.4719));
   CHECK(circle.at(1.25).left.z() == Approx(1.42914));
   CHECK(circle.at(1.55).right.z() == Approx(1.194));
-  const TipPath<double> thrown = path_of(authors_throw(detail::tips_column(0.55, 0.05, 1.25, -0.05, 1.25)));
+  const TipPath<double> thrown =
+      path_of(authors_throw(plan_detail::tips_column(0.55, 0.05, 1.25, -0.05, 1.25)));
   CHECK(thrown.end() == Approx(0.92));
   CHECK((thrown.at(0.92).left - thrown.at(0.92).right).norm() == Approx(1.562));
   const TipPath<double> sway =
-      path_of(authors_horizontal_impulse(detail::tips_column(0.55, 0.05, 1.25, -0.05, 1.25)));
+      path_of(authors_horizontal_impulse(plan_detail::tips_column(0.55, 0.05, 1.25, -0.05, 1.25)));
   CHECK(sway.at(1.4).left.y() - sway.at(1.4).right.y() == Approx(0.1));
   CHECK(sway.at(2.0).left.y() == Approx(-0.07));
 }
@@ -38,7 +39,7 @@ TEST_CASE("the authors' goals of a circle are theirs on a string of their length
 }
 
 TEST_CASE("the authors' throw never leaves the string by the published rules, which lose momentum") {
-  const TipColumn<double> home = detail::tips_column(0.55, 0.05, 1.25, -0.05, 1.25);
+  const TipColumn<double> home = plan_detail::tips_column(0.55, 0.05, 1.25, -0.05, 1.25);
   const TipPath<double> path = path_of(authors_throw(home));
   double fastest[2] = {0.0, 0.0};
   for (const bool consistent : {false, true}) {

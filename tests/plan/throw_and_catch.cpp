@@ -114,7 +114,7 @@ TEST_CASE("what does not fly is not caught") {
 TEST_CASE("pieces join with the same position, velocity and acceleration, from the predicted state") {
   const TipColumn<double> home = home_pose("swing", kLength);
   const State<double> hanging = hanging_state(home, kLength, 100.0);
-  Horizon<> horizon(kModel, home, hanging, 0.0);
+  RecedingHorizon<> horizon(kModel, home, hanging, 0.0);
   const auto plan_from = [&](const Seam& seam) {
     const Action action = action_named("swing", home, seam.state, kLength, {});
     const PlanProblem<> problem{{kModel},     seam.state,  joined_at(seam, action.seed),
@@ -139,7 +139,7 @@ TEST_CASE("pieces join with the same position, velocity and acceleration, from t
 TEST_CASE("a plan that comes too late changes nothing, and the tips end at rest") {
   const TipColumn<double> home = home_pose("swing", kLength);
   const State<double> hanging = hanging_state(home, kLength, 100.0);
-  Horizon<> horizon(kModel, home, hanging, 0.0);
+  RecedingHorizon<> horizon(kModel, home, hanging, 0.0);
   const Seam seam = horizon.seam(0.5);
   const Action action = action_named("swing", home, seam.state, kLength, {});
   const PlanProblem<> problem{{kModel},     seam.state,  joined_at(seam, action.seed),
@@ -150,7 +150,7 @@ TEST_CASE("a plan that comes too late changes nothing, and the tips end at rest"
   CHECK(horizon.path().end() == end);
   CHECK(horizon.seam(1.0).time == Approx(1.0 + 1.3 * 0.2));
   State<double> seen = hanging;
-  Horizon<> observed = horizon;
+  RecedingHorizon<> observed = horizon;
   observed.observe(seam.time + 0.5, seen);
   CHECK_FALSE(observed.join(seam, plan, seam.time - 0.01, 0.02));  // what was seen is over
   CHECK(horizon.join(seam, plan, seam.time - 0.01, 0.02));
@@ -160,7 +160,7 @@ TEST_CASE("a plan that comes too late changes nothing, and the tips end at rest"
 TEST_CASE("a plan may set in where the horizon begins, and must end at rest") {
   const TipColumn<double> home = home_pose("swing", kLength);
   const State<double> hanging = hanging_state(home, kLength, 100.0);
-  Horizon<> horizon(kModel, home, hanging, 3.0);
+  RecedingHorizon<> horizon(kModel, home, hanging, 3.0);
   Seam seam = horizon.seam_at(3.0);
   const Action action = action_named("swing", home, seam.state, kLength, {});
   Plan plan;
@@ -182,7 +182,7 @@ TEST_CASE("a plan may set in where the horizon begins, and must end at rest") {
 
 TEST_CASE("an observed state takes the place of the predicted one") {
   const TipColumn<double> home = home_pose("swing", kLength);
-  Horizon<> horizon(kModel, home, hanging_state(home, kLength, 100.0), 0.0);
+  RecedingHorizon<> horizon(kModel, home, hanging_state(home, kLength, 100.0), 0.0);
   State<double> seen = hanging_state(home, kLength, 80.0);
   seen.velocity.y() = 0.5;
   horizon.observe(1.0, seen);

@@ -300,7 +300,7 @@ def test_success_rate_tells_robust_from_fragile() -> None:
 def test_horizon_joins_pieces() -> None:
     start, seed = swing()
     left, right = seed.left[0], seed.right[0]
-    horizon = diabolo.Horizon(Model(Parameters()), left, right, start)
+    horizon = diabolo.RecedingHorizon(Model(Parameters()), left, right, start)
     seam = horizon.seam(0.5)
     goals = Goals(final_state=Waypoint([0.5, 0.1, start.position[2]]))
     piece = diabolo.plan(seam.state, seam.joined(seed), goals)
@@ -319,7 +319,7 @@ def test_horizon_joins_pieces() -> None:
     with pytest.raises(ValueError, match="time of the observation: inf s"):
         horizon.observe(math.inf, start)
     with pytest.raises(ValueError, match="the tips: nan m"):
-        diabolo.Horizon(Model(Parameters()), [math.nan] * 3, right, start)
+        diabolo.RecedingHorizon(Model(Parameters()), [math.nan] * 3, right, start)
 
 
 @pytest.mark.parametrize("weight", [math.nan, math.inf, -1.0])

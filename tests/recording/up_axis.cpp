@@ -14,9 +14,9 @@ namespace {
 Recording written_with(const Recording& r, const UpAxis& up) {
   const Eigen::Matrix3d turn = turn_to_z_up(up).transpose();
   Recording result = r;
-  detail::turn_frame(turn, result.left.position, result.left_orientation.quaternion);
-  detail::turn_frame(turn, result.right.position, result.right_orientation.quaternion);
-  detail::turn_frame(turn, result.diabolo.position, result.diabolo_orientation.quaternion);
+  recording_formats_detail::turn_frame(turn, result.left.position, result.left_orientation.quaternion);
+  recording_formats_detail::turn_frame(turn, result.right.position, result.right_orientation.quaternion);
+  recording_formats_detail::turn_frame(turn, result.diabolo.position, result.diabolo_orientation.quaternion);
   return result;
 }
 
@@ -78,7 +78,8 @@ TEST_CASE("The real takes are read as before, and turned ones are refused by the
   MotiveTake y_up = take;
   Eigen::Matrix4Xd none(4, 0);
   for (MotiveBody& body : y_up.bodies)
-    detail::turn_frame(turn_to_z_up({2, false}).transpose(), body.position, body.quaternion);
+    recording_formats_detail::turn_frame(turn_to_z_up({2, false}).transpose(), body.position,
+                                         body.quaternion);
   const Calibration calibration = published_calibration();
   const std::string said =
       complaint([&] { check_up(apply(calibration, y_up), calibration.world_yaw, "z_hop_1.csv"); });

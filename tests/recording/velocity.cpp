@@ -42,7 +42,7 @@ TEST_CASE("The two-point rule is the published one") {
 }
 
 TEST_CASE("A local polynomial is exact for motions of its degree") {
-  for (const Window window : {Window::kCausal, Window::kCentred})
+  for (const FilterWindow window : {FilterWindow::kCausal, FilterWindow::kCentred})
     for (int degree = 1; degree <= 5; ++degree)
       for (const int frames : {degree + 1 + degree % 2, 9, 21}) {
         INFO(degree << " over " << frames);
@@ -61,7 +61,7 @@ TEST_CASE("A local polynomial is exact for motions of its degree") {
 }
 
 TEST_CASE("A causal window uses no frame after its sample") {
-  const VelocityFilter filter = local_polynomial(7, 2, Window::kCausal);
+  const VelocityFilter filter = local_polynomial(7, 2, FilterWindow::kCausal);
   Recording recording = sampled(30, [](double t) { return Eigen::Vector3d(std::sin(9.0 * t), t, 0.0); });
   const Velocity before = diabolo_velocity(recording, filter);
   recording.diabolo.position.rightCols(10).array() += 1.0;
@@ -73,7 +73,7 @@ TEST_CASE("A causal window uses no frame after its sample") {
 }
 
 TEST_CASE("A local polynomial of three centred frames is the central difference") {
-  const VelocityFilter polynomial = local_polynomial(3, 2, Window::kCentred),
+  const VelocityFilter polynomial = local_polynomial(3, 2, FilterWindow::kCentred),
                        difference = central_difference();
   CHECK(polynomial.first == difference.first);
   CHECK((polynomial.weight - difference.weight).norm() < 1e-14);
@@ -83,8 +83,8 @@ TEST_CASE("Stated bandwidths are where sine waves come through at -3 dB") {
   CHECK(forward_difference().bandwidth(120.0) == Approx(0.4429 * 120.0).epsilon(1e-3));
   CHECK(central_difference().bandwidth(120.0) == Approx(0.2215 * 120.0).epsilon(1e-3));
   for (const VelocityFilter& filter :
-       {forward_difference(), central_difference(), local_polynomial(7, 2, Window::kCentred),
-        local_polynomial(9, 2, Window::kCausal), local_polynomial(5, 1, Window::kCausal)}) {
+       {forward_difference(), central_difference(), local_polynomial(7, 2, FilterWindow::kCentred),
+        local_polynomial(9, 2, FilterWindow::kCausal), local_polynomial(5, 1, FilterWindow::kCausal)}) {
     const double bandwidth = filter.bandwidth(120.0), omega = 2.0 * std::numbers::pi * bandwidth;
     INFO("bandwidth " << bandwidth << " Hz");
     REQUIRE(bandwidth < 60.0);
@@ -108,8 +108,8 @@ TEST_CASE("Stated noise gains are what white noise gives") {
     return Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
   });
   for (const VelocityFilter& filter :
-       {forward_difference(), central_difference(), local_polynomial(9, 2, Window::kCentred),
-        local_polynomial(9, 2, Window::kCausal)}) {
+       {forward_difference(), central_difference(), local_polynomial(9, 2, FilterWindow::kCentred),
+        local_polynomial(9, 2, FilterWindow::kCausal)}) {
     double sum = 0.0;
     Eigen::Index count = 0;
     const Velocity result = diabolo_velocity(noise, filter);
@@ -124,9 +124,9 @@ TEST_CASE("Stated noise gains are what white noise gives") {
 TEST_CASE("Stated delays are those of slow motions") {
   CHECK(forward_difference().delay(120.0) == Approx(-0.5 / 120.0));
   CHECK(central_difference().delay(120.0) == Approx(0.0).margin(1e-15));
-  CHECK(local_polynomial(9, 2, Window::kCausal).delay(120.0) == Approx(0.0).margin(1e-12));
-  CHECK(local_polynomial(9, 1, Window::kCausal).delay(120.0) == Approx(4.0 / 120.0));
-  const VelocityFilter late = local_polynomial(9, 1, Window::kCausal);
+  CHECK(local_polynomial(9, 2, FilterWindow::kCausal).delay(120.0) == Approx(0.0).margin(1e-12));
+  CHECK(local_polynomial(9, 1, FilterWindow::kCausal).delay(120.0) == Approx(4.0 / 120.0));
+  const VelocityFilter late = local_polynomial(9, 1, FilterWindow::kCausal);
   const Recording speeding = sampled(40, [](double t) { return Eigen::Vector3d(0.5 * t * t, 0.0, 0.0); });
   const Velocity result = diabolo_velocity(speeding, late);
   CHECK(result.velocity(0, 20) == Approx(speeding.time[20] - late.delay(120.0)));
@@ -137,8 +137,8 @@ TEST_CASE("A dropout or gap anywhere in the window leaves no estimate") {
   recording.diabolo.valid[10] = false;
   recording.diabolo.position.col(10).setConstant(kNaN);
   recording.time.tail(15).array() += 2.0 / 120.0;  // a gap between samples 24 and 25
-  const Velocity causal = diabolo_velocity(recording, local_polynomial(5, 2, Window::kCausal));
-  const Velocity centred = diabolo_velocity(recording, local_polynomial(5, 2, Window::kCentred));
+  const Velocity causal = diabolo_velocity(recording, local_polynomial(5, 2, FilterWindow::kCausal));
+  const Velocity centred = diabolo_velocity(recording, local_polynomial(5, 2, FilterWindow::kCentred));
   for (Eigen::Index i = 0; i < 40; ++i) {
     INFO("sample " << i);
     CHECK(causal.valid[i] == (i >= 4 && !(i >= 10 && i <= 14) && !(i >= 25 && i <= 28)));
@@ -148,10 +148,10 @@ TEST_CASE("A dropout or gap anywhere in the window leaves no estimate") {
 }
 
 TEST_CASE("Windows that cannot be fitted are refused") {
-  CHECK_THROWS_AS(local_polynomial(2, 2, Window::kCausal), std::invalid_argument);
-  CHECK_THROWS_AS(local_polynomial(5, 0, Window::kCausal), std::invalid_argument);
-  CHECK_THROWS_AS(local_polynomial(100, 9, Window::kCausal), std::invalid_argument);
-  CHECK_THROWS_AS(local_polynomial(4, 2, Window::kCentred), std::invalid_argument);
+  CHECK_THROWS_AS(local_polynomial(2, 2, FilterWindow::kCausal), std::invalid_argument);
+  CHECK_THROWS_AS(local_polynomial(5, 0, FilterWindow::kCausal), std::invalid_argument);
+  CHECK_THROWS_AS(local_polynomial(100, 9, FilterWindow::kCausal), std::invalid_argument);
+  CHECK_THROWS_AS(local_polynomial(4, 2, FilterWindow::kCentred), std::invalid_argument);
   const Recording recording = sampled(5, [](double t) { return Eigen::Vector3d(t, t, t); });
   CHECK_THROWS_AS(velocity(recording, Track::missing(4), central_difference()), RecordingError);
 }

@@ -113,7 +113,7 @@ class Player:
         self.begin()
 
     def begin(self) -> None:
-        self.horizon = diabolo.Horizon(self.models[0], self.left, self.right, self.start, 0.0, STICKS)
+        self.horizon = diabolo.RecedingHorizon(self.models[0], self.left, self.right, self.start, 0.0, STICKS)
         self.longest_planning = 0.0
 
     @property

@@ -71,7 +71,7 @@ BatchKernel portable_batch_kernel() {
   return {Lanes, &run_lanes<Pack<double, Lanes>>, "portable"};
 }
 
-namespace detail {
+namespace batch_detail {
 
 /// Rollouts [first, last) of a batch, one after the other in groups of the kernel's lanes.
 class BatchWorker {
@@ -145,7 +145,7 @@ class BatchWorker {
   std::vector<StringState> spare_record_states_;
 };
 
-}  // namespace detail
+}  // namespace batch_detail
 
 /// Runs a batch with a kernel on some threads (0: one for every processor). A rollout's result depends
 /// neither on the number of threads nor on its neighbours. Once `cancel` is set it returns within some
@@ -162,7 +162,7 @@ inline BatchResult rollout_batch(const Batch& batch, const BatchKernel& kernel, 
   const std::size_t lanes = static_cast<std::size_t>(kernel.lanes);
   const std::size_t share = std::max<std::size_t>(1, parts(parts(n, lanes), thread_count(threads))) * lanes;
   for_each_index(parts(n, share), threads, {}, [&](std::size_t i) {
-    detail::BatchWorker(batch, kernel, result).run(i * share, std::min((i + 1) * share, n), cancel);
+    batch_detail::BatchWorker(batch, kernel, result).run(i * share, std::min((i + 1) * share, n), cancel);
   });
   return result;
 }

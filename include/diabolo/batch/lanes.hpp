@@ -37,7 +37,7 @@ struct BatchKernel {
   const char* instruction_set;
 };
 
-namespace detail {
+namespace batch_detail {
 
 template <class Pack, class Get>
 Pack gather(Get&& get) {
@@ -160,18 +160,19 @@ void run_with(const P& predictor, const LaneBlock& block) {
   scatter_state(state, block);
 }
 
-}  // namespace detail
+}  // namespace batch_detail
 
 /// The kernel for a Pack of doubles. Where no effect is at work a predictor that knows none does the same,
 /// bit for bit, and does not ask at every step.
 template <class Pack>
 void run_lanes(const LaneBlock& block) {
-  const Parameters<Pack> parameters = detail::gather_parameters<Pack>(block);
-  const AllEffects<Pack> effects = detail::gather_effects<Pack>(block);
+  const Parameters<Pack> parameters = batch_detail::gather_parameters<Pack>(block);
+  const AllEffects<Pack> effects = batch_detail::gather_effects<Pack>(block);
   if (effects.neutral())
-    detail::run_with<Pack>(Predictor<Pack>(parameters, {}, typename Predictor<Pack>::AlreadyValid{}), block);
+    batch_detail::run_with<Pack>(Predictor<Pack>(parameters, {}, typename Predictor<Pack>::AlreadyValid{}),
+                                 block);
   else
-    detail::run_with<Pack>(
+    batch_detail::run_with<Pack>(
         FullPredictor<Pack>(parameters, effects, typename FullPredictor<Pack>::AlreadyValid{}), block);
 }
 

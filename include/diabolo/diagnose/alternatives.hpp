@@ -32,7 +32,7 @@ struct Alternative {
 };
 
 /// What took a claim's place, or kept it, and what does as well.
-struct Exchange {
+struct Replacement {
   std::string_view name;               ///< of the best
   std::vector<std::string> tied_with;  ///< others that do as well
   double z = 0.0;  ///< by how much the claim that it replaced is worse [standard deviations]
@@ -58,7 +58,7 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
 /// Whether wraps of the string are worth a trial, which multiply friction by three to five: it rubs no less
 /// than three times what the smoothest string does, on a spin that was seen.
 inline bool may_be_wrapped(const Fit& fit) {
-  return fit.at[index_of(Unknown::kWraps)] == 0.0 && std::ranges::all_of(fit.stages, has_spin) &&
+  return fit.at[index_of(Unknown::kWraps)] == 0.0 && std::ranges::all_of(fit.fit_takes, has_spin) &&
          fit.at[index_of(Unknown::kFriction)] > 0.1;
 }
 
@@ -88,7 +88,7 @@ inline Alternative rate_for_scale(const Fit& fit, const ActiveSet& set) {
   result.set[index_of(Unknown::kGravity)] = true;
   const double scale = fit.at[index_of(Unknown::kLengthScale)];
   double& length = result.at[index_of(Unknown::kStringLength)];
-  length += scale * (fit.stages.front().take->recording.string_length + length);
+  length += scale * (fit.fit_takes.front().take->recording.string_length + length);
   result.at[index_of(Unknown::kGravity)] = scale * kStandardGravity;
   return result;
 }
@@ -166,9 +166,9 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
 /// as any (one that may be there and does is a tie), the one that needs the fewest; then a fault stays what
 /// it is, the others being rarer, and physics is what leaves least. `draft` holds what is claimed before;
 /// `fit`, `bank` and `set` are moved to what is best.
-template <class D = detail::FitDual>
-std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
-                                      const Model& base, int threads, const FitWatch& watch) {
+template <class D = diagnose_detail::FitDual>
+std::vector<Replacement> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
+                                         const Model& base, int threads, const FitWatch& watch) {
   struct Option {
     std::string_view name;
     Fit fit;
@@ -176,7 +176,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
     std::ptrdiff_t explanations;
     bool sure;
   };
-  std::vector<Exchange> result;
+  std::vector<Replacement> result;
   const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
     return f.claimed && !alternatives_to(f.candidate->name, fit, set).empty();
   });
@@ -184,7 +184,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
   Fit before = fit;
   if (any) {
     descend<D>(fit, base, set, kMostIterations, threads, watch);
-    look<D>(fit, base, threads, watch);
+    linearize<D>(fit, base, threads, watch);
   }
   for (const Finding& finding : draft.findings) {
     if (!finding.claimed || watch.is_enough()) continue;
@@ -212,7 +212,7 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       const Candidate& young = candidate_of(other.name);
       bool sure = true;
       if (is_in(other.set, young)) {
-        const Standing now = standing(Evidence(trial), other.set);
+        const Estimates now = estimates_of(Evidence(trial), other.set);
         const double z = significance(young, now);
         if ((young.positive ? z : std::abs(z)) < kMayBe) continue;
         sure = speaks_for(young, z);
@@ -241,7 +241,8 @@ std::vector<Exchange> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, cons
       const bool rarer = fault || option.fit.at[index_of(Unknown::kWraps)] > 0.0;
       return std::tuple(!option.sure, option.explanations, rarer && option.name != name, option.fit.cost);
     });
-    Exchange exchange{best.name, {}, std::sqrt(std::max(0.0, before_cost - best.fit.cost) / fit.dispersion)};
+    Replacement exchange{
+        best.name, {}, std::sqrt(std::max(0.0, before_cost - best.fit.cost) / fit.dispersion)};
     for (const Option& option : options)
       if (option.name != best.name) exchange.tied_with.emplace_back(option.name);
     bank = exchanged(std::move(bank), name, best.name);

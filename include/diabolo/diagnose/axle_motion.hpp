@@ -20,26 +20,26 @@ struct AxleWindow {
 };
 
 /// Predicts a window's axle and compares it with the recorded one.
-inline AxleWindow axle_window(const Stage& stage, const TipMotion<double>& motion, const FitWindow& window,
-                              const FullPredictor<double>& predictor, double scale) {
+inline AxleWindow axle_window(const FitTake& fit_take, const TipMotion<double>& motion,
+                              const FitWindow& window, const FullPredictor<double>& predictor, double scale) {
   State<double> state = window.start;
   state.position /= scale;
   state.velocity /= scale;
-  state.axis = stage.take->axis.col(window.first);
+  state.axis = fit_take.take->axis.col(window.first);
   const Vector3<double> begin = state.axis;
   Eigen::Matrix3Xd predicted(3, window.last - window.first + 1), seen = predicted;
   Eigen::Index rows = 0;
   std::size_t hint = 0;
-  Tips<double> now = motion.at(stage.take->times[window.first], hint);
+  Tips<double> now = motion.at(fit_take.take->times[window.first], hint);
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
-    if (stage.take->recording.diabolo_orientation.valid[row]) {
+    if (fit_take.take->recording.diabolo_orientation.valid[row]) {
       predicted.col(rows) = state.axis - begin;
-      seen.col(rows++) = stage.take->axis.col(row);
+      seen.col(rows++) = fit_take.take->axis.col(row);
     }
     if (row == window.last) break;
-    const double dt = (stage.take->times[row + 1] - stage.take->times[row]) / stage.take->substeps;
-    for (int s = 1; s <= stage.take->substeps; ++s) {
-      const Tips<double> next = motion.at(stage.take->times[row] + s * dt, hint);
+    const double dt = (fit_take.take->times[row + 1] - fit_take.take->times[row]) / fit_take.take->substeps;
+    for (int s = 1; s <= fit_take.take->substeps; ++s) {
+      const Tips<double> next = motion.at(fit_take.take->times[row] + s * dt, hint);
       predictor.step(state, now, next, dt);
       now = next;
     }
@@ -58,16 +58,16 @@ inline Finding find_axle_motion(const Fit& fit, const Model& found) {
   const double scale = 1.0 + fit.at[index_of(Unknown::kLengthScale)];
   Model turning = found;
   turning.effects.get<GyroscopicTilt>().gain = 1.0;
-  std::size_t first = 0;  // of the stage's windows among all
-  for (const Stage& stage : fit.stages) {
-    const std::size_t begin = std::exchange(first, first + stage.windows.size());
-    if (!stage.take->has_orientation || !stage.take->has_spin) continue;
-    const Recording recording = corrected(stage.take->recording, fit.at);
+  std::size_t first = 0;  // of the take's windows among all
+  for (const FitTake& fit_take : fit.fit_takes) {
+    const std::size_t begin = std::exchange(first, first + fit_take.windows.size());
+    if (!fit_take.take->has_orientation || !fit_take.take->has_spin) continue;
+    const Recording recording = corrected(fit_take.take->recording, fit.at);
     const FullPredictor<double> predictor(parameters_for(turning, recording), turning.effects);
     const auto motion = RecordedTips(recording, Interpolation::kSpline).motion(0, recording.size() - 1);
-    for (std::size_t w = 0; w < stage.windows.size(); ++w) {
+    for (std::size_t w = 0; w < fit_take.windows.size(); ++w) {
       if (fit.scores[begin + w].weight < 1.0) continue;  // its motion is not explained
-      windows.push_back(axle_window(stage, *motion, stage.windows[w], predictor, scale));
+      windows.push_back(axle_window(fit_take, *motion, fit_take.windows[w], predictor, scale));
       product += windows.back().product;
       square += windows.back().square;
     }

@@ -40,7 +40,7 @@ inline const Candidate* physics_instead(const Evidence& evidence, const Bank& ba
                                         const Candidate& fault) {
   for (const Candidate* other : bank) {
     if (!is_law(*other) || is_in(set, *other)) continue;
-    const Standing beside = standing(evidence, with(set, *other));
+    const Estimates beside = estimates_of(evidence, with(set, *other));
     const double z = significance(*other, beside);
     if ((other->positive ? z : std::abs(z)) < kMayBe) continue;
     if (!speaks_for(fault, significance(fault, beside)) || !is_beyond_floor(fault, beside)) return other;
@@ -138,7 +138,7 @@ inline std::string plainly(Unknown latent) {
 
 /// Of the force that has no name: the end of a sentence.
 inline std::string left_plainly(const Diagnosis& d) {
-  const Leftover& leftover = d.leftovers.front();
+  const UnexplainedForce& leftover = d.unexplained_forces.front();
   return " force that has no name is left: " + plainly(leftover.unknown) +
          (leftover.in_model ? "; with its law the simulator predicts better what was left out."
           : leftover.worsening_ci95.empty()
@@ -171,8 +171,9 @@ inline void conclude(Diagnosis& d) {
     if (f.claimed) (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
   const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
   const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
-  const bool has_law = !d.leftovers.empty() && d.leftovers.front().in_model;
-  const bool only_leftover = !d.leftovers.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
+  const bool has_law = !d.unexplained_forces.empty() && d.unexplained_forces.front().in_model;
+  const bool only_leftover =
+      !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)

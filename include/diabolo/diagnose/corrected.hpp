@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "diabolo/diagnose/stage.hpp"
+#include "diabolo/diagnose/fit_take.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/model.hpp"
 

@@ -14,7 +14,7 @@
 
 namespace diabolo {
 
-namespace detail {
+namespace diagnose_detail {
 
 /// Claims that bodies were recorded under each other's names in so many frames.
 inline void claim_swap(Diagnosis& d, long frames, const std::string& reason) {
@@ -29,11 +29,11 @@ inline void claim_swap(Diagnosis& d, long frames, const std::string& reason) {
   conclude(d);
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 /// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
 /// std::invalid_argument about options, and Cancelled.
-template <class D = detail::FitDual>
+template <class D = diagnose_detail::FitDual>
 Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options = {},
                    const DiagnosisWatch& watch = {}) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
@@ -54,8 +54,8 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
       frames += rows;
       if (swaps.count > 0) places += "; in " + recording.name + " from " + times_of(swaps, recording.time);
     }
-  const Budget budget(options.budget, watch.clock);
-  detail::Inquiry<D> inquiry(recordings, options, watch, options.budget);
+  const TimeBudget budget(options.budget, watch.clock);
+  diagnose_detail::Inquiry<D> inquiry(recordings, options, watch, options.budget);
   Diagnosis result = inquiry.answer();
   bool by_friction = false;
   const bool backwards = inquiry.backwards() && !sides_are_right;
@@ -65,7 +65,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
   } else if (backwards) {
     for (std::vector<Recording>* list : {&recordings, &options.holdout})
       for (Recording& recording : *list) recording = with_sticks_exchanged(std::move(recording));
-    detail::Inquiry<D> other(recordings, options, watch, options.budget - budget.elapsed());
+    diagnose_detail::Inquiry<D> other(recordings, options, watch, options.budget - budget.elapsed());
     Diagnosis exchanged = other.answer();
     const bool rubs = std::ranges::any_of(exchanged.findings, [](const Finding& f) {
       return f.claimed && f.candidate->name == "string_friction";
@@ -80,7 +80,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options =
                              : sides_are_wrong ? "seen along the sticks, the left one is on the right"
                                                : "bodies jump to each other's places and back" + places;
   const bool asked = options.bank.empty() || std::ranges::count(options.bank, "body_swap") > 0;
-  if (swapped > 0 && asked && result.reason.empty()) detail::claim_swap(result, swapped, reason);
+  if (swapped > 0 && asked && result.reason.empty()) diagnose_detail::claim_swap(result, swapped, reason);
   if (watch.progress) watch.progress("done", 1.0);
   return result;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/diagnose/budget.hpp"
+#include "diabolo/diagnose/time_budget.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/recording/recording.hpp"
 
@@ -26,7 +26,7 @@ struct DiagnosisOptions {
 struct DiagnosisWatch {
   std::function<void(const std::string&, double)> progress;
   std::function<bool()> cancelled;
-  Budget::Clock clock;  ///< that the budget goes by; empty: a steady one
+  TimeBudget::Clock clock;  ///< that the budget goes by; empty: a steady one
 };
 
 }  // namespace diabolo

@@ -31,7 +31,7 @@ struct Experiment {
   std::vector<MotionPart> parts;
 };
 
-namespace detail {
+namespace diagnose_detail {
 
 /// Tips so far apart [m], one up and one down by a beat, both to the left by a swing, sticks turned upwards
 /// [rad].
@@ -63,11 +63,11 @@ inline std::vector<MotionPart> on_string(double seconds, std::initializer_list<d
   return parts;
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 /// What a diagnosis may propose to record.
 inline const std::vector<Experiment>& experiments() {
-  using detail::on_string, detail::throws, detail::tips_of;
+  using diagnose_detail::on_string, diagnose_detail::throws, diagnose_detail::tips_of;
   static const std::vector<Experiment> all{
       {"high_throws", "four throws or more, at two heights, the highest as high as can be caught", 20.0,
        throws({3.0, 4.5}, {150.0})},

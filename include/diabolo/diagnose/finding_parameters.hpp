@@ -13,7 +13,7 @@
 
 namespace diabolo {
 
-namespace detail {
+namespace diagnose_detail {
 
 inline constexpr double kNormal95 = 1.6448536269514722;  ///< beyond it lie 5 % of a normal variable
 
@@ -121,6 +121,6 @@ inline std::vector<Estimate> parameters_of(const Finding& f, double given_length
   }
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 }  // namespace diabolo

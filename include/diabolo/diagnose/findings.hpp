@@ -42,7 +42,7 @@ struct Finding {
 };
 
 /// A force that is left over, without a name.
-struct Leftover {
+struct UnexplainedForce {
   Unknown unknown;
   double value, deviation, z, size;
   PowerLaw law;           ///< how it grows
@@ -84,7 +84,7 @@ struct Diagnosis {
   double base_gravity = kStandardGravity;  ///< [m/s^2]
   double base_string_length = 0.0;         ///< [m]
   std::vector<Finding> findings;           ///< of every candidate, the surest first
-  std::vector<Leftover> leftovers;
+  std::vector<UnexplainedForce> unexplained_forces;
   std::vector<WindowFinding> windows;
   std::vector<std::pair<std::string, CameraNoise>> noise;
   UnknownVector at = UnknownVector::Zero();
@@ -104,14 +104,14 @@ inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents 
 /// Takes down how the base alone does, window by window.
 inline void remember_before(Diagnosis& result, const Fit& fit) {
   std::size_t i = 0;
-  for (std::size_t s = 0; s < fit.stages.size(); ++s)
-    for (const FitWindow& window : fit.stages[s].windows) {
+  for (std::size_t s = 0; s < fit.fit_takes.size(); ++s)
+    for (const FitWindow& window : fit.fit_takes[s].windows) {
       const WindowSystem& system = fit.systems[i];
       const WindowScore& score = fit.scores[i++];
       WindowFinding found{};
       found.recording = s;
-      found.begin = fit.stages[s].take->times[window.first];
-      found.end = fit.stages[s].take->times[window.last];
+      found.begin = fit.fit_takes[s].take->times[window.first];
+      found.end = fit.fit_takes[s].take->times[window.last];
       found.mode = window.start.string_state;
       found.residual_before = system.position_residual();
       for (int k = 0; k < kLatents; ++k) {
@@ -141,7 +141,7 @@ inline bool is_tied(const Evidence& evidence, const ActiveSet& set, const Candid
                     const Candidate& other) {
   if (is_in(set, other)) return false;
   const ActiveSet exchanged = with(with(set, one, false), other);
-  if (!speaks_for(other, significance(other, standing(evidence, exchanged)))) return false;
+  if (!speaks_for(other, significance(other, estimates_of(evidence, exchanged)))) return false;
   return evidence.cost(exchanged) - evidence.cost(set) < 9.0 * evidence.dispersion();
 }
 
@@ -162,7 +162,7 @@ inline double unexplained_share(const std::vector<WindowFinding>& windows) {
 }
 
 /// Whether what a candidate comes out as lies within its search bounds, or a standard deviation beyond.
-inline bool is_possible(const Candidate& candidate, const Standing& standing) {
+inline bool is_possible(const Candidate& candidate, const Estimates& standing) {
   return std::ranges::all_of(candidate.unknowns, [&](Unknown u) {
     const double value = standing.estimate[index_of(u)], more = standing.deviation(index_of(u));
     return value > info_of(u).minimum - more && value < info_of(u).maximum + more;
@@ -178,14 +178,15 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
   std::size_t i = 0;
   for (WindowFinding& window : result.windows) window.residual_after = fit.systems[i++].position_residual();
   result.unexplained = unexplained_share(result.windows);
-  const Standing final_standing = standing(evidence, set);
+  const Estimates final_standing = estimates_of(evidence, set);
   for (int u = 0; u < kUnknowns; ++u)
     if (set[u]) result.deviation[u] = final_standing.deviation(u);
   for (const Candidate* member : bank) {
     const Candidate& candidate = *member;
     Finding f;
     f.candidate = member;
-    const Standing own = is_in(set, candidate) ? final_standing : standing(evidence, with(set, candidate));
+    const Estimates own =
+        is_in(set, candidate) ? final_standing : estimates_of(evidence, with(set, candidate));
     f.estimate = is_in(set, candidate) ? fit.at : own.estimate;  // what the model holds, within its bounds
     for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = own.deviation(u);
     f.z = significance(candidate, own);
@@ -213,15 +214,15 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     if (set[kLatentFirst + k]) continue;  // a placebo
     ActiveSet with_latent = set;
     with_latent[kLatentFirst + k] = true;
-    const Standing own = standing(evidence, with_latent);
+    const Estimates own = estimates_of(evidence, with_latent);
     const int u = kLatentFirst + k;
     const double deviation = own.deviation(u);
     if (!(deviation > 0.0)) continue;
     const Candidate latent{"", "", CandidateKind::kPhysics, {static_cast<Unknown>(u)}, 0.0, false};
     const double z = own.estimate[u] / deviation, size = size_of(latent, own.estimate, fit.systems);
     if (k < kLatentForces && stands_out(z, size))
-      result.leftovers.push_back({static_cast<Unknown>(u), own.estimate[u], deviation, z, size,
-                                  open_law(fit, static_cast<Unknown>(u))});
+      result.unexplained_forces.push_back({static_cast<Unknown>(u), own.estimate[u], deviation, z, size,
+                                           open_law(fit, static_cast<Unknown>(u))});
   }
   std::ranges::stable_sort(result.findings, [](const Finding& a, const Finding& b) {
     if (a.claimed != b.claimed) return a.claimed;
@@ -239,7 +240,7 @@ inline double left_over(const Fit& fit) {
 
 /// Which share of what the base leaves over beside what was found its numerical rules make: one less the
 /// ratio of what the consistent rules leave to what the base's do, starts fitted to each. Not above one.
-template <class D = detail::FitDual>
+template <class D = diagnose_detail::FitDual>
 double compare_rules(const Fit& fit, const Model& base, const Model& physics, int threads,
                      const FitWatch& watch = {}) {
   const auto rest = [&](Fit trial, const Model& model) {

@@ -17,7 +17,7 @@ inline constexpr double kUnseenSpin = 80.0;
 /// The give of a soft string to begin with [m/N].
 inline constexpr double kSoftStart = 3e-3;
 
-namespace detail {
+namespace diagnose_detail {
 
 /// What a diagnosis begins with. The published rules are numerical: physics is looked for on the string that
 /// obeys its constraint. A force without a name is constant at first, as what is looked for.
@@ -36,7 +36,7 @@ inline Model physics_without_rules(const Model& base) {
 inline Fit prepared(const std::vector<Recording>& recordings, const Model& physics) {
   Fit fit;
   for (const Recording& recording : recordings) {
-    fit.stages.push_back(make_stage(recording));
+    fit.fit_takes.push_back(make_fit_take(recording));
     fit.noise.emplace_back();
   }
   // A string's centre line lies half its thickness outside the axle: some 0.7 mm.
@@ -65,7 +65,7 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   fit.far_window = kFarWindow;
-  weigh(fit);
+  reweight(fit);
   descend<D>(fit, physics, set, kMostIterations, threads, watch);
 }
 
@@ -95,8 +95,8 @@ void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int t
                      const FitWatch& watch) {
   const auto begun = [&](double spin) {
     Fit trial = fit;
-    for (Stage& stage : trial.stages)
-      for (FitWindow& window : stage.windows) window.start.spin = spin;
+    for (FitTake& fit_take : trial.fit_takes)
+      for (FitWindow& window : fit_take.windows) window.start.spin = spin;
     fit_everything<D>(trial, physics, set, threads, watch);
     return trial;
   };
@@ -104,6 +104,6 @@ void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int t
   fit = std::move(left_over(forwards) <= left_over(backwards) ? forwards : backwards);
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 }  // namespace diabolo

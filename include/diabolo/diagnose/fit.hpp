@@ -67,9 +67,9 @@ struct Fit {
   double usual = 1.0;                       ///< what the middle window leaves [noise]; settled with the noise
   bool bounces = false;                     ///< windows may begin in the middle of a bounce on soft springs
   std::size_t most_windows = kMostWindows;  ///< that are fitted; see thin()
-  std::vector<Stage> stages;                ///< with the fitted starts
-  std::vector<CameraNoise> noise;           ///< of each stage
-  std::vector<WindowSystem> systems;        ///< of all windows, stage after stage
+  std::vector<FitTake> fit_takes;           ///< with the fitted starts
+  std::vector<CameraNoise> noise;           ///< of each take
+  std::vector<WindowSystem> systems;        ///< of all windows, take after take
   std::vector<WindowScore> scores;
   double cost = 0.0;  ///< weighted chi^2 and priors
   double dispersion =
@@ -94,10 +94,10 @@ inline UnknownVector scales() {
 }
 
 /// Scores of all windows from their systems and the noise, and the cost.
-inline void weigh(Fit& fit) {
+inline void reweight(Fit& fit) {
   fit.scores.clear();
-  for (std::size_t s = 0; s < fit.stages.size(); ++s)
-    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w)
+  for (std::size_t s = 0; s < fit.fit_takes.size(); ++s)
+    for (std::size_t w = 0; w < fit.fit_takes[s].windows.size(); ++w)
       if (const WindowSystem& system = fit.systems[fit.scores.size()]; system.failed)
         fit.scores.emplace_back();
       else
@@ -131,72 +131,72 @@ inline void weigh(Fit& fit) {
 }
 
 /// Predicts all windows at `fit.at`, with derivatives by the unknowns of `carried`, and calls
-/// `use(i, stage, system)` for each, i counting windows stage after stage: in no certain order, by several
+/// `use(i, fit_take, system)` for each, i counting windows take after take: in no certain order, by several
 /// threads.
 template <class D, class Use>
 void predict_windows(const Fit& fit, const Model& base, const ActiveSet& carried, int threads,
                      const Watch& watch, const Use& use) {
-  const detail::Carried<D> x(fit.at, carried);
+  const diagnose_detail::DualUnknowns<D> x(fit.at, carried);
   std::vector<std::pair<std::size_t, std::size_t>> jobs;
-  std::vector<detail::FitModel<D>> models;
-  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
-    models.push_back(detail::fit_model(base, fit.stages[s].take->recording, x));
-    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w) jobs.emplace_back(s, w);
+  std::vector<diagnose_detail::FitModel<D>> models;
+  for (std::size_t s = 0; s < fit.fit_takes.size(); ++s) {
+    models.push_back(diagnose_detail::fit_model(base, fit.fit_takes[s].take->recording, x));
+    for (std::size_t w = 0; w < fit.fit_takes[s].windows.size(); ++w) jobs.emplace_back(s, w);
   }
   for_each_index(jobs.size(), threads, watch, [&](std::size_t i) {
-    const auto [stage, w] = jobs[i];
-    use(i, stage,
-        window_system(*fit.stages[stage].take, fit.stages[stage].windows[w], models[stage], x, fit.delay,
-                      fit.bounces));
+    const auto [fit_take, w] = jobs[i];
+    use(i, fit_take,
+        window_system(*fit.fit_takes[fit_take].take, fit.fit_takes[fit_take].windows[w], models[fit_take], x,
+                      fit.delay, fit.bounces));
   });
 }
 
 /// How many windows there are.
-inline std::size_t window_count(const std::vector<Stage>& stages) {
+inline std::size_t window_count(const std::vector<FitTake>& fit_takes) {
   std::size_t count = 0;
-  for (const Stage& stage : stages) count += stage.windows.size();
+  for (const FitTake& fit_take : fit_takes) count += fit_take.windows.size();
   return count;
 }
 
 /// Predicts all windows at `fit.at`: systems and scores, with derivatives by the unknowns of `carried`.
 template <class D>
-void look_by(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
-  fit.systems.resize(window_count(fit.stages));
+void linearize_by(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
+  fit.systems.resize(window_count(fit.fit_takes));
   predict_windows<D>(
       fit, base, carried, threads, watch,
       [&](std::size_t i, std::size_t, WindowSystem system) { fit.systems[i] = std::move(system); });
-  weigh(fit);
+  reweight(fit);
 }
 
 /// The same with as few derivatives as these lengths allow: a step costs about as much as it has. (A
 /// template, as is all that calls it, lest every program that includes it compile the simulation on long
 /// duals.)
-template <class D = detail::FitDual>
-void look(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
+template <class D = diagnose_detail::FitDual>
+void linearize(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
   constexpr int kStarts = 8, kShort = 32, kMedium = 40;
   const auto columns = kStartUnknowns + carried.count();
   if (columns <= kStarts)
-    look_by<detail::Shortened<D, kStarts>>(fit, base, carried, threads, watch);
+    linearize_by<diagnose_detail::Shortened<D, kStarts>>(fit, base, carried, threads, watch);
   else if (columns <= kShort)
-    look_by<detail::Shortened<D, kShort>>(fit, base, carried, threads, watch);
+    linearize_by<diagnose_detail::Shortened<D, kShort>>(fit, base, carried, threads, watch);
   else if (columns <= kMedium)
-    look_by<detail::Shortened<D, kMedium>>(fit, base, carried, threads, watch);
+    linearize_by<diagnose_detail::Shortened<D, kMedium>>(fit, base, carried, threads, watch);
   else
-    look_by<D>(fit, base, carried, threads, watch);
+    linearize_by<D>(fit, base, carried, threads, watch);
 }
 
 /// The same with derivatives by all unknowns.
-template <class D = detail::FitDual>
-void look(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
-  look<D>(fit, base, ActiveSet::Constant(true), threads, watch);
+template <class D = diagnose_detail::FitDual>
+void linearize(Fit& fit, const Model& base, int threads, const Watch& watch = {}) {
+  linearize<D>(fit, base, ActiveSet::Constant(true), threads, watch);
 }
 
 /// Noise of each recording from what the windows leave, once their starts are fitted.
 inline void update_noise(Fit& fit) {
   std::size_t i = 0;
-  for (std::size_t s = 0; s < fit.stages.size(); ++s) {
+  for (std::size_t s = 0; s < fit.fit_takes.size(); ++s) {
     std::vector<double> position, spin;
-    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
+    for (std::size_t w = 0; w < fit.fit_takes[s].windows.size(); ++w, ++i) {
       const WindowSystem& system = fit.systems[i];
       if (system.failed) continue;
       if (system.position_numbers > 9)

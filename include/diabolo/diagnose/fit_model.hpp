@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "diabolo/diagnose/fit_take.hpp"
 #include "diabolo/diagnose/latent_force.hpp"
-#include "diabolo/diagnose/stage.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/effects/all.hpp"
 #include "diabolo/full_predictor.hpp"
@@ -25,7 +25,7 @@ inline constexpr double kStartScales[kStartUnknowns] = {0.01, 0.01, 0.01, 0.1, 0
 /// Standard deviation of a start about its first guess, in its scales; far wider than a camera's.
 inline constexpr double kStartPriors[kStartUnknowns] = {5.0, 5.0, 5.0, 50.0, 50.0, 50.0, 300.0};
 
-namespace detail {
+namespace diagnose_detail {
 
 /// Derivatives only show the way of a fit and its spread: seven digits are enough.
 using FitDual = Dual<double, kStartUnknowns + kUnknowns, float>;
@@ -36,13 +36,13 @@ using Shortened = Dual<decltype(D::value), N, typename D::Gradient::Scalar>;
 /// The unknowns as numbers with derivatives: by a window's start first, then by those that are carried, in
 /// their order. By the others there are none.
 template <class D>
-struct Carried {
+struct DualUnknowns {
   using Slope = typename D::Gradient::Scalar;
   UnknownVector at;          ///< SI units
   std::vector<int> columns;  ///< of the derivatives of a D, in the order of a window's system
 
   /// Those of `set`; a D must have room for them.
-  Carried(const UnknownVector& values, const ActiveSet& set) : at(values) {
+  DualUnknowns(const UnknownVector& values, const ActiveSet& set) : at(values) {
     column_.fill(-1);
     for (int c = 0; c < kStartUnknowns; ++c) columns.push_back(c);
     for (int u = 0; u < kUnknowns; ++u) {
@@ -94,7 +94,7 @@ struct FitModel {
 };
 
 template <class D>
-FitModel<D> fit_model(const Model& base, const Recording& recording, const Carried<D>& x) {
+FitModel<D> fit_model(const Model& base, const Recording& recording, const DualUnknowns<D>& x) {
   const Parameters<double> given = parameters_for(base, recording);
   Parameters<D> p;
   p.copy_rules(given);
@@ -151,7 +151,7 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const Carri
 
 /// The tips with their derivatives by time offset, lag and tip offsets.
 template <class D>
-Tips<D> fit_tips(const StageTips& s, const Carried<D>& x) {
+Tips<D> fit_tips(const FitTips& s, const DualUnknowns<D>& x) {
   const auto with = [&x](const Vector3<double>& value, const Vector3<double>& by_time,
                          const Vector3<double>& by_lag, const Eigen::Matrix3d& by_offset, Unknown first) {
     Vector3<D> result;
@@ -284,6 +284,6 @@ State<D> fit_start(const FitWindow& window, const FitPredictor<D>& predictor, co
   return state;
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 }  // namespace diabolo

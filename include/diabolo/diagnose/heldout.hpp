@@ -31,16 +31,17 @@ struct HeldOut {
 
 /// Rows of a recording that a model is fitted without.
 struct Fold {
-  std::size_t stage;
+  std::size_t fit_take;
   Eigen::Index first, last;
 };
 
 /// Whole recordings where there are several; else three blocks of the only one.
-inline std::vector<Fold> folds_of(const std::vector<Stage>& stages) {
+inline std::vector<Fold> folds_of(const std::vector<FitTake>& fit_takes) {
   constexpr Eigen::Index kBlocks = 3;
   std::vector<Fold> folds;
-  for (std::size_t s = 0; s < stages.size(); ++s) {
-    const Eigen::Index size = stages[s].take->recording.size(), blocks = stages.size() > 1 ? 1 : kBlocks;
+  for (std::size_t s = 0; s < fit_takes.size(); ++s) {
+    const Eigen::Index size = fit_takes[s].take->recording.size(),
+                       blocks = fit_takes.size() > 1 ? 1 : kBlocks;
     for (Eigen::Index b = 0; b < blocks; ++b)
       folds.push_back({s, size * b / blocks, size * (b + 1) / blocks - 1});
   }
@@ -78,19 +79,19 @@ inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& e
       result.back().without.push_back(within_bounds(evidence.solve_without(set, left_out), fit));
   };
   std::vector<bool> nothing;
-  for (const Stage& stage : fit.stages) nothing.resize(nothing.size() + stage.windows.size());
+  for (const FitTake& fit_take : fit.fit_takes) nothing.resize(nothing.size() + fit_take.windows.size());
   for (const Recording& recording : holdout) {
-    add(make_stage(recording).take->recording, nothing);
+    add(make_fit_take(recording).take->recording, nothing);
     result.back().at = fit.at;
   }
   if (!holdout.empty()) return result;
-  for (const Fold& fold : folds_of(fit.stages)) {
+  for (const Fold& fold : folds_of(fit.fit_takes)) {
     std::vector<bool> left_out;
-    for (std::size_t s = 0; s < fit.stages.size(); ++s)
-      for (const FitWindow& window : fit.stages[s].windows)
-        left_out.push_back(s == fold.stage && window.first <= fold.last && window.last >= fold.first);
+    for (std::size_t s = 0; s < fit.fit_takes.size(); ++s)
+      for (const FitWindow& window : fit.fit_takes[s].windows)
+        left_out.push_back(s == fold.fit_take && window.first <= fold.last && window.last >= fold.first);
     if (std::ranges::count(left_out, false) < 4) continue;
-    add(cut(fit.stages[fold.stage].take->recording, fold.first, fold.last), left_out);
+    add(cut(fit.fit_takes[fold.fit_take].take->recording, fold.first, fold.last), left_out);
   }
   return result;
 }

@@ -10,7 +10,6 @@
 
 #include "diabolo/diagnose/alternatives.hpp"
 #include "diabolo/diagnose/axle_motion.hpp"
-#include "diabolo/diagnose/budget.hpp"
 #include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/diagnosis_options.hpp"
 #include "diabolo/diagnose/findings.hpp"
@@ -21,11 +20,12 @@
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/sufficient.hpp"
 #include "diabolo/diagnose/thin.hpp"
+#include "diabolo/diagnose/time_budget.hpp"
 #include "diabolo/diagnose/unnamed_law.hpp"
 
 namespace diabolo {
 
-namespace detail {
+namespace diagnose_detail {
 
 /// One diagnosis, with every body under its name.
 template <class D>
@@ -80,8 +80,8 @@ class Inquiry {
   void read() {
     step("reading the motion", 0.0, 0.03);
     fit_ = prepared(recordings_, physics_);
-    result_.windows_seen = window_count(fit_.stages);
-    result_.reason = insufficient(fit_.stages);
+    result_.windows_seen = window_count(fit_.fit_takes);
+    result_.reason = insufficient(fit_.fit_takes);
     if (!result_.reason.empty()) return;
     thin<D>(fit_, physics_, options_.threads, budget_, step("choosing what decides", 0.03, 0.05));
     refine<D>(fit_, physics_, ActiveSet::Constant(false), 2, options_.threads,
@@ -94,7 +94,7 @@ class Inquiry {
   /// on them is seen: then everything is asked again.
   void fit_all() {
     set_ = asked_at_first(bank_);
-    if (std::ranges::none_of(fit_.stages, has_spin)) without_spin(bank_, set_);
+    if (std::ranges::none_of(fit_.fit_takes, has_spin)) without_spin(bank_, set_);
     for (bool again = false;; again = true) {
       if (!fit_bank(again)) {
         result_.reason = "the budget of " + shown(options_.budget) +
@@ -118,7 +118,7 @@ class Inquiry {
     const FitWatch everything = step("fitting everything", again ? 0.6 : 0.15, again ? 0.7 : 0.4, kFitsShare);
     if (again)  // starts that bounce, or are late, are others
       approach<D>(fit_, physics_, ActiveSet::Constant(false), 3, options_.threads, everything);
-    if (std::ranges::any_of(fit_.stages, has_spin) || again)
+    if (std::ranges::any_of(fit_.fit_takes, has_spin) || again)
       fit_everything<D>(fit_, physics_, set_, options_.threads, everything);
     else
       fit_unseen_spin<D>(fit_, physics_, set_, options_.threads, everything);
@@ -128,7 +128,7 @@ class Inquiry {
   void keep_what_is_sure(bool again) {
     const Candidate& friction = candidate_of("string_friction");
     backwards_ =
-        is_in(set_, friction) && significance(friction, standing(Evidence(fit_), set_)) < -kSignificance;
+        is_in(set_, friction) && significance(friction, estimates_of(Evidence(fit_), set_)) < -kSignificance;
     set_ = eliminate(Evidence(fit_), bank_, set_);
     for (int round = 0;; ++round) {
       const double begin = (again ? 0.7 : 0.4) + 0.03 * round;
@@ -158,13 +158,13 @@ class Inquiry {
   void ask_again(bool soft) {
     fit_.noise_is_known = false;
     fit_.bounces = fit_.bounces || soft;
-    std::erase_if(exchanged_, [](const Exchange& e) {  // what is asked again
+    std::erase_if(exchanged_, [](const Replacement& e) {  // what is asked again
       return e.name != "string_wrap" && alternative_to(e.name) != "time_offset";
     });
     for (const Candidate* candidate : bank_)
       if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kRestitution)
         set_ = with(set_, *candidate);
-    if (std::ranges::none_of(fit_.stages, has_spin)) without_spin(bank_, set_);
+    if (std::ranges::none_of(fit_.fit_takes, has_spin)) without_spin(bank_, set_);
   }
 
   /// Claims what stands, and takes back, one after the other, what data that were left out deny.
@@ -189,10 +189,10 @@ class Inquiry {
     if (std::ranges::find(bank_, &candidate_of("frame_rate")) != bank_.end())  // gravity is as it was
       result_.model.parameters.gravity = physics_.parameters.gravity;
     result_.findings.clear();
-    result_.leftovers.clear();
+    result_.unexplained_forces.clear();
     find(result_, fit_, evidence, bank_, set_);
     if (!physics_.effects.template get<UnnamedForce>().neutral() || set_[index_of(Unknown::kPower)])
-      result_.leftovers.clear();  // they are told in units of the law that is there
+      result_.unexplained_forces.clear();  // they are told in units of the law that is there
     if (options_.bank.empty() || std::ranges::count(options_.bank, "gyroscopic_tilt") > 0)
       result_.findings.push_back(find_axle_motion(fit_, result_.model));
     withdraw_what_cannot_be(result_);
@@ -200,11 +200,11 @@ class Inquiry {
     for (const Candidate* candidate : denied_) std::erase(possible, candidate);
     withdraw_what_may_be_physics(result_, evidence, possible, set_);
     for (Finding& f : result_.findings) {
-      for (const Exchange& exchange : exchanged_)
+      for (const Replacement& exchange : exchanged_)
         if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
       for (const Candidate* candidate : denied_) std::erase(f.tied_with, candidate->name);
     }
-    for (const Exchange& exchange : exchanged_)
+    for (const Replacement& exchange : exchanged_)
       if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);
   }
 
@@ -231,8 +231,8 @@ class Inquiry {
     }
     if (withdrawn || !budget_.allows("looking for forces without a name", kTrialsShare)) return withdrawn;
     const FitWatch looking = step("fitting what has no name", 0.9, 0.95, kTrialsShare);
-    for (Leftover& leftover :
-         laws_to_try<D>(result_.leftovers, fit_, physics_, set_, options_.threads, looking)) {
+    for (UnexplainedForce& leftover :
+         laws_to_try<D>(result_.unexplained_forces, fit_, physics_, set_, options_.threads, looking)) {
       UnnamedTrial trial = try_unnamed<D>(leftover, fit_, options_.base, physics_, set_, bank_,
                                           options_.holdout, options_.seed, options_.threads, looking);
       if (trial.worsening_ci95.empty()) {
@@ -240,16 +240,17 @@ class Inquiry {
         break;
       }
       leftover.worsening_ci95 = trial.worsening_ci95;
-      if (!result_.leftovers.empty()) result_.leftovers.front().worsening_ci95 = trial.worsening_ci95;
+      if (!result_.unexplained_forces.empty())
+        result_.unexplained_forces.front().worsening_ci95 = trial.worsening_ci95;
       if (!trial.helps) continue;
       physics_ = std::move(trial.physics);
       fit_ = std::move(trial.fit);
       set_ = trial.set;
       settle();
       withdrawn = withdraw_what_does_not_help(result_);
-      result_.leftovers.insert(result_.leftovers.begin(),
-                               as_fitted(leftover, leftover.law.exponent, fit_, set_));
-      result_.leftovers.front().in_model = !withdrawn;
+      result_.unexplained_forces.insert(result_.unexplained_forces.begin(),
+                                        as_fitted(leftover, leftover.law.exponent, fit_, set_));
+      result_.unexplained_forces.front().in_model = !withdrawn;
       break;
     }
     return withdrawn;
@@ -263,8 +264,8 @@ class Inquiry {
       result_.numerical =
           compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.95, 0.97));
     }
-    for (std::size_t s = 0; s < fit_.stages.size(); ++s)
-      result_.noise.push_back({fit_.stages[s].take->recording.name, fit_.noise[s]});
+    for (std::size_t s = 0; s < fit_.fit_takes.size(); ++s)
+      result_.noise.push_back({fit_.fit_takes[s].take->recording.name, fit_.noise[s]});
     const char* const proposing = "proposing what to record next";
     if (!budget_.allows(proposing, 1.0)) return;
     const FitWatch looking = step("looking for what to record next", 0.97, 1.0);
@@ -281,18 +282,18 @@ class Inquiry {
   const std::vector<Recording>& recordings_;
   const DiagnosisOptions& options_;
   const DiagnosisWatch& watch_;
-  Budget budget_;
+  TimeBudget budget_;
   bool numerical_;
   Model physics_;
   Bank bank_;
   Fit fit_;
   ActiveSet set_ = ActiveSet::Constant(false);
-  std::vector<Exchange> exchanged_;
+  std::vector<Replacement> exchanged_;
   std::vector<const Candidate*> denied_;
   bool backwards_ = false;
   Diagnosis result_;
 };
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 }  // namespace diabolo

@@ -19,7 +19,7 @@ namespace diabolo {
 /// Odds beyond which nobody asks further.
 inline constexpr double kLongOdds = 1e6;
 
-namespace detail {
+namespace diagnose_detail {
 
 /// What is left of a motion that a perfect camera sees where `truth` holds, once an explanation is fitted to
 /// it alone, in units of twice the logarithm of odds. The noise is that of the camera which saw the tie.
@@ -27,12 +27,12 @@ template <class D>
 double left_of(const Experiment& experiment, const Model& truth, const Alternative& explanation,
                const Fit& seen, const Model& physics, int threads, const FitWatch& watch) {
   Fit fit;
-  Recording like = seen.stages.front().take->recording;
+  Recording like = seen.fit_takes.front().take->recording;
   like.string_length += seen.at[index_of(Unknown::kStringLength)];
   for (const MotionPart& part : experiment.parts) {
     const Recording recording = imagined(part, truth, like);
     if (!recording.diabolo.position.allFinite()) return kNaN;
-    fit.stages.push_back(make_stage(recording));
+    fit.fit_takes.push_back(make_fit_take(recording));
     fit.noise.push_back(seen.noise.front());
   }
   fit.centre = fit.at = seen.centre;
@@ -67,12 +67,12 @@ inline std::string_view motion_for_measurement(std::string_view name) {
   return name == "time_offset" || name == "filter_lag" || name == "robot_servo_lag" ? "fast_beats" : "";
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 /// For each tie the motion that parts it best, and the odds against the wrong explanation that it would give
 /// by itself: the motion is simulated with the claim and fitted with what is tied with it. Of delays, scales
 /// and rates without odds.
-template <class D = detail::FitDual>
+template <class D = diagnose_detail::FitDual>
 std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const Model& physics,
                                        const ActiveSet& set, int threads, const FitWatch& watch = {}) {
   std::vector<Proposal> result;
@@ -80,7 +80,7 @@ std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const
     if (!f.claimed || f.tied_with.empty() || watch.is_enough()) continue;
     Proposal best{nullptr, f.tied_with, std::nullopt};
     best.parts.insert(best.parts.begin(), std::string(f.candidate->name));
-    const std::string_view fixed = detail::motion_for_measurement(f.candidate->name);
+    const std::string_view fixed = diagnose_detail::motion_for_measurement(f.candidate->name);
     if (!fixed.empty()) {
       best.experiment = &*std::ranges::find(experiments(), fixed, &Experiment::motion);
     } else {
@@ -88,15 +88,16 @@ std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const
       const Alternative claim{f.candidate->name, fit.delay, set, fit.at};
       std::vector<Alternative> others;
       for (const std::string& name : f.tied_with)
-        if (const auto other = detail::alternative_of(f.candidate->name, name, fit, set))
+        if (const auto other = diagnose_detail::alternative_of(f.candidate->name, name, fit, set))
           others.push_back(*other);
       if (others.empty()) continue;
       for (const Experiment& experiment : experiments()) {
-        const double own = detail::left_of<D>(experiment, truth, claim, fit, physics, threads, watch);
+        const double own =
+            diagnose_detail::left_of<D>(experiment, truth, claim, fit, physics, threads, watch);
         double odds = kLongOdds;
         for (const Alternative& other : others) {
           const double more =
-              detail::left_of<D>(experiment, truth, other, fit, physics, threads, watch) - own;
+              diagnose_detail::left_of<D>(experiment, truth, other, fit, physics, threads, watch) - own;
           odds = std::min(odds, std::isfinite(more) ? std::exp(std::max(0.5 * more, 0.0)) : 1.0);
         }
         if (!best.odds || odds > *best.odds) best.experiment = &experiment, best.odds = odds;

@@ -30,16 +30,16 @@ struct WindowSays {
   double x, value, precision;
 };
 
-namespace detail {
+namespace diagnose_detail {
 
 /// Mean speed of the recorded diabolo in a window [m/s].
-inline double mean_speed(const Stage& stage, const FitWindow& window) {
-  const Track& track = stage.take->recording.diabolo;
+inline double mean_speed(const FitTake& fit_take, const FitWindow& window) {
+  const Track& track = fit_take.take->recording.diabolo;
   double length = 0.0, seconds = 0.0;
   for (Eigen::Index i = window.first; i < window.last; ++i) {
     if (!track.valid[i] || !track.valid[i + 1]) continue;
     length += (track.position.col(i + 1) - track.position.col(i)).norm();
-    seconds += stage.take->times[i + 1] - stage.take->times[i];
+    seconds += fit_take.take->times[i + 1] - fit_take.take->times[i];
   }
   return seconds > 0.0 ? length / seconds : 0.0;
 }
@@ -49,10 +49,10 @@ std::vector<WindowSays> windows_say(const Fit& fit, Unknown unknown, Scalar&& sc
   const int u = index_of(unknown);
   std::vector<WindowSays> result;
   std::size_t i = 0;
-  for (const Stage& stage : fit.stages)
-    for (const FitWindow& window : stage.windows) {
+  for (const FitTake& fit_take : fit.fit_takes)
+    for (const FitWindow& window : fit_take.windows) {
       const WindowScore& score = fit.scores[i++];
-      const double precision = score.weight * score.information(u, u), x = scalar(stage, window);
+      const double precision = score.weight * score.information(u, u), x = scalar(fit_take, window);
       if (precision > 1e-6 && x > 1e-3)
         result.push_back({x, score.score[u] / score.information(u, u) * info_of(unknown).scale, precision});
     }
@@ -60,7 +60,7 @@ std::vector<WindowSays> windows_say(const Fit& fit, Unknown unknown, Scalar&& sc
   return result;
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 /// The power of x that explains best what windows, in the order of x, say: least squares for each exponent on
 /// a grid; its deviation is where the sum of squares has grown by one window's worth. Where that is far off,
@@ -119,9 +119,9 @@ inline PowerLaw power_law(const std::vector<WindowSays>& windows, std::string_vi
 
 /// What the windows say, in the order of their speed, or spin.
 inline std::vector<WindowSays> windows_by(std::string_view scalar, const Fit& fit, Unknown unknown) {
-  const auto of_spin = [](const Stage&, const FitWindow& window) { return std::abs(window.start.spin); };
-  return scalar == "spin" ? detail::windows_say(fit, unknown, of_spin)
-                          : detail::windows_say(fit, unknown, detail::mean_speed);
+  const auto of_spin = [](const FitTake&, const FitWindow& window) { return std::abs(window.start.spin); };
+  return scalar == "spin" ? diagnose_detail::windows_say(fit, unknown, of_spin)
+                          : diagnose_detail::windows_say(fit, unknown, diagnose_detail::mean_speed);
 }
 
 /// How the force behind a latent acceleration grows: with the speed or with the spin, whichever explains

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "diabolo/diagnose/budget.hpp"
 #include "diabolo/diagnose/fit.hpp"
+#include "diabolo/diagnose/time_budget.hpp"
 
 namespace diabolo {
 
@@ -36,18 +36,18 @@ inline double promise(const Fit& fit, const Normal& normal, const Eigen::VectorX
 /// Moves the windows' starts from where `from` has them along with a scaled step of the unknowns.
 inline void move_starts(Fit& fit, const Fit& from, const UnknownVector& scaled_step, double damping) {
   std::size_t i = 0;
-  for (std::size_t s = 0; s < fit.stages.size(); ++s)
-    for (std::size_t w = 0; w < fit.stages[s].windows.size(); ++w, ++i) {
+  for (std::size_t s = 0; s < fit.fit_takes.size(); ++s)
+    for (std::size_t w = 0; w < fit.fit_takes[s].windows.size(); ++w, ++i) {
       const WindowScore& score = from.scores[i];
       const Eigen::Matrix<double, kStartUnknowns, 1> move =
           score.start_step / (1.0 + damping) - score.start_by_unknowns * scaled_step;
-      State<double> start = from.stages[s].windows[w].start;
+      State<double> start = from.fit_takes[s].windows[w].start;
       for (int c = 0; c < 3; ++c) {
         start.position[c] += kStartScales[c] * std::clamp(move[c], -10.0, 10.0);
         start.velocity[c] += kStartScales[3 + c] * std::clamp(move[3 + c], -30.0, 30.0);
       }
       start.spin += kStartScales[6] * move[6];
-      fit.stages[s].windows[w].start = start;
+      fit.fit_takes[s].windows[w].start = start;
     }
 }
 
@@ -78,7 +78,7 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
       move_starts(fit, best, scaled_step, damping);
       const bool doubtful = attempt > 0 && active.any();
       const auto downhill = [&](const ActiveSet& carried) {
-        look<D>(fit, base, carried, threads, watch);
+        linearize<D>(fit, base, carried, threads, watch);
         return fit.cost <= best.cost * (1.0 + 1e-9);
       };
       found = (!doubtful || downhill(ActiveSet::Constant(false))) && downhill(active);
@@ -89,7 +89,7 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
     const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
     if (!noise_is_known) update_noise(fit);  // what stands in the way may be that it is wrong
     if (settled && (noise_is_known || fit.noise == best.noise)) return;
-    if (!noise_is_known) weigh(fit);
+    if (!noise_is_known) reweight(fit);
   }
 }
 
@@ -97,16 +97,16 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
 template <class D>
 void approach(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
               const FitWatch& watch = {}) {
-  look<D>(fit, base, active, threads, watch);
+  linearize<D>(fit, base, active, threads, watch);
   descend<D>(fit, base, active, most_iterations, threads, watch);
 }
 
 /// The same, and a last look with derivatives by all unknowns.
-template <class D = detail::FitDual>
+template <class D = diagnose_detail::FitDual>
 void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
             const FitWatch& watch = {}) {
   approach<D>(fit, base, active, most_iterations, threads, watch);
-  look<D>(fit, base, threads, watch);
+  linearize<D>(fit, base, threads, watch);
 }
 
 }  // namespace diabolo

@@ -41,7 +41,7 @@ inline const char* text_of(StringState state) {
   return state == StringState::kOnString ? "ON_STRING" : state == StringState::kLoose ? "LOOSE" : "FLYING";
 }
 
-namespace detail {
+namespace diagnose_detail {
 
 inline std::string kind_of(const Candidate& candidate) {
   return candidate.kind == CandidateKind::kPhysics ? "physics" : "measurement";
@@ -161,7 +161,7 @@ inline std::optional<UpperLimit> limit_of(const Finding& f) {
   return UpperLimit{std::string(f.candidate->name), std::string(info.name), limit, std::string(info.unit)};
 }
 
-inline UnnamedStructure unnamed_of(const Leftover& l) {
+inline UnnamedStructure unnamed_of(const UnexplainedForce& l) {
   const PowerLaw& law = l.law;
   const auto rounded = [](double value) {
     std::ostringstream text;
@@ -214,7 +214,7 @@ inline Location located(const Diagnosis& d, const std::vector<Recording>& record
   return location;
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 /// What a diagnosis says, less what only its caller knows: files and time. `recordings` are those that were
 /// diagnosed, `unused` names of held-out recordings on which nothing can be compared, see
@@ -225,18 +225,21 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
   result.headline = text_of(d.headline);
   result.sentence = d.sentence;
   result.base = d.base;
-  if (d.numerical && *d.numerical > 0.1) result.effects.push_back(detail::solver_artefact(*d.numerical));
+  if (d.numerical && *d.numerical > 0.1)
+    result.effects.push_back(diagnose_detail::solver_artefact(*d.numerical));
   for (const Finding& f : d.findings) {
-    result.ladder.push_back(detail::row_of(f));
-    if (f.claimed) result.effects.push_back(detail::effect_of(f, d));
-    if (const std::optional<UpperLimit> limit = detail::limit_of(f)) result.upper_limits.push_back(*limit);
+    result.ladder.push_back(diagnose_detail::row_of(f));
+    if (f.claimed) result.effects.push_back(diagnose_detail::effect_of(f, d));
+    if (const std::optional<UpperLimit> limit = diagnose_detail::limit_of(f))
+      result.upper_limits.push_back(*limit);
   }
   for (int u = 0; u <= index_of(Unknown::kAxleRadius) && d.reason.empty(); ++u) {
     const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
-    result.nuisances.push_back(
-        detail::with_deviation(std::string(info.name), d.at[u], d.deviation[u], std::string(info.unit)));
+    result.nuisances.push_back(diagnose_detail::with_deviation(std::string(info.name), d.at[u],
+                                                               d.deviation[u], std::string(info.unit)));
   }
-  for (const Leftover& l : d.leftovers) result.unnamed.push_back(detail::unnamed_of(l));
+  for (const UnexplainedForce& l : d.unexplained_forces)
+    result.unnamed.push_back(diagnose_detail::unnamed_of(l));
   result.fit = {d.heldout.whole_recordings ? "recordings" : "blocks",
                 d.heldout.horizons,
                 d.heldout.base_error,
@@ -251,7 +254,7 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
     result.next_experiment.push_back({std::string(p.experiment->motion), std::string(p.experiment->plain),
                                       p.parts, p.odds, p.experiment->seconds});
   result.not_done = d.not_done;
-  result.locate = detail::located(d, recordings);
+  result.locate = diagnose_detail::located(d, recordings);
   for (const auto& [name, noise] : d.noise) result.noise.push_back({name, noise.position, noise.spin});
   return result;
 }

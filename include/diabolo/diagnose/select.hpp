@@ -17,7 +17,7 @@ namespace diabolo {
 inline constexpr double kMayBe = 2.0;
 
 /// Estimates and their standing once a set of unknowns is free.
-struct Standing {
+struct Estimates {
   UnknownVector estimate;         ///< SI units
   Eigen::MatrixXd noise, spread;  ///< its covariances; see Evidence::Covariances
 
@@ -25,7 +25,7 @@ struct Standing {
   double deviation(int u) const { return std::sqrt(std::max({0.0, noise(u, u), spread(u, u)})); }
 };
 
-inline Standing standing(const Evidence& evidence, const ActiveSet& free) {
+inline Estimates estimates_of(const Evidence& evidence, const ActiveSet& free) {
   const UnknownVector scale = scales();
   const Evidence::Covariances scaled = evidence.covariances(free);
   return {evidence.solve(free).cwiseProduct(scale), scale.asDiagonal() * scaled.noise * scale.asDiagonal(),
@@ -44,7 +44,7 @@ inline double normal_equivalent(const Eigen::VectorXd& x, const Eigen::MatrixXd&
 /// Significance of a candidate in a set that holds it, in standard deviations, by the covariance that makes
 /// less of it; signed where it is one number. Of physics that lies out of range only what is in range counts:
 /// a wind of 20 m/s in a drag of next to nothing is no wind.
-inline double significance(const Candidate& candidate, const Standing& standing) {
+inline double significance(const Candidate& candidate, const Estimates& standing) {
   std::vector<int> own;
   double in_range = 1.0;
   for (const Unknown u : candidate.unknowns) {
@@ -86,7 +86,7 @@ inline double beyond_box(const Eigen::VectorXd& x, const Eigen::MatrixXd& covari
 inline constexpr double kBeyondFloor = 2.5;
 
 /// Whether a candidate lies beyond its floor: that its unknowns should all be within can be ruled out.
-inline bool is_beyond_floor(const Candidate& candidate, const Standing& standing) {
+inline bool is_beyond_floor(const Candidate& candidate, const Estimates& standing) {
   std::vector<int> own;
   for (const Unknown u : candidate.unknowns) own.push_back(index_of(u));
   const Eigen::VectorXd x = standing.estimate(own);
@@ -106,7 +106,7 @@ inline bool speaks_for(const Candidate& candidate, double z) {
 /// a nuisance.
 inline ActiveSet eliminate(const Evidence& evidence, const Bank& bank, ActiveSet set) {
   for (;;) {
-    const Standing now = standing(evidence, set);
+    const Estimates now = estimates_of(evidence, set);
     const Candidate* weakest = nullptr;
     double least = 0.0;
     for (const Candidate* candidate : bank) {
@@ -125,7 +125,7 @@ inline const Candidate* strongest_left_out(const Evidence& evidence, const Bank&
   double most = kSignificance;
   for (const Candidate* candidate : bank) {
     if (is_in(set, *candidate)) continue;
-    const double z = significance(*candidate, standing(evidence, with(set, *candidate)));
+    const double z = significance(*candidate, estimates_of(evidence, with(set, *candidate)));
     const double sure = candidate->positive ? z : std::abs(z);
     if (sure > most) strongest = candidate, most = sure;
   }

@@ -13,21 +13,21 @@ namespace diabolo {
 /// Fewest windows from which anything is concluded.
 inline constexpr std::size_t kFewestWindows = 8;
 
-namespace detail {
+namespace diagnose_detail {
 
 /// Why nothing can be concluded; empty where something can.
-inline std::string insufficient(const std::vector<Stage>& stages) {
+inline std::string insufficient(const std::vector<FitTake>& fit_takes) {
   std::size_t windows = 0, taut = 0;
   bool length_known = false;
   std::string odd;
-  for (const Stage& stage : stages) {
-    windows += stage.windows.size();
-    for (const FitWindow& window : stage.windows)
+  for (const FitTake& fit_take : fit_takes) {
+    windows += fit_take.windows.size();
+    for (const FitWindow& window : fit_take.windows)
       taut += window.start.string_state == StringState::kOnString ? 1 : 0;
-    length_known = length_known || usual_path_length(stage.take->recording);
+    length_known = length_known || usual_path_length(fit_take.take->recording);
     if (!odd.empty()) continue;
-    odd = odd_path_length(stage.take->recording);
-    if (!odd.empty() && stages.size() > 1) odd += " (in " + stage.take->recording.name + ")";
+    odd = odd_path_length(fit_take.take->recording);
+    if (!odd.empty() && fit_takes.size() > 1) odd += " (in " + fit_take.take->recording.name + ")";
   }
   if (windows < kFewestWindows)
     return "only " + std::to_string(windows) + " windows of half a second can be compared; " +
@@ -37,6 +37,6 @@ inline std::string insufficient(const std::vector<Stage>& stages) {
   return {};
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 }  // namespace diabolo

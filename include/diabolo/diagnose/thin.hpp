@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/diagnose/budget.hpp"
 #include "diabolo/diagnose/fit.hpp"
+#include "diabolo/diagnose/time_budget.hpp"
 
 namespace diabolo {
 
@@ -23,19 +23,19 @@ inline constexpr std::size_t kFewestFitted = 32;
 inline constexpr double kChoosingShare = 0.1;
 
 /// What each window says of the unknowns before anything is fitted: the diagonal of its information.
-template <class D = detail::FitDual>
+template <class D = diagnose_detail::FitDual>
 std::vector<UnknownVector> window_information(const Fit& fit, const Model& base, int threads,
                                               const Watch& watch = {}) {
-  std::vector<UnknownVector> result(window_count(fit.stages), UnknownVector::Zero());
+  std::vector<UnknownVector> result(window_count(fit.fit_takes), UnknownVector::Zero());
   predict_windows<D>(fit, base, ActiveSet::Constant(true), threads, watch,
-                     [&](std::size_t i, std::size_t stage, const WindowSystem& system) {
+                     [&](std::size_t i, std::size_t fit_take, const WindowSystem& system) {
                        if (!system.failed)
-                         result[i] = without_start(system, fit.noise[stage]).information.diagonal();
+                         result[i] = without_start(system, fit.noise[fit_take]).information.diagonal();
                      });
   return result;
 }
 
-namespace detail {
+namespace diagnose_detail {
 
 /// For each unknown what three of four windows that say anything of it stay below. More counts as this: few
 /// windows shall not decide alone.
@@ -52,7 +52,7 @@ inline UnknownVector usual_information(const std::vector<UnknownVector>& informa
   return result;
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 /// Which `most` of the windows decide together, in order: of every `most`-th part of them the one that adds
 /// most, in logarithms, to what those before it say of each unknown. So all takes, times and modes stay, and
@@ -61,7 +61,7 @@ inline std::vector<std::size_t> windows_that_decide(const std::vector<UnknownVec
                                                     std::size_t most) {
   const std::size_t count = information.size();
   std::vector<std::size_t> result;
-  const UnknownVector usual = detail::usual_information(information);
+  const UnknownVector usual = diagnose_detail::usual_information(information);
   UnknownVector known = prior_precision().array() + 1.0;
   const auto says = [&](std::size_t i) -> UnknownVector {
     if (!information[i].allFinite()) return UnknownVector::Zero();
@@ -88,36 +88,36 @@ inline std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
   return result;
 }
 
-/// Keeps the windows of these numbers, which count stage after stage and ascend.
-inline void keep_windows(std::vector<Stage>& stages, const std::vector<std::size_t>& kept) {
+/// Keeps the windows of these numbers, which count take after take and ascend.
+inline void keep_windows(std::vector<FitTake>& fit_takes, const std::vector<std::size_t>& kept) {
   std::size_t first = 0;
   auto next = kept.begin();
-  for (Stage& stage : stages) {
+  for (FitTake& fit_take : fit_takes) {
     std::vector<FitWindow> windows;
-    for (; next != kept.end() && *next < first + stage.windows.size(); ++next)
-      windows.push_back(stage.windows[*next - first]);
-    first += stage.windows.size();
-    stage.windows = std::move(windows);
+    for (; next != kept.end() && *next < first + fit_take.windows.size(); ++next)
+      windows.push_back(fit_take.windows[*next - first]);
+    first += fit_take.windows.size();
+    fit_take.windows = std::move(windows);
   }
 }
 
 /// Time that it takes to predict a window with derivatives by all unknowns [s], measured on a few.
 template <class D>
-double seconds_per_prediction(const Fit& fit, const Model& base, const Budget& budget, int threads,
+double seconds_per_prediction(const Fit& fit, const Model& base, const TimeBudget& budget, int threads,
                               const Watch& watch) {
   constexpr std::size_t kFew = 12;
   Fit few = fit;
-  keep_windows(few.stages, evenly(window_count(fit.stages), kFew));
+  keep_windows(few.fit_takes, evenly(window_count(fit.fit_takes), kFew));
   const double begin = budget.elapsed();
   window_information<D>(few, base, threads, watch);
-  return (budget.elapsed() - begin) / static_cast<double>(window_count(few.stages));
+  return (budget.elapsed() - begin) / static_cast<double>(window_count(few.fit_takes));
 }
 
 /// Thins the windows to kMostWindows, or to as many as there is time for. With time enough for all, and not
 /// more of them, all stay.
-template <class D = detail::FitDual>
-void thin(Fit& fit, const Model& base, int threads, Budget& budget, const Watch& watch = {}) {
-  const std::size_t count = window_count(fit.stages);
+template <class D = diagnose_detail::FitDual>
+void thin(Fit& fit, const Model& base, int threads, TimeBudget& budget, const Watch& watch = {}) {
+  const std::size_t count = window_count(fit.fit_takes);
   std::size_t candidates = count;
   const double longest = kPredictionsPerWindow * kLongestPrediction * static_cast<double>(kMostWindows);
   if (budget.seconds() < longest && count > kFewestFitted) {
@@ -134,8 +134,8 @@ void thin(Fit& fit, const Model& base, int threads, Budget& budget, const Watch&
   if (fit.most_windows < kMostWindows)
     budget.leave("fitting more than " + std::to_string(fit.most_windows) + " of " + std::to_string(count) +
                  " windows");
-  keep_windows(fit.stages, evenly(count, candidates));
-  keep_windows(fit.stages,
+  keep_windows(fit.fit_takes, evenly(count, candidates));
+  keep_windows(fit.fit_takes,
                windows_that_decide(window_information<D>(fit, base, threads, watch), fit.most_windows));
 }
 

@@ -32,9 +32,9 @@ inline double usual_of(const PowerLaw& law) {
 /// The strongest force without a name that grows with speed or spin, or with its square, whether or not a
 /// constant one stands out; nothing where none does.
 template <class D>
-std::optional<Leftover> growing_leftover(const Fit& fit, const Model& physics, const ActiveSet& set,
-                                         int threads, const FitWatch& watch) {
-  std::optional<Leftover> strongest;
+std::optional<UnexplainedForce> growing_leftover(const Fit& fit, const Model& physics, const ActiveSet& set,
+                                                 int threads, const FitWatch& watch) {
+  std::optional<UnexplainedForce> strongest;
   ActiveSet asked = set;
   asked.segment<kLatentForces>(kLatentFirst).setConstant(true);
   for (const std::string_view scalar : {"speed", "spin"})
@@ -45,41 +45,44 @@ std::optional<Leftover> growing_leftover(const Fit& fit, const Model& physics, c
       law.exponent = exponent;
       law.at = usual_of(law);
       Fit grown = fit;
-      look<D>(grown, with_growth(physics, law), asked, threads, watch);
+      linearize<D>(grown, with_growth(physics, law), asked, threads, watch);
       const Evidence evidence(grown);
       for (int u = kLatentFirst; u < kLatentFirst + kLatentForces; ++u) {
         if (set[u]) continue;
         ActiveSet with_force = set;
         with_force[u] = true;
-        const Standing own = standing(evidence, with_force);
+        const Estimates own = estimates_of(evidence, with_force);
         const double deviation = own.deviation(u), z = deviation > 0.0 ? own.estimate[u] / deviation : 0.0;
         const Candidate latent{"", "", CandidateKind::kPhysics, {static_cast<Unknown>(u)}, 0.0, false};
         const double size = size_of(latent, own.estimate, grown.systems);
         if (!stands_out(z, size) || (strongest && std::abs(z) <= std::abs(strongest->z))) continue;
         law.value = own.estimate[u];
-        strongest = Leftover{static_cast<Unknown>(u), law.value, deviation, z, size, law};
+        strongest = UnexplainedForce{static_cast<Unknown>(u), law.value, deviation, z, size, law};
       }
     }
   return strongest;
 }
 
-/// What a fit may be tried with: the strongest that grows, and the strongest of `leftovers`, which comes
-/// first.
+/// What a fit may be tried with: the strongest that grows, and the strongest of `unexplained_forces`, which
+/// comes first.
 template <class D>
-std::vector<Leftover> laws_to_try(std::vector<Leftover>& leftovers, const Fit& fit, const Model& physics,
-                                  const ActiveSet& set, int threads, const FitWatch& watch) {
-  std::ranges::stable_sort(leftovers, std::greater<>(), [](const Leftover& l) { return std::abs(l.z); });
-  std::vector<Leftover> result;
+std::vector<UnexplainedForce> laws_to_try(std::vector<UnexplainedForce>& unexplained_forces, const Fit& fit,
+                                          const Model& physics, const ActiveSet& set, int threads,
+                                          const FitWatch& watch) {
+  std::ranges::stable_sort(unexplained_forces, std::greater<>(),
+                           [](const UnexplainedForce& l) { return std::abs(l.z); });
+  std::vector<UnexplainedForce> result;
   if (const auto growing = growing_leftover<D>(fit, physics, set, threads, watch)) result.push_back(*growing);
-  if (!leftovers.empty()) result.push_back(leftovers.front());
+  if (!unexplained_forces.empty()) result.push_back(unexplained_forces.front());
   return result;
 }
 
 /// A leftover's law as a fit has it, whose base grows by `first`, the power that was begun with.
-inline Leftover as_fitted(Leftover leftover, double first, const Fit& fit, const ActiveSet& set) {
+inline UnexplainedForce as_fitted(UnexplainedForce leftover, double first, const Fit& fit,
+                                  const ActiveSet& set) {
   PowerLaw& law = leftover.law;
   const int u = index_of(leftover.unknown), power = index_of(Unknown::kPower);
-  const Standing now = standing(Evidence(fit), set);
+  const Estimates now = estimates_of(Evidence(fit), set);
   if (set[power]) {
     law.exponent = std::clamp(first + fit.at[power], -kLargestPower, kLargestPower);
     law.deviation = now.deviation(power);
@@ -106,16 +109,17 @@ struct UnnamedTrial {
   Model physics;  ///< the base of the fit
   Fit fit;
   ActiveSet set;
-  std::vector<std::optional<Interval>> worsening_ci95;  ///< see Leftover
+  std::vector<std::optional<Interval>> worsening_ci95;  ///< see UnexplainedForce
   bool helps = false;
 };
 
 /// Fits the base with a leftover's law, its amplitude and its power, and with what is sure beside it; whether
 /// it helps is what data says that is left out. (The power's first guess comes from all windows.)
 template <class D>
-UnnamedTrial try_unnamed(const Leftover& leftover, const Fit& fit, const Model& base, const Model& physics,
-                         const ActiveSet& set, const Bank& bank, const std::vector<Recording>& holdout,
-                         std::uint64_t seed, int threads, const FitWatch& watch) {
+UnnamedTrial try_unnamed(const UnexplainedForce& leftover, const Fit& fit, const Model& base,
+                         const Model& physics, const ActiveSet& set, const Bank& bank,
+                         const std::vector<Recording>& holdout, std::uint64_t seed, int threads,
+                         const FitWatch& watch) {
   const PowerLaw& law = leftover.law;
   UnnamedTrial trial{with_growth(physics, law), fit, set, {}};
   const int u = index_of(leftover.unknown), power = index_of(Unknown::kPower);

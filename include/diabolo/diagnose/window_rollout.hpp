@@ -15,7 +15,7 @@ namespace diabolo {
 /// Of the string on the diabolo [m/s^2]: beyond, it is the jerk of a string that came taut.
 inline constexpr double kHardestPull = 60.0;
 
-namespace detail {
+namespace diagnose_detail {
 
 /// A low pass of time constant `lag` after a step in which its input goes straight from `from` to `to`.
 template <class D>
@@ -41,14 +41,14 @@ inline Eigen::Matrix3d first_frame(const Take& take, const FitWindow& window) {
 
 /// Moves a centre to where the markers say that it is, in a body that lies as `frame`.
 template <class D>
-void move_to_marker(Vector3<D>& centre, const Eigen::Matrix3d& frame, const Carried<D>& x) {
+void move_to_marker(Vector3<D>& centre, const Eigen::Matrix3d& frame, const DualUnknowns<D>& x) {
   for (int j = 0; j < 3; ++j) {
     const D offset = x(static_cast<Unknown>(index_of(Unknown::kMarkerX) + j));
     for (int c = 0; c < 3; ++c) centre[c] = centre[c] + offset * D(frame(c, j));
   }
 }
 
-}  // namespace detail
+}  // namespace diagnose_detail
 
 /// Columns: start, unknowns, residual.
 inline constexpr int kWindowColumns = kStartUnknowns + kUnknowns + 1;
@@ -83,52 +83,56 @@ struct WindowSystem {
 /// Predicts a window and compares it with the recording, with derivatives by its start and the unknowns that
 /// are carried; by the others they are told to be zero.
 template <class D>
-WindowSystem window_system(const Take& take, const FitWindow& window, const detail::FitModel<D>& model,
-                           const detail::Carried<D>& x, Delay delay = Delay::kClock, bool bounces = false) {
+WindowSystem window_system(const Take& take, const FitWindow& window,
+                           const diagnose_detail::FitModel<D>& model,
+                           const diagnose_detail::DualUnknowns<D>& x, Delay delay = Delay::kClock,
+                           bool bounces = false) {
   const Eigen::Index n = static_cast<Eigen::Index>(x.columns.size());
   const Recording& r = take.recording;
   WindowSystem system;
-  const double usual = detail::usual_pull(r, window);
+  const double usual = diagnose_detail::usual_pull(r, window);
   const D stretch =
-      detail::dynamic_spring(x.at)
+      diagnose_detail::dynamic_spring(x.at)
           ? D(0.0)
           : D((x(Unknown::kCompliance) + x(Unknown::kStickCompliance) * D(2.0)) * model.parameters.mass);
   Parameters<D> parameters = model.parameters;
   parameters.string_length = parameters.string_length + stretch * D(usual);
-  using FitPredictor = detail::FitPredictor<D>;
+  using FitPredictor = diagnose_detail::FitPredictor<D>;
   const FitPredictor predictor(parameters, model.effects, typename FitPredictor::AlreadyValid{});
   FitWindow begun = window;
   begun.start.axis = take.axis.col(window.first);
-  const std::vector<StageTips> grid = stage_tips(take, x.at, window.first, window.last, delay);
-  const auto tips_at = [&](Eigen::Index k) { return detail::fit_tips(grid[static_cast<std::size_t>(k)], x); };
+  const std::vector<FitTips> grid = tips_of_take(take, x.at, window.first, window.last, delay);
+  const auto tips_at = [&](Eigen::Index k) {
+    return diagnose_detail::fit_tips(grid[static_cast<std::size_t>(k)], x);
+  };
   Eigen::Index k = 0;
   Tips<D> now = tips_at(k), next = tips_at(k + 1);
   const auto step_of = [&](Eigen::Index row) {
     return D((take.times[row + 1] - take.times[row]) / take.substeps);
   };
-  State<D> state = detail::fit_start(begun, predictor, now, next, step_of(window.first), bounces);
+  State<D> state = diagnose_detail::fit_start(begun, predictor, now, next, step_of(window.first), bounces);
   const double half = take.times[window.first] + 0.5;
   bool measured_reach = false;
   // A low pass of the diabolo's track: y' = (x - y) / tau, begun with what was recorded.
   const bool filtered = delay == Delay::kFilter;
   const D lag = D(lag_of(x.at)) + (x(Unknown::kLag) - D(x.at[index_of(Unknown::kLag)]));
   Vector3<D> centre_before, trail = r.diabolo.position.col(window.first).template cast<D>();
-  Eigen::Matrix3d frame = detail::first_frame(take, window);  ///< body to world, as last seen
+  Eigen::Matrix3d frame = diagnose_detail::first_frame(take, window);  ///< body to world, as last seen
   Eigen::VectorXd line(n + 1);
   Eigen::MatrixXd positions = Eigen::MatrixXd::Zero(n + 1, n + 1), spins = positions;  // of what is carried
   D spin_before = state.spin;
   for (Eigen::Index row = window.first; row <= window.last; ++row) {
     const bool turned = take.has_orientation && r.diabolo_orientation.valid[row];
-    if (turned) frame = detail::frame_of(r.diabolo_orientation, row);
+    if (turned) frame = diagnose_detail::frame_of(r.diabolo_orientation, row);
     Vector3<D> centre = state.position;
     const double pull = value_of(squared_norm(state.string_acceleration));
     if (state.string_state == StringState::kOnString && pull > 0.0 && pull < kHardestPull * kHardestPull)
-      centre = centre + detail::string_shift(state, now, stretch, usual);
-    detail::move_to_marker(centre, frame, x);
+      centre = centre + diagnose_detail::string_shift(state, now, stretch, usual);
+    diagnose_detail::move_to_marker(centre, frame, x);
     if (filtered) {
       if (row > window.first)
-        trail =
-            detail::low_passed(trail, centre_before, centre, D(take.times[row] - take.times[row - 1]), lag);
+        trail = diagnose_detail::low_passed(trail, centre_before, centre,
+                                            D(take.times[row] - take.times[row - 1]), lag);
       centre_before = centre;
       centre = trail;
     }

@@ -30,7 +30,7 @@ inline StartNoise start_noise(const Recording& recording) {
   const int half = std::min(static_cast<int>(causal.weight.size()) - 1, 499), frames = 2 * half + 1;
   const Velocity fair = velocity(recording, recording.diabolo, causal);
   const Velocity around =
-      velocity(recording, recording.diabolo, local_polynomial(frames, kPowers, Window::kCentred));
+      velocity(recording, recording.diabolo, local_polynomial(frames, kPowers, FilterWindow::kCentred));
   // The polynomial's height in the middle, by least squares.
   Eigen::MatrixXd powers(frames, kPowers + 1);
   for (int i = 0; i < frames; ++i)

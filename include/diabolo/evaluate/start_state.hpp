@@ -31,7 +31,7 @@ inline constexpr double kStartWindow = 0.1;
 /// catches.
 inline VelocityFilter start_velocity_filter(double rate) {
   const int frames = static_cast<int>(std::clamp(std::round(kStartWindow * rate), 3.0, 999.0)) + 1;
-  return local_polynomial(frames, 2, Window::kCausal);
+  return local_polynomial(frames, 2, FilterWindow::kCausal);
 }
 
 /// Beyond this path length over the string's [m] a diabolo above the tips must be off the string, which

@@ -61,7 +61,7 @@ nlohmann::ordered_json record_to_json(const T& record) {
   return json;
 }
 
-namespace detail {
+namespace json_detail {
 
 [[noreturn]] inline void fail_record(const std::string& where, const nlohmann::json& found,
                                      const std::string& expected) {
@@ -77,17 +77,17 @@ struct IsList : std::false_type {};
 template <class T>
 struct IsList<std::vector<T>> : std::true_type {};
 
-}  // namespace detail
+}  // namespace json_detail
 
 /// Reads what is there; a field that is not there stays as it is. `where` names the place. Throws
 /// RecordingError where something is of another type.
 template <class T>
 void read_record(const nlohmann::json& json, T& value, const std::string& where) {
-  if constexpr (detail::IsOptional<T>::value) {
+  if constexpr (json_detail::IsOptional<T>::value) {
     value.reset();
     if (!json.is_null()) read_record(json, value.emplace(), where);
-  } else if constexpr (detail::IsList<T>::value) {
-    if (!json.is_array()) detail::fail_record(where, json, "a list");
+  } else if constexpr (json_detail::IsList<T>::value) {
+    if (!json.is_array()) json_detail::fail_record(where, json, "a list");
     value.clear();
     for (std::size_t i = 0; i < json.size(); ++i) {
       typename T::value_type item{};
@@ -95,25 +95,25 @@ void read_record(const nlohmann::json& json, T& value, const std::string& where)
       value.push_back(std::move(item));
     }
   } else if constexpr (std::same_as<T, double>) {
-    if (!json.is_number() && !json.is_null()) detail::fail_record(where, json, "a number");
+    if (!json.is_number() && !json.is_null()) json_detail::fail_record(where, json, "a number");
     value = json.is_null() ? kNaN : json.get<double>();
   } else if constexpr (std::same_as<T, bool>) {
-    if (!json.is_boolean()) detail::fail_record(where, json, "true or false");
+    if (!json.is_boolean()) json_detail::fail_record(where, json, "true or false");
     value = json.get<bool>();
   } else if constexpr (std::same_as<T, std::size_t>) {
-    if (!json.is_number_unsigned()) detail::fail_record(where, json, "a whole number");
+    if (!json.is_number_unsigned()) json_detail::fail_record(where, json, "a whole number");
     value = json.get<std::size_t>();
   } else if constexpr (std::same_as<T, std::string>) {
-    if (!json.is_string()) detail::fail_record(where, json, "a text");
+    if (!json.is_string()) json_detail::fail_record(where, json, "a text");
     value = json.get<std::string>();
   } else if constexpr (Record<T>) {
-    if (!json.is_object()) detail::fail_record(where, json, "an object");
+    if (!json.is_object()) json_detail::fail_record(where, json, "an object");
     T::for_each_field([&](const char* name, auto member, const char*) {
       if (const auto field = json.find(name); field != json.end())
         read_record(*field, value.*member, where.ends_with(": ") ? where + name : where + ", " + name);
     });
   } else {  // two numbers
-    if (!json.is_array() || json.size() != 2) detail::fail_record(where, json, "two numbers");
+    if (!json.is_array() || json.size() != 2) json_detail::fail_record(where, json, "two numbers");
     double low = 0.0, high = 0.0;
     read_record(json[0], low, where);
     read_record(json[1], high, where);
@@ -124,9 +124,9 @@ void read_record(const nlohmann::json& json, T& value, const std::string& where)
 /// The JSON schema of what record_to_json() makes of a T.
 template <class T>
 nlohmann::ordered_json record_schema() {
-  if constexpr (detail::IsOptional<T>::value) {
+  if constexpr (json_detail::IsOptional<T>::value) {
     return {{"anyOf", {record_schema<typename T::value_type>(), {{"type", "null"}}}}};
-  } else if constexpr (detail::IsList<T>::value) {
+  } else if constexpr (json_detail::IsList<T>::value) {
     return {{"type", "array"}, {"items", record_schema<typename T::value_type>()}};
   } else if constexpr (std::same_as<T, double>) {
     return {{"type", {"number", "null"}}};

@@ -17,7 +17,7 @@ struct Linearization {
   Eigen::MatrixXd jacobian;   ///< n x unknowns
 };
 
-namespace detail {
+namespace math_detail {
 
 /// The Levenberg-Marquardt step that is no longer than `radius`: damped just so much, or as much as could be
 /// tried before `stop()`.
@@ -36,7 +36,7 @@ Eigen::VectorXd step_within(const Eigen::MatrixXd& normal, const Eigen::VectorXd
   return step;
 }
 
-}  // namespace detail
+}  // namespace math_detail
 
 /// Levenberg and Marquardt's method in a trust region, within bounds |x_i| <= bounds_i: makes sum r_i(x)^2
 /// small from `x` on and returns the sum. `value(x)` gives the sum, `linearize(x)` the residuals with
@@ -63,7 +63,7 @@ double least_squares(std::vector<double>& x, const std::vector<double>& bounds, 
     }
     bool gained = false, settled = false;
     for (int attempt = 0; attempt < 7 && !gained && !stop(); ++attempt) {
-      const Eigen::VectorXd step = detail::step_within(normal, slope, radius, stop);
+      const Eigen::VectorXd step = math_detail::step_within(normal, slope, radius, stop);
       if (!step.allFinite()) return sum;  // residuals so large that their squares overflow
       std::vector<double> next = x;
       for (Eigen::Index i = 0; i < n; ++i) {

@@ -15,7 +15,7 @@ struct PolynomialMaximum {
   double at;     ///< an argument where the polynomial comes within the tolerance of it
 };
 
-namespace detail {
+namespace math_detail {
 
 /// Control values of a polynomial in Bernstein's form: it lies within their range, touches the first and the
 /// last, and comes closer to them the shorter the interval is (de Casteljau).
@@ -35,14 +35,14 @@ struct BernsteinPiece {
   }
 };
 
-}  // namespace detail
+}  // namespace math_detail
 
 /// The maximum of c[0] + c[1] s + ... over 0 <= s <= 1, found by halving the interval where it may lie.
 /// `tolerance` is absolute; what is returned lies above the truth by no more than that and what rounding may
 /// do, and never below, but for rounding.
 template <std::size_t N>
 PolynomialMaximum maximum_on_unit_interval(const std::array<double, N>& c, double tolerance) {
-  using Piece = detail::BernsteinPiece<N>;
+  using Piece = math_detail::BernsteinPiece<N>;
   Piece whole{{}, 0.0, 1.0};
   for (std::size_t i = 0; i < N; ++i) {
     double share = 1.0;  // binomial(i, k) / binomial(N - 1, k)

@@ -8,7 +8,7 @@
 
 namespace diabolo {
 
-namespace detail {
+namespace paper_detail {
 
 template <class Scalar>
 Vector3<Scalar> normal_at(const Spheroid<Scalar>& spheroid, const Vector3<Scalar>& point,
@@ -52,7 +52,7 @@ Vector3<Scalar> pull_velocity(const StringStep<Scalar>& step, const Spheroid<Sca
   return step.plane(bounded) * share;
 }
 
-}  // namespace detail
+}  // namespace paper_detail
 
 /// One step under the paper's and the published rules: free motion, the string's state, and outside the
 /// spheroid back onto it, with a capped part of the way as velocity. `taut` are the lanes that were put back.
@@ -74,9 +74,9 @@ StringStepResult<Scalar> advance_by_pull(StringStateOf<Scalar>& string_state, co
   result.string_acceleration = Vector3<Scalar>::Constant(Scalar(0));
   result.taut = on_string && !spheroid.contains(position) && !spheroid.overstretched();
   if (!any(result.taut)) return result;
-  const Vector3<Scalar> put = detail::put_on_spheroid(step, spheroid, position, parameters);
-  const Vector3<Scalar> normal = detail::normal_at(spheroid, put, parameters);
-  const Vector3<Scalar> pull = detail::pull_velocity(step, spheroid, position, put, normal, parameters);
+  const Vector3<Scalar> put = paper_detail::put_on_spheroid(step, spheroid, position, parameters);
+  const Vector3<Scalar> normal = paper_detail::normal_at(spheroid, put, parameters);
+  const Vector3<Scalar> pull = paper_detail::pull_velocity(step, spheroid, position, put, normal, parameters);
   const Vector3<Scalar> moved = result.velocity + pull, outward = step.plane(normal);
   const Scalar outward_rate = maximum(dot<Scalar>(moved, outward), Scalar(0));
   const Vector3<Scalar> inward =

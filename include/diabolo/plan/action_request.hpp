@@ -35,7 +35,7 @@ inline const std::array<Aim, 3>& aims() {
   return all;
 }
 
-namespace detail {
+namespace plan_detail {
 
 inline std::string listed(const std::vector<std::string_view>& names) {
   std::string text;
@@ -43,7 +43,7 @@ inline std::string listed(const std::vector<std::string_view>& names) {
   return text;
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// A figure of play that is wanted, from its home pose.
 struct ActionRequest {
@@ -75,12 +75,12 @@ struct ActionRequest {
     };
     if (!has(planned_actions(), action))
       throw std::invalid_argument("action '" + action + "'; expected one of " +
-                                  detail::listed(planned_actions()));
+                                  plan_detail::listed(planned_actions()));
     const std::array<bool, 3> given{height.has_value(), sideways.has_value(), spin_gain.has_value()};
     for (std::size_t i = 0; i < given.size(); ++i)
       if (const Aim& aim = aims()[i]; given[i] && !has(aim.actions, action))
         throw std::invalid_argument(std::string(aim.name) + ": nothing that " + action +
-                                    " can aim at; expected with " + detail::listed(aim.actions));
+                                    " can aim at; expected with " + plan_detail::listed(aim.actions));
     if (catches() && search.solver != Solver::kGradient)
       throw std::invalid_argument("solver: 'walk'; throw_and_catch is planned by 'gradient' only");
     if (cycles < 1 || cycles > kMostCycles)

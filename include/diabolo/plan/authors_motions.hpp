@@ -15,7 +15,7 @@ namespace diabolo {
 /// The length of the authors' string on their robots, for which their motions were made [m].
 inline constexpr double kAuthorsStringLength = 1.58;
 
-namespace detail {
+namespace plan_detail {
 
 /// Both tips across the player, x being `forward`.
 inline TipColumn<double> tips_column(double forward, double left_y, double left_z, double right_y,
@@ -46,42 +46,44 @@ inline std::vector<TipColumn<double>> together(std::initializer_list<std::array<
   return offsets;
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// The authors' linear acceleration: the right hand pulls up while the left one sinks, and back.
 inline StickSpline<double> authors_linear_acceleration(const TipColumn<double>& home, double size,
                                                        double pace) {
-  return detail::through(
+  return plan_detail::through(
       home, {0.25, 0.5, 0.9, 1.2},
-      {detail::tips_column(0.0, -0.05, -0.15, 0.05, 0.2), detail::tips_column(0.0, 0.0, -0.3, 0.0, 0.4),
-       detail::tips_column(0.0, -0.05, -0.15, 0.05, 0.2), TipColumn<double>::Zero()},
+      {plan_detail::tips_column(0.0, -0.05, -0.15, 0.05, 0.2),
+       plan_detail::tips_column(0.0, 0.0, -0.3, 0.0, 0.4),
+       plan_detail::tips_column(0.0, -0.05, -0.15, 0.05, 0.2), TipColumn<double>::Zero()},
       size, pace);
 }
 
 /// The authors' circular acceleration: the hands follow each other around, the diabolo runs below them.
 inline StickSpline<double> authors_circular_acceleration(const TipColumn<double>& home, double size,
                                                          double pace) {
-  return detail::through(
+  return plan_detail::through(
       home, {0.35, 0.65, 0.95, 1.25, 1.55, 1.85},
-      {detail::tips_column(0.0, -0.061, 0.1801, -0.042, 0.2),
-       detail::tips_column(0.0, 0.0592, 0.382, -0.24, 0.3),
-       detail::tips_column(0.0, 0.2619, 0.344, -0.41, 0.2),
-       detail::tips_column(0.0, 0.31, 0.15914, -0.371, 0.0),
-       detail::tips_column(0.0, 0.141, 0.03543, -0.163, -0.076), TipColumn<double>::Zero()},
+      {plan_detail::tips_column(0.0, -0.061, 0.1801, -0.042, 0.2),
+       plan_detail::tips_column(0.0, 0.0592, 0.382, -0.24, 0.3),
+       plan_detail::tips_column(0.0, 0.2619, 0.344, -0.41, 0.2),
+       plan_detail::tips_column(0.0, 0.31, 0.15914, -0.371, 0.0),
+       plan_detail::tips_column(0.0, 0.141, 0.03543, -0.163, -0.076), TipColumn<double>::Zero()},
       size, pace);
 }
 
 /// The authors' vertical throw: both hands part in three strides, level with each other.
 inline StickSpline<double> authors_throw(const TipColumn<double>& home) {
-  return detail::through(home, {0.4, 0.8, 0.92},
-                         detail::together({{0.0, 0.0, 0.2}, {0.0, 0.0, 0.65}, {0.0, 0.0, 0.731}}), 1.0, 1.0);
+  return plan_detail::through(home, {0.4, 0.8, 0.92},
+                              plan_detail::together({{0.0, 0.0, 0.2}, {0.0, 0.0, 0.65}, {0.0, 0.0, 0.731}}),
+                              1.0, 1.0);
 }
 
 /// The authors' horizontal impulse, which prepares others: both hands sway from side to side.
 inline StickSpline<double> authors_horizontal_impulse(const TipColumn<double>& home) {
-  return detail::through(
+  return plan_detail::through(
       home, {0.9, 1.4, 2.0, 2.8, 3.5},
-      detail::together(
+      plan_detail::together(
           {{0.23, 0.0, 0.0}, {0.12, 0.0, 0.0}, {-0.12, 0.0, 0.0}, {0.23, 0.0, 0.0}, {0.0, 0.0, 0.0}}),
       1.0, 1.0);
 }

@@ -39,7 +39,7 @@ std::vector<std::size_t> matched_instants(const Play<Scalar>& play, const std::v
   return result;
 }
 
-namespace detail {
+namespace plan_detail {
 
 /// Angle between two vectors, in three parts whose norm it is; smooth where it is zero.
 template <class Scalar>
@@ -180,7 +180,7 @@ void add_catch(const Play<Scalar>& play, const Goals& goals, double string_lengt
   errors.push_back(error);
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// How far a play is off its goals. `smooth`: the instant closest to a waypoint is looked for between those
 /// predicted too, and moves with the motion; else, as in the paper, it is one of them.
@@ -202,21 +202,23 @@ std::vector<GoalError<Scalar>> goal_errors(const Play<Scalar>& play, const Goals
       position = position + velocity * t;
       velocity = velocity + acceleration * t;
     }
-    detail::add_waypoint("waypoint " + std::to_string(w + 1), goals.waypoints[w], goals.tolerances, position,
-                         velocity, errors);
+    plan_detail::add_waypoint("waypoint " + std::to_string(w + 1), goals.waypoints[w], goals.tolerances,
+                              position, velocity, errors);
   }
   const State<Scalar>& last = play.end().state;
   if (goals.final_state)
-    detail::add_waypoint("final", *goals.final_state, goals.tolerances, last.position, last.velocity, errors);
+    plan_detail::add_waypoint("final", *goals.final_state, goals.tolerances, last.position, last.velocity,
+                              errors);
   if (goals.spin)
     errors.push_back({"spin",
                       goals.spin->weight,
                       goals.tolerances.spin,
                       "rad/s",
                       {Scalar(last.spin - Scalar(goals.spin->value))}});
-  if (goals.taut) errors.push_back(detail::slack_error(play, goals));
-  if (goals.throws()) detail::add_flight(play, goals, errors);
-  if (goals.caught) detail::add_catch(play, goals, parameters.string_length, parameters.catch_slack, errors);
+  if (goals.taut) errors.push_back(plan_detail::slack_error(play, goals));
+  if (goals.throws()) plan_detail::add_flight(play, goals, errors);
+  if (goals.caught)
+    plan_detail::add_catch(play, goals, parameters.string_length, parameters.catch_slack, errors);
   return errors;
 }
 

@@ -100,8 +100,8 @@ struct GradientSearch {
       least_squares(x, bounds, 6, 0.5, least_gain, value, linearize, stop);
     }
     const StickSpline<double> found = unknowns.motion(x);
-    const auto towards = [&](double share) { return detail::between(seed, found, share); };
-    const double share = detail::kept_share(problem.limits, length, towards);
+    const auto towards = [&](double share) { return plan_detail::between(seed, found, share); };
+    const double share = plan_detail::kept_share(problem.limits, length, towards);
     wanted.push_back(limit_uses(path_of(found), problem.limits, length));
     Plan plan = judged(problem, towards(share), evaluations, wanted);
     if (share == 1.0) return plan;

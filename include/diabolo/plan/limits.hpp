@@ -50,7 +50,7 @@ struct TipLimits {
   }
 };
 
-namespace detail {
+namespace plan_detail {
 
 /// Coefficients of |p|^2 for a polynomial p in three components, in shares of the piece's duration.
 template <std::size_t N>
@@ -61,7 +61,7 @@ std::array<double, 2 * N - 1> squared(const std::array<Vector3<double>, N>& p) {
   return c;
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// How much the path uses up of each limit, from its exact maxima: within 1e-9, and never too little. The
 /// string is `string_length` [m] long.
@@ -86,7 +86,7 @@ inline std::vector<LimitUse> limit_uses(const TipPath<double>& path, const TipLi
       for (std::size_t k = 0; k < 4; ++k) c[k] = piece.c[k].segment<3>(Eigen::Index{3} * side);
       const std::array<Vector3<double>, 3> v{c[1], Vector3<double>(2.0 * h * c[2]),
                                              Vector3<double>(3.0 * h2 * c[3])};
-      const PolynomialMaximum fastest = maximum_on_unit_interval(detail::squared(v), 1e-10);
+      const PolynomialMaximum fastest = maximum_on_unit_interval(plan_detail::squared(v), 1e-10);
       raise(speed, std::sqrt(fastest.value), piece.begin + fastest.at * h);
       raise(acceleration, (2.0 * c[2]).norm(), piece.begin);  // |a| is convex over a piece
       raise(acceleration, (2.0 * c[2] + 6.0 * h * c[3]).norm(), piece.begin + h);
@@ -112,7 +112,7 @@ inline std::vector<LimitUse> limit_uses(const TipPath<double>& path, const TipLi
       apart[k] = (piece.c[k].head<3>() - piece.c[k].tail<3>()) * power(k);
       negative_gap[k] = -apart[k].y();
     }
-    const PolynomialMaximum widest = maximum_on_unit_interval(detail::squared(apart), 1e-10);
+    const PolynomialMaximum widest = maximum_on_unit_interval(plan_detail::squared(apart), 1e-10);
     raise(distance, std::sqrt(widest.value), time(widest));
     const PolynomialMaximum closest = maximum_on_unit_interval(negative_gap, 1e-10);
     raise(gap, closest.value, time(closest));

@@ -30,7 +30,7 @@ struct Action {
   Goals goals{};
 };
 
-namespace detail {
+namespace plan_detail {
 
 inline void check_option(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -38,7 +38,7 @@ inline void check_option(const char* name, double value, double low, double high
                               shown(low) + " and " + shown(high));
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// What can be asked of an action.
 struct ActionOptions {
@@ -50,11 +50,11 @@ struct ActionOptions {
 
   /// Throws std::invalid_argument where one is out of its range.
   void validate() const {
-    detail::check_option("size", size, 0.1, 3.0);
-    detail::check_option("pace", pace, 0.2, 5.0);
-    detail::check_option("height", height, 0.01, 5.0);
-    detail::check_option("sideways", sideways, -2.0, 2.0);
-    if (spin) detail::check_option("spin", *spin, 0.0, 500.0);
+    plan_detail::check_option("size", size, 0.1, 3.0);
+    plan_detail::check_option("pace", pace, 0.2, 5.0);
+    plan_detail::check_option("height", height, 0.01, 5.0);
+    plan_detail::check_option("sideways", sideways, -2.0, 2.0);
+    if (spin) plan_detail::check_option("spin", *spin, 0.0, 500.0);
   }
 };
 
@@ -67,11 +67,12 @@ inline constexpr std::array<std::string_view, 7> kActionNames{
 inline TipColumn<double> home_pose(std::string_view action, double string_length) {
   const double s = string_length / kAuthorsStringLength;
   if (action == "linear_acceleration")
-    return detail::tips_column(0.55, 0.265 * s, 1.25 + 0.076 * s, -0.265 * s, 1.25 - 0.076 * s);
-  if (action == "circular_acceleration") return detail::tips_column(0.55, 0.21 * s, 1.25, -0.28 * s, 1.25);
+    return plan_detail::tips_column(0.55, 0.265 * s, 1.25 + 0.076 * s, -0.265 * s, 1.25 - 0.076 * s);
+  if (action == "circular_acceleration")
+    return plan_detail::tips_column(0.55, 0.21 * s, 1.25, -0.28 * s, 1.25);
   if (action == "throw" || action == "side_throw")
-    return detail::tips_column(0.55, 0.25 * s, 1.25, -0.25 * s, 1.25);
-  return detail::tips_column(0.55, 0.3 * s, 1.25, -0.3 * s, 1.25);
+    return plan_detail::tips_column(0.55, 0.25 * s, 1.25, -0.25 * s, 1.25);
+  return plan_detail::tips_column(0.55, 0.3 * s, 1.25, -0.3 * s, 1.25);
 }
 
 /// A diabolo that hangs at rest below the tips, left over right [m].
@@ -79,7 +80,7 @@ inline State<double> hanging_state(const TipColumn<double>& tips, double string_
   return hanging_state(Vector3<double>(tips.head<3>()), Vector3<double>(tips.tail<3>()), string_length, spin);
 }
 
-namespace detail {
+namespace plan_detail {
 
 /// Long pulls of the right hand against short returns. (Found by RandomWalk and GradientSearch with a string
 /// friction of 0.25: at 60 rad/s a cycle gains 8 rad/s.)
@@ -132,7 +133,7 @@ inline StickSpline<double> throw_seed(const TipColumn<double>& home, double stri
                  size, pace);
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// The action of the given name, from the pose where the tips rest and the diabolo's state then, for a string
 /// of that length. Throws std::invalid_argument where there is none of that name, or an option or the length
@@ -140,7 +141,7 @@ inline StickSpline<double> throw_seed(const TipColumn<double>& home, double stri
 inline Action action_named(std::string_view name, const TipColumn<double>& tips, const State<double>& start,
                            double string_length, const ActionOptions& wanted) {
   wanted.validate();
-  detail::check_option("string_length", string_length, 0.05, 20.0);  // as of Parameters
+  plan_detail::check_option("string_length", string_length, 0.05, 20.0);  // as of Parameters
   ActionOptions options = wanted;
   options.pace /= std::sqrt(string_length / 1.45);  // longer pendulums are slower
   const double s = options.size * string_length / kAuthorsStringLength;
@@ -156,18 +157,20 @@ inline Action action_named(std::string_view name, const TipColumn<double>& tips,
     action.goals.taut = 0.1;
   };
   if (name == "linear_acceleration") {
-    action.seed = detail::linear_acceleration_seed(tips, options.size * string_length / 1.45, options.pace);
+    action.seed =
+        plan_detail::linear_acceleration_seed(tips, options.size * string_length / 1.45, options.pace);
     action.goals.tolerances.taut = 0.6;
     spin_up();
   } else if (name == "circular_acceleration") {
-    action.seed = detail::circular_acceleration_seed(tips, options.size * string_length / 1.45, options.pace);
-    detail::add_circle(middle, rest, options.size * string_length / 1.45, action.goals);
+    action.seed =
+        plan_detail::circular_acceleration_seed(tips, options.size * string_length / 1.45, options.pace);
+    plan_detail::add_circle(middle, rest, options.size * string_length / 1.45, action.goals);
     spin_up();
   } else if (name == "swing") {
     const double lean = 0.3 * options.sideways;
-    action.seed = detail::through(
+    action.seed = plan_detail::through(
         tips, {0.35, 0.8, 1.3, 1.7},
-        detail::together(
+        plan_detail::together(
             {{0.5 * lean, 0.0, 0.0}, {lean, 0.0, 0.0}, {-0.3 * lean, 0.0, 0.0}, {0.0, 0.0, 0.0}}),
         options.size, options.pace);
     const Vector3<double> side = rest + Vector3<double>(0.0, options.sideways, 0.0);
@@ -179,23 +182,23 @@ inline Action action_named(std::string_view name, const TipColumn<double>& tips,
                  0.0}};
     action.goals.taut = 0.3;
   } else if (name == "hop") {
-    action.seed = detail::through(
+    action.seed = plan_detail::through(
         tips, {0.25, 0.5, 0.75, 1.1},
-        detail::together({{0.0, -0.08, 0.0}, {0.0, 0.12, 0.02}, {0.0, -0.05, 0.0}, {0.0, 0.0, 0.0}}), s,
+        plan_detail::together({{0.0, -0.08, 0.0}, {0.0, 0.12, 0.02}, {0.0, -0.05, 0.0}, {0.0, 0.0, 0.0}}), s,
         options.pace);
     action.goals.waypoints = {
         Waypoint{rest + Vector3<double>(0.0, 0.0, options.height), Vector3<double>::Zero(), 1.0, 0.0, 0.0}};
   } else if (name == "throw" || name == "side_throw") {
     const double sideways = name == "throw" ? 0.0 : options.sideways;
-    action.seed = detail::throw_seed(tips, string_length, options, sideways);
+    action.seed = plan_detail::throw_seed(tips, string_length, options, sideways);
     action.freedom.last_point = true;
     action.goals.final_state.reset();
     action.goals.apex = Target{options.height};
     action.goals.landing = Landing{middle + Vector3<double>(0.0, sideways, 0.0)};
   } else if (name == "stop") {
-    action.seed = detail::through(
+    action.seed = plan_detail::through(
         tips, {0.3, 0.6, 0.9, 1.2},
-        detail::together({{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}), 1.0,
+        plan_detail::together({{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}), 1.0,
         options.pace);
     action.goals.final_state->velocity_weight = 1.0;
   } else {

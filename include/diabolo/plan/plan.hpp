@@ -52,7 +52,7 @@ inline std::function<bool()> deadline(double seconds) {
   return [end] { return Clock::now() >= end; };
 }
 
-namespace detail {
+namespace plan_detail {
 
 /// Limits that stand in the way of more, in a clause: those nearly used up, and those that one of the
 /// `wanted` motions breaks, in whose place a smaller one stands.
@@ -115,7 +115,7 @@ inline StickSpline<double> between(const StickSpline<double>& a, const StickSpli
   return result;
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// From where the tips are no motion keeps the limits.
 class NoMotion : public std::invalid_argument {
@@ -147,8 +147,8 @@ inline StickSpline<double> kept_seed(const StickSpline<double>& seed, const TipL
          << (seed.start ? " even where the tips come to rest at once" : " even where the tips stay");
     throw NoMotion(text.str());
   }
-  return scaled(detail::kept_share(limits, string_length, [&](double size) { return scaled(size, 1.0); }),
-                1.0);
+  return scaled(
+      plan_detail::kept_share(limits, string_length, [&](double size) { return scaled(size, 1.0); }), 1.0);
 }
 
 /// What a motion that keeps the limits is worth. `wanted`: what those use of them in whose place it stands.
@@ -169,7 +169,7 @@ Plan judged(const PlanProblem<Effects...>& problem, const StickSpline<double>& m
   plan.limits = limit_uses(plan.path, problem.limits, problem.string_length());
   plan.reached = std::ranges::all_of(plan.goals, &GoalCost::reached);
   plan.evaluations = evaluations;
-  plan.answer = detail::answer_of(plan, wanted);
+  plan.answer = plan_detail::answer_of(plan, wanted);
   return plan;
 }
 

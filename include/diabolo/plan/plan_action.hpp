@@ -19,7 +19,7 @@ namespace diabolo {
 inline constexpr double kLongestPlay = 3600.0;       ///< [s]
 inline constexpr double kLongestFlightShown = 10.0;  ///< after the end of a play [s]
 
-namespace detail {
+namespace plan_detail {
 
 /// One cycle of an action.
 struct PlannedCycle {
@@ -103,7 +103,7 @@ void add_cycles(PlannedPlay& play_so_far, const ActionRequest& wanted,
   }
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// Plans a figure of play from its home pose, for all models at once: their mean cost counts, and the first
 /// one is the nominal one, whose string length decides the pose. There are fewer cycles than asked for, and
@@ -114,9 +114,9 @@ PlannedPlay plan_action(const ActionRequest& wanted,
                         const std::vector<Predictor<double, Effects...>>& models) {
   wanted.validate();
   if (models.empty()) throw std::invalid_argument("model: none; at least one expected");
-  const std::vector<State<double>> starts = detail::starts_of(wanted, models);
+  const std::vector<State<double>> starts = plan_detail::starts_of(wanted, models);
   const auto begin = std::chrono::steady_clock::now();
-  detail::PlannedCycle first = detail::plan_cycle(wanted, models, starts, {});
+  plan_detail::PlannedCycle first = plan_detail::plan_cycle(wanted, models, starts, {});
   if (wanted.search.cancelled && wanted.search.cancelled()) throw Cancelled();
   PlannedPlay result;
   result.action = wanted.action;
@@ -124,7 +124,7 @@ PlannedPlay plan_action(const ActionRequest& wanted,
   result.plans = std::move(first.plans);
   result.wanted = std::move(first.wanted);
   result.start = starts.front();
-  detail::add_cycles(result, wanted, models, starts);
+  plan_detail::add_cycles(result, wanted, models, starts);
   result.planning_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const TipColumn<double> hands = result.path.derivatives_at(result.path.end())[0];
   const bool caught = wanted.catches() && result.plans.size() % 2 == 0;

@@ -21,8 +21,8 @@ namespace diabolo {
 /// A motion that is wanted: what there is, what shall be achieved, and what must be kept.
 template <template <class> class... Effects>
 struct PlanProblem {
-  using Model = Predictor<double, Effects...>;
-  std::vector<Model>
+  using PlanPredictor = Predictor<double, Effects...>;
+  std::vector<PlanPredictor>
       models;                ///< what the diabolo may do: the nominal one first; a plan counts on all of them
   State<double> start;       ///< of the diabolo when the motion begins
   StickSpline<double> seed;  ///< a motion that is known to do something like what is wanted
@@ -39,7 +39,7 @@ struct PlanProblem {
   /// The shortest that it may have [m]: the tips of a plan stay within it.
   double string_length() const {
     double shortest = models.front().parameters().string_length;
-    for (const Model& model : models) shortest = std::min(shortest, model.parameters().string_length);
+    for (const PlanPredictor& model : models) shortest = std::min(shortest, model.parameters().string_length);
     return shortest;
   }
 
@@ -58,7 +58,7 @@ struct PlanProblem {
     seed.validate();
     for (std::size_t m = 0; m < models.size(); ++m) check_start(m);
     goals.validate();
-    for (const Model& model : models)
+    for (const PlanPredictor& model : models)
       if (const double gravity = model.parameters().gravity; goals.flies() && !(gravity >= kLeastGravity))
         throw std::invalid_argument("plan: a gravity of " + shown(gravity) + " m/s^2; expected " +
                                     shown(kLeastGravity) + " m/s^2 at least for a throw or a catch");
@@ -114,7 +114,7 @@ struct PlanProblem {
   }
 };
 
-namespace detail {
+namespace plan_detail {
 
 /// How much a path goes beyond its limits at the instants of a play and at its points, in parts that grow
 /// from zero on: what a solver sees of the limits. `inside` is kept free before each limit, as a share of it
@@ -155,7 +155,7 @@ void add_limit_parts(const Play<Scalar>& play, const TipPath<Scalar>& path, cons
     }
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// Residuals of a plan whose squares a solver makes small: goals, limits, and a little of the distance from
 /// the seed, which decides between motions that are as good.
@@ -189,7 +189,8 @@ class PlanResiduals {
       }
       const std::size_t goals = parts.size();
       if (m == 0)
-        detail::add_limit_parts(play, path, problem_.limits, problem_.string_length(), inside, weight, parts);
+        plan_detail::add_limit_parts(play, path, problem_.limits, problem_.string_length(), inside, weight,
+                                     parts);
       if (parts.size() > goals) farthest = INFINITY;
     }
     if (worst) *worst = farthest;

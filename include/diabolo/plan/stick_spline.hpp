@@ -85,7 +85,7 @@ struct StickSpline {
   }
 };
 
-namespace detail {
+namespace plan_detail {
 
 /// A tip column, and in the seventh row a spline of numbers that all of them may add a multiple of.
 template <class Scalar>
@@ -98,19 +98,20 @@ SplineColumn<Scalar> spline_column(const TipColumn<Scalar>& tips, double seventh
   return result;
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// The path of a spline. Throws std::invalid_argument where the spline is no valid one.
 template <class Scalar>
 TipPath<Scalar> path_of(const StickSpline<Scalar>& spline) {
-  using Column = detail::SplineColumn<Scalar>;
+  using Column = plan_detail::SplineColumn<Scalar>;
   spline.validate();
   const TipColumn<Scalar> zero = TipColumn<Scalar>::Constant(Scalar(0));
   std::vector<Scalar> h = spline.durations;
   std::vector<Column> y;
-  for (const TipColumn<Scalar>& point : spline.points) y.push_back(detail::spline_column<Scalar>(point, 0.0));
+  for (const TipColumn<Scalar>& point : spline.points)
+    y.push_back(plan_detail::spline_column<Scalar>(point, 0.0));
   const bool loop = spline.ends == SplineEnds::kPeriodic;
-  Column first = detail::spline_column<Scalar>(zero, loop ? 1.0 : 0.0), last = first;
+  Column first = plan_detail::spline_column<Scalar>(zero, loop ? 1.0 : 0.0), last = first;
   if (spline.start) {
     first.template head<6>() = spline.start->velocity;
     const Scalar settling = minimum(Scalar(h[0] * Scalar(0.5)), Scalar(kSettling)),
@@ -119,7 +120,7 @@ TipPath<Scalar> path_of(const StickSpline<Scalar>& spline) {
     h.insert(h.begin(), settling);
     const TipColumn<Scalar> between =
         spline.points[0] + TipColumn<Scalar>(spline.points[1] - spline.points[0]) * share_of;
-    y.insert(y.begin() + 1, detail::spline_column<Scalar>(between, 1.0));
+    y.insert(y.begin() + 1, plan_detail::spline_column<Scalar>(between, 1.0));
   }
   std::vector<Column> m = spline_curvatures(h, y, std::optional(EndSlopes<Column>{first, last}));
   // The seventh spline takes care of one condition: of a loop, the same acceleration at both ends, by their

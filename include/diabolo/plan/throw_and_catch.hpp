@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "diabolo/plan/gradient_search.hpp"
-#include "diabolo/plan/horizon.hpp"
 #include "diabolo/plan/motions.hpp"
+#include "diabolo/plan/receding_horizon.hpp"
 
 namespace diabolo {
 
@@ -21,7 +21,7 @@ inline constexpr double kSpreadOfCatches = 0.01;
 /// The hands need so long to come under a diabolo that falls [s].
 inline constexpr double kLeastFall = 0.12;
 
-namespace detail {
+namespace plan_detail {
 
 /// When after now a flying diabolo falls through a height [s], and where [m].
 struct Fall {
@@ -47,7 +47,7 @@ inline Fall fall_to_catch(const State<double>& state, double level, double gravi
   return fall;
 }
 
-}  // namespace detail
+}  // namespace plan_detail
 
 /// Catches a diabolo that flies: the string, all but straight, comes under the place where it falls through
 /// the height of the hands, gives way, and the hands come home to `home`. Where not only seam.state but
@@ -60,11 +60,11 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
   const double level = 0.5 * (seam.tips[2] + seam.tips[5]);
   check_state("catch: the diabolo", seam.state);
   for (const State<double>& other : others) check_state("catch: the diabolo as it may be too", other);
-  const detail::Fall nominal = detail::fall_to_catch(seam.state, level, gravity);
+  const plan_detail::Fall nominal = plan_detail::fall_to_catch(seam.state, level, gravity);
   double first = nominal.time, last = nominal.time;
   Vector3<double> lowest = nominal.place, highest = nominal.place;
   for (const State<double>& other : others) {
-    const detail::Fall fall = detail::fall_to_catch(other, level, gravity);
+    const plan_detail::Fall fall = plan_detail::fall_to_catch(other, level, gravity);
     first = std::min(first, fall.time);
     last = std::max(last, fall.time);
     lowest = lowest.cwiseMin(fall.place);
@@ -73,7 +73,7 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
   const Vector3<double> place = 0.5 * (lowest + highest);
   const double half = 0.5 * (string_length - 0.5 * catch_slack);
   const auto pose = [&](double half_gap, double z) {
-    return detail::tips_column(place.x(), place.y() + half_gap, z, place.y() - half_gap, z);
+    return plan_detail::tips_column(place.x(), place.y() + half_gap, z, place.y() - half_gap, z);
   };
   Action action;
   action.name = "catch";
@@ -127,7 +127,8 @@ ThrowAndCatch plan_throw_and_catch(const PlanProblem<Effects...>& throwing, cons
     const State<double> end =
         throwing.played(m, throwing.models[m], result.path, throwing.kReportedStep).end().state;
     const double fall =
-        detail::fall_to(end, 0.5 * (tips[0][2] + tips[0][5]), throwing.models[m].parameters().gravity).time;
+        plan_detail::fall_to(end, 0.5 * (tips[0][2] + tips[0][5]), throwing.models[m].parameters().gravity)
+            .time;
     const bool flies = end.string_state == StringState::kFlying;
     if (m == 0 && flies && fall < kLeastFall) {
       Plan& thrown = result.thrown;

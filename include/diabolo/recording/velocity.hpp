@@ -78,7 +78,7 @@ inline VelocityFilter forward_difference() { return {Eigen::Vector2d(-1.0, 1.0),
 inline VelocityFilter central_difference() { return {Eigen::Vector3d(-0.5, 0.0, 0.5), -1}; }
 
 /// Where the frames of a local polynomial lie.
-enum class Window {
+enum class FilterWindow {
   kCausal,   ///< the sample and those before it: nothing after the start of a prediction is used
   kCentred,  ///< as many on both sides (an odd number of frames)
 };
@@ -86,15 +86,15 @@ enum class Window {
 /// Slope, at the sample, of the polynomial of a degree fitted to a window of frames by least squares
 /// (Savitzky and Golay 1964): exact for motions of that degree. See bandwidth() and noise_gain() for what a
 /// choice gives. Throws std::invalid_argument unless 1 <= degree < frames <= 1000, degree <= 8.
-inline VelocityFilter local_polynomial(int frames, int degree, Window window) {
+inline VelocityFilter local_polynomial(int frames, int degree, FilterWindow window) {
   if (degree < 1 || degree > 8 || frames <= degree || frames > 1000)
     throw std::invalid_argument("local polynomial: degree " + std::to_string(degree) + " over " +
                                 std::to_string(frames) +
                                 " frames; expected 1 <= degree < frames <= 1000, degree <= 8");
-  if (window == Window::kCentred && frames % 2 == 0)
+  if (window == FilterWindow::kCentred && frames % 2 == 0)
     throw std::invalid_argument("local polynomial: " + std::to_string(frames) +
                                 " frames; a centred window has an odd number");
-  const Eigen::Index first = window == Window::kCausal ? 1 - frames : -(frames / 2);
+  const Eigen::Index first = window == FilterWindow::kCausal ? 1 - frames : -(frames / 2);
   // Sum over d of p_d(x_k) p_d'(0) / |p_d|^2, with the polynomials orthogonal over the window (Forsythe
   // 1957).
   const Eigen::ArrayXd x =

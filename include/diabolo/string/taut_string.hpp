@@ -10,7 +10,7 @@ namespace diabolo {
 template <bool kElastic, class Scalar>
 StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const Mask<Scalar>& captured);
 
-namespace detail {
+namespace string_detail {
 
 /// What the search for the string's pull begins with.
 template <bool kElastic, class Scalar>
@@ -177,7 +177,7 @@ template <bool kElastic, class Scalar>
   return result;
 }
 
-}  // namespace detail
+}  // namespace string_detail
 
 /// One step of a point mass on a massless string without friction, tips given: m a = m g - T grad(S), T >= 0,
 /// with S the path length. Lanes outside `captured` fly freely.
@@ -191,24 +191,24 @@ template <bool kElastic, class Scalar>
 /// `kElastic` false leaves the spring out; the result is the same, bit for bit, as with a compliance of zero.
 template <bool kElastic, class Scalar>
 StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const Mask<Scalar>& captured) {
-  detail::TautSearch<kElastic, Scalar> search{step};
+  string_detail::TautSearch<kElastic, Scalar> search{step};
   const Mask<Scalar> may_pull = captured && !search.slack;
-  if (!any(may_pull)) return detail::advance_slack<kElastic>(search, captured);
+  if (!any(may_pull)) return string_detail::advance_slack<kElastic>(search, captured);
   // The string moves the diabolo by `shift` from where it would have come without it: a guess first.
-  detail::TautIterate<Scalar> now(step, search.free,
-                                  step.string_acceleration * select(may_pull, search.half_square, Scalar(0)));
+  string_detail::TautIterate<Scalar> now(
+      step, search.free, step.string_acceleration * select(may_pull, search.half_square, Scalar(0)));
   const Mask<Scalar> snaps = captured && search.slack && (now.path.length() > step.string_length);
-  if (any(snaps)) return detail::advance_from_catch<kElastic>(step, captured, snaps);
+  if (any(snaps)) return string_detail::advance_from_catch<kElastic>(step, captured, snaps);
   if constexpr (kElastic) search.resolve_spring(now.gradient);
   now.improve(search, may_pull);
   for (int i = 1; i < 12 && !all(now.settled); ++i) {
-    detail::TautIterate<Scalar> next(step, search.free, now.shift);
+    string_detail::TautIterate<Scalar> next(step, search.free, now.shift);
     next.improve(search, may_pull);
     next.keep_where(now.settled, now);  // a lane does not depend on how long its neighbours take
     now = next;
   }
-  StringStepResult<Scalar> result = detail::pulled(search, now);
-  const Mask<Scalar> gains = search.thrown() && detail::may_gain(search, now);
+  StringStepResult<Scalar> result = string_detail::pulled(search, now);
+  const Mask<Scalar> gains = search.thrown() && string_detail::may_gain(search, now);
   if (any(gains))
     keep_energy<Scalar>(step, search.begin, now.path, now.pull * Scalar(step.dt / search.half_square), gains,
                         result.velocity);
@@ -223,14 +223,14 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
 template <bool kElastic, class Scalar>
 [[gnu::always_inline]] inline bool advance_at_once(const StringStep<Scalar>& step,
                                                    StringStepResult<Scalar>& result) {
-  detail::TautSearch<kElastic, Scalar> search{step};
+  string_detail::TautSearch<kElastic, Scalar> search{step};
   if (any(search.slack) || (!kElastic && !all(search.thrown()))) return false;
-  detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
+  string_detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
   if constexpr (kElastic) search.resolve_spring(found.gradient);
   found.improve(search, Mask<Scalar>(true));
-  if (!all(found.settled) || any(detail::may_gain(search, found)) || !all(found.pull > Scalar(0)))
+  if (!all(found.settled) || any(string_detail::may_gain(search, found)) || !all(found.pull > Scalar(0)))
     return false;
-  result = detail::pulled(search, found);
+  result = string_detail::pulled(search, found);
   return true;
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("the nearest solution stays on the seed's turn and inside the windows"
   CHECK(beyond[5] == Approx(0.3));
 
   // A narrow window on the shoulder leaves the other branches, a window that holds none leaves nothing.
-  JointWindows windows = kUr5eWindows;
+  JointRanges windows = kUr5eWindows;
   windows.lower[4] = 0.1;
   windows.upper[4] = 3.0;
   const auto inside = nearest_solution(solutions, q, windows);

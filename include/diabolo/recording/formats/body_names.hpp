@@ -29,7 +29,7 @@ inline const MotiveBody* body_of_name(const MotiveTake& take, const std::vector<
   return nullptr;
 }
 
-namespace detail {
+namespace recording_formats_detail {
 
 inline bool tells(std::string name, std::string_view word) {
   std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
@@ -42,7 +42,7 @@ inline std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
-}  // namespace detail
+}  // namespace recording_formats_detail
 
 /// The bodies of a take that are wanted: by name, else the only one that has no wanted name but a telling
 /// one, such as "stick_right_2010_10" for the right stick; a note says so. Throws RecordingError that names
@@ -59,20 +59,23 @@ inline std::array<const MotiveBody*, 3> find_bodies(const std::array<WantedBody,
       all.push_back(body.name);
       if (std::ranges::find(named, &body) != named.end()) continue;
       std::size_t words = 0;
-      for (const WantedBody& any : wanted) words += detail::tells(body.name, any.word);
-      if (words != 1 || !detail::tells(body.name, wanted[k].word)) continue;
+      for (const WantedBody& any : wanted) words += recording_formats_detail::tells(body.name, any.word);
+      if (words != 1 || !recording_formats_detail::tells(body.name, wanted[k].word)) continue;
       choices.push_back(body.name);
       found[k] = &body;
     }
     const std::string role(wanted[k].role);
     if (choices.empty())
       throw RecordingError(take.file_name + ": no rigid body for " + role + ": tried " +
-                           detail::listed(wanted[k].names) + "; the file has " + detail::listed(all));
+                           recording_formats_detail::listed(wanted[k].names) + "; the file has " +
+                           recording_formats_detail::listed(all));
     if (choices.size() > 1)
       throw RecordingError(take.file_name + ": several rigid bodies may be " + role + ": " +
-                           detail::listed(choices) + "; expected one, or its name in a calibration");
+                           recording_formats_detail::listed(choices) +
+                           "; expected one, or its name in a calibration");
     notes.push_back(shown(choices.front()) + " is taken for " + role +
-                    ", by its name; the calibration is of " + detail::listed(wanted[k].names));
+                    ", by its name; the calibration is of " +
+                    recording_formats_detail::listed(wanted[k].names));
   }
   return found;
 }

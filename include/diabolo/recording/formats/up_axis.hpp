@@ -48,7 +48,7 @@ inline Eigen::Matrix3d turn_to_z_up(const UpAxis& up) {
   return turn;
 }
 
-namespace detail {
+namespace recording_formats_detail {
 
 /// Turns positions, and orientations from body to file; a mirrored body keeps its x and z.
 inline void turn_frame(const Eigen::Matrix3d& turn, Eigen::Matrix3Xd& position,
@@ -64,14 +64,14 @@ inline void turn_frame(const Eigen::Matrix3d& turn, Eigen::Matrix3Xd& position,
   }
 }
 
-}  // namespace detail
+}  // namespace recording_formats_detail
 
 /// The recording with z up, of one in which another axis points up.
 inline Recording turned_to_z_up(Recording r, const UpAxis& up) {
   const Eigen::Matrix3d turn = turn_to_z_up(up);
-  detail::turn_frame(turn, r.left.position, r.left_orientation.quaternion);
-  detail::turn_frame(turn, r.right.position, r.right_orientation.quaternion);
-  detail::turn_frame(turn, r.diabolo.position, r.diabolo_orientation.quaternion);
+  recording_formats_detail::turn_frame(turn, r.left.position, r.left_orientation.quaternion);
+  recording_formats_detail::turn_frame(turn, r.right.position, r.right_orientation.quaternion);
+  recording_formats_detail::turn_frame(turn, r.diabolo.position, r.diabolo_orientation.quaternion);
   return r;
 }
 
@@ -79,8 +79,9 @@ inline Recording turned_to_z_up(Recording r, const UpAxis& up) {
 inline MotiveTake turned_to_z_up(MotiveTake take, const UpAxis& up) {
   const Eigen::Matrix3d turn = turn_to_z_up(up);
   Eigen::Matrix4Xd none(4, 0);
-  for (MotiveBody& body : take.bodies) detail::turn_frame(turn, body.position, body.quaternion);
-  for (MotiveMarker& marker : take.markers) detail::turn_frame(turn, marker.position, none);
+  for (MotiveBody& body : take.bodies)
+    recording_formats_detail::turn_frame(turn, body.position, body.quaternion);
+  for (MotiveMarker& marker : take.markers) recording_formats_detail::turn_frame(turn, marker.position, none);
   return take;
 }
 

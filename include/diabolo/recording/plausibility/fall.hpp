@@ -70,7 +70,7 @@ inline std::vector<Fall> falls(const Recording& r) {
   return result;
 }
 
-namespace detail {
+namespace recording_plausibility_detail {
 
 /// The middle one of values, which it reorders; there must be one at least.
 inline double median_of(std::vector<double>& values) {
@@ -86,7 +86,7 @@ inline double median_residual(const std::vector<Fall>& falls, const Eigen::Vecto
   return median_of(residuals);
 }
 
-}  // namespace detail
+}  // namespace recording_plausibility_detail
 
 /// The axis, 1 to 3 for x to z and negative for its opposite, that the motion says points up where that is
 /// not z; nothing where it says so of z, or not clearly. Axes are the columns of `axes`, directions in the
@@ -97,7 +97,7 @@ inline std::optional<int> other_axis_up(const Recording& r, const std::vector<Fa
   if (falls.empty() || static_cast<double>(falls.size()) < kFewestSecondsOfNoPlay * r.rate) return {};
   const double gravity = Parameters<double>{}.gravity;
   const auto residual = [&](int axis) {
-    return detail::median_residual(
+    return recording_plausibility_detail::median_residual(
         falls, (axis > 0 ? -gravity : gravity) * axes.col(static_cast<Eigen::Index>(std::abs(axis) - 1)));
   };
   const double given = residual(3);
@@ -133,10 +133,10 @@ inline std::string odd_fall(const Recording& r, const std::vector<Fall>& falls) 
     strengths.push_back(-left.dot(fall.acceleration) / left.squaredNorm());
   }
   if (telling.size() < 20 || static_cast<double>(telling.size()) < kFewest * r.rate) return {};
-  const double strength = detail::median_of(strengths);
+  const double strength = recording_plausibility_detail::median_of(strengths);
   if (strength > gravity / kOddFall && strength < gravity * kOddFall) return {};
-  if (detail::median_residual(telling, -strength * up) >
-      0.5 * detail::median_residual(telling, -gravity * up))
+  if (recording_plausibility_detail::median_residual(telling, -strength * up) >
+      0.5 * recording_plausibility_detail::median_residual(telling, -gravity * up))
     return {};
   return "the diabolo falls by " + shown(std::round(10.0 * strength) / 10.0) + " m/s^2 instead of " +
          shown(gravity) + ", in flight and across the string: " +

@@ -125,7 +125,7 @@ class JumpFinder {
 /// Makes dropouts of samples in which a body jumps away and back (JumpFinder), but for those in which bodies
 /// are under each other's names (unswap). Returns how many; a note counts them by body.
 inline Eigen::Index mask_jumps(Recording& r) {
-  const std::array<Track*, 3> tracks = detail::tracks_of(r);
+  const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(r);
   std::array<Marks, 3> jumps;
   for (std::size_t b = 0; b < 3; ++b) jumps[b] = JumpFinder(*tracks[b], r).find();
   if (!(jumps[0] || jumps[1] || jumps[2]).any()) return 0;
@@ -140,7 +140,7 @@ inline Eigen::Index mask_jumps(Recording& r) {
     if (count == 0) continue;
     total += count;
     counts += (counts.empty() ? "" : ", ") + std::string(kNames[b]) + " " + std::to_string(count);
-    OrientationTrack& turn = *detail::orientations_of(r)[b];
+    OrientationTrack& turn = *recording_plausibility_detail::orientations_of(r)[b];
     for (Eigen::Index i = 0; i < r.size(); ++i) {
       if (!jumps[b][i]) continue;
       tracks[b]->valid[i] = false;

@@ -20,7 +20,7 @@ struct Swaps {
   Eigen::Index count = 0;
 };
 
-namespace detail {
+namespace recording_plausibility_detail {
 
 /// Which recorded body is which: entry b is where body b (left, right, diabolo) was recorded.
 using Assignment = std::array<int, 3>;
@@ -33,7 +33,7 @@ inline std::array<OrientationTrack*, 3> orientations_of(Recording& r) {
   return {&r.left_orientation, &r.right_orientation, &r.diabolo_orientation};
 }
 
-}  // namespace detail
+}  // namespace recording_plausibility_detail
 
 /// A body moves less than this between rows that are seen one after another [m]: beyond, names were mixed up,
 /// where another assignment leaves less than a third of the way.
@@ -42,11 +42,11 @@ inline constexpr double kFarthestMove = 0.15;
 /// Gives positions and orientations that jump to another body's place back to it. What most rows say is
 /// right.
 inline Swaps unswap(Recording& r) {
-  using detail::Assignment;
+  using recording_plausibility_detail::Assignment;
   const Eigen::Index size = r.size();
   const Recording given = r;
   Recording source = given;
-  const std::array<Track*, 3> from = detail::tracks_of(source);
+  const std::array<Track*, 3> from = recording_plausibility_detail::tracks_of(source);
   std::vector<std::size_t> chosen(static_cast<std::size_t>(size), 0);
   std::array<Eigen::Vector3d, 3> last;
   last.fill(Eigen::Vector3d::Zero());
@@ -70,12 +70,12 @@ inline Swaps unswap(Recording& r) {
       }
       return std::pair(sum, known);
     };
-    const auto [stay, known] = way(detail::kAssignments[now]);
+    const auto [stay, known] = way(recording_plausibility_detail::kAssignments[now]);
     if (known >= 2 && stay > kFarthestMove) {
       std::size_t best = now;
       double least = stay / 3.0;
-      for (std::size_t a = 0; a < detail::kAssignments.size(); ++a) {
-        const auto [sum, others] = way(detail::kAssignments[a]);
+      for (std::size_t a = 0; a < recording_plausibility_detail::kAssignments.size(); ++a) {
+        const auto [sum, others] = way(recording_plausibility_detail::kAssignments[a]);
         if (others >= known && sum < least) least = sum, best = a;
       }
       now = best;
@@ -84,7 +84,8 @@ inline Swaps unswap(Recording& r) {
     ++votes[now];
     for (int b = 0; b < 3; ++b) {
       const std::size_t k = static_cast<std::size_t>(b);
-      const Track& track = *from[static_cast<std::size_t>(detail::kAssignments[now][k])];
+      const Track& track =
+          *from[static_cast<std::size_t>(recording_plausibility_detail::kAssignments[now][k])];
       if (track.valid[i]) last[k] = track.position.col(i), seen[k] = i;
     }
   }
@@ -99,13 +100,14 @@ inline Swaps unswap(Recording& r) {
       swaps.rows.emplace_back(i, i);
     ++swaps.count;
     for (std::size_t b = 0; b < 3; ++b) {
-      const std::size_t place = static_cast<std::size_t>(detail::kAssignments[own][b]),
-                        name = static_cast<std::size_t>(detail::kAssignments[usual][b]);
-      Track& to = *detail::tracks_of(r)[name];
+      const std::size_t place = static_cast<std::size_t>(recording_plausibility_detail::kAssignments[own][b]),
+                        name =
+                            static_cast<std::size_t>(recording_plausibility_detail::kAssignments[usual][b]);
+      Track& to = *recording_plausibility_detail::tracks_of(r)[name];
       to.valid[i] = from[place]->valid[i];
       to.position.col(i) = from[place]->position.col(i);
-      OrientationTrack &turn = *detail::orientations_of(r)[name],
-                       &turned = *detail::orientations_of(source)[place];
+      OrientationTrack &turn = *recording_plausibility_detail::orientations_of(r)[name],
+                       &turned = *recording_plausibility_detail::orientations_of(source)[place];
       if (turn.empty()) continue;
       turn.valid[i] = !turned.empty() && turned.valid[i];
       if (turn.valid[i])

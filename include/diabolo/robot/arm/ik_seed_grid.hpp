@@ -83,9 +83,10 @@ class IkSeedGrid {
 
   /// At a point [m, world]; outside the box, that of its nearest point.
   Seed at(const Vector3<double>& point) const {
-    std::array<Window, 3> windows;
-    for (int axis = 0; axis < 3; ++axis) windows[static_cast<std::size_t>(axis)] = window(axis, point[axis]);
-    const auto& [x, y, z] = windows;
+    std::array<Stencil, 3> stencils;
+    for (int axis = 0; axis < 3; ++axis)
+      stencils[static_cast<std::size_t>(axis)] = stencil(axis, point[axis]);
+    const auto& [x, y, z] = stencils;
     Seed seed;
     seed.joints.setZero();
     seed.slopes.setZero();
@@ -109,18 +110,18 @@ class IkSeedGrid {
 
  private:
   /// The four key points that count along an axis, and how much.
-  struct Window {
+  struct Stencil {
     std::array<int, 4> knot;
     std::array<double, 4> weight, slope;
   };
 
-  Window window(int axis, double coordinate) const {
+  Stencil stencil(int axis, double coordinate) const {
     const int last = box_.knots[static_cast<std::size_t>(axis)] - 1;
     const double h = box_.spacing(axis);
     const double at = std::clamp((coordinate - box_.lower[axis]) / h, 0.0, static_cast<double>(last));
     const int cell = std::min(static_cast<int>(at), last - 1);
     const double u = at - cell, v = 1.0 - u;
-    Window w{};
+    Stencil w{};
     w.knot = {cell - 1, cell, cell + 1, cell + 2};
     if (interpolation_ == GridInterpolation::kLinear) {
       w.weight = {0, v, u, 0};
@@ -137,7 +138,7 @@ class IkSeedGrid {
     return w;
   }
 
-  static void fold(Window& w, std::size_t beyond, std::size_t end, std::size_t next) {
+  static void fold(Stencil& w, std::size_t beyond, std::size_t end, std::size_t next) {
     for (std::array<double, 4>* values : {&w.weight, &w.slope}) {
       (*values)[end] += 2 * (*values)[beyond];
       (*values)[next] -= (*values)[beyond];

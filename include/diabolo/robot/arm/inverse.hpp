@@ -105,7 +105,7 @@ InverseSolutions<Scalar> inverse(const Pose<Scalar>& flange, const Scalar& q6_wh
 template <class Scalar>
 std::optional<InverseSolution<Scalar>> nearest_solution(const InverseSolutions<Scalar>& solutions,
                                                         const Joints<Scalar>& seed,
-                                                        const JointWindows& windows = kUr5eWindows) {
+                                                        const JointRanges& windows = kUr5eWindows) {
   std::optional<InverseSolution<Scalar>> best;
   double smallest = std::numeric_limits<double>::infinity();
   for (InverseSolution<Scalar> solution : solutions) {

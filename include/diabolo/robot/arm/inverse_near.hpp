@@ -15,7 +15,7 @@ namespace diabolo {
 /// seed's joints where there was none.
 template <class Scalar>
 Refined<Scalar> inverse_near(const Chain<Scalar>& chain, const Pose<Scalar>& flange,
-                             const Joints<Scalar>& seed, const JointWindows& windows = kUr5eWindows,
+                             const Joints<Scalar>& seed, const JointRanges& windows = kUr5eWindows,
                              const Ur5eLengths& lengths = {}) {
   constexpr double kSlack = 0.05;  // a calibrated arm reaches some millimetres further, or less far
   struct Try {

@@ -39,7 +39,7 @@ Scalar nearest_turn(const Scalar& angle, double near) {
 }
 
 /// The angles that each joint may take [rad].
-struct JointWindows {
+struct JointRanges {
   std::array<double, kJointCount> lower{}, upper{};
 
   template <class Scalar>
@@ -55,7 +55,7 @@ struct JointWindows {
 /// Adds whole turns to each angle so that it lies in its window and, of what lies there, nearest to `seed`;
 /// false, with `joints` in no certain state, where a window holds no such angle.
 template <class Scalar>
-bool unwrap(Joints<Scalar>& joints, const Joints<Scalar>& seed, const JointWindows& windows) {
+bool unwrap(Joints<Scalar>& joints, const Joints<Scalar>& seed, const JointRanges& windows) {
   for (std::size_t k = 0; k < kJointCount; ++k) {
     const Eigen::Index i = static_cast<Eigen::Index>(k);
     Scalar angle = nearest_turn(joints[i], plain(seed[i]));

@@ -24,16 +24,16 @@ struct Seam {
 /// acceleration. Every piece ends at rest, so that a plan that comes too late is no harm: the tips come to
 /// rest on the old one and stay there.
 template <template <class> class... Effects>
-class Horizon {
+class RecedingHorizon {
  public:
-  using Model = Predictor<double, Effects...>;
+  using PlanPredictor = Predictor<double, Effects...>;
   static constexpr double kMargin = 1.3;     ///< planning may take so many times as long as the last time
   static constexpr double kLongest = 600.0;  ///< from an observation to a seam [s]
 
   /// The tips rest at `tips` from `begin` [s] on, over `state`; `sticks` are their directions throughout.
   /// Throws std::invalid_argument where one of them is not finite, or a direction is none.
-  Horizon(Model model, const TipColumn<double>& tips, const State<double>& state, double begin,
-          const TipColumn<double>& sticks = TipColumn<double>::Zero())
+  RecedingHorizon(PlanPredictor model, const TipColumn<double>& tips, const State<double>& state,
+                  double begin, const TipColumn<double>& sticks = TipColumn<double>::Zero())
       : model_(std::move(model)), sticks_(sticks), observed_(state), observed_time_(begin) {
     check_size("horizon: the time of its begin", begin, kLatest, "s");
     check_size("horizon: the tips", tips.stableNorm(), kFarthest, "m");
@@ -117,7 +117,7 @@ class Horizon {
     return TipPath<double>({piece});
   }
 
-  Model model_;
+  PlanPredictor model_;
   TipColumn<double> sticks_;
   TipPath<double> path_;
   State<double> observed_;

@@ -29,7 +29,7 @@ struct FitWindow {
 
 /// The tips at an instant, and how they change with a shift of time, with the time constant of a lag, and
 /// with offsets in the sticks' frames.
-struct StageTips {
+struct FitTips {
   Tips<double> tips;
   Vector3<double> left_acceleration, right_acceleration;                                          ///< [m/s^2]
   Vector3<double> left_by_lag = Vector3<double>::Zero(), right_by_lag = Vector3<double>::Zero();  ///< [m/s]
@@ -54,13 +54,13 @@ struct Take {
 };
 
 /// A take, and the windows that a fit predicts of it.
-struct Stage {
+struct FitTake {
   std::shared_ptr<const Take> take;
   std::vector<FitWindow> windows;
 };
 
 /// Whether anybody saw the diabolo turn.
-inline bool has_spin(const Stage& stage) { return stage.take->has_spin; }
+inline bool has_spin(const FitTake& fit_take) { return fit_take.take->has_spin; }
 
 /// Length of a window [s].
 inline constexpr double kFitWindow = 0.5;
@@ -73,8 +73,9 @@ inline std::vector<FitWindow> fit_windows(const Take& take) {
   const Eigen::Index size = r.size(), wanted = std::max<Eigen::Index>(6, std::lround(kFitWindow * r.rate)),
                      margin = std::max<Eigen::Index>(2, std::lround(0.035 * r.rate));
   const std::vector<bool> left = in_long_gap(r.left, take.times), right = in_long_gap(r.right, take.times);
-  const Velocity centred = velocity(
-      r, r.diabolo, local_polynomial(std::max(5, static_cast<int>(2 * margin + 1)), 2, Window::kCentred));
+  const Velocity centred =
+      velocity(r, r.diabolo,
+               local_polynomial(std::max(5, static_cast<int>(2 * margin + 1)), 2, FilterWindow::kCentred));
   const auto row_ok = [&](Eigen::Index i) {
     const std::size_t k = static_cast<std::size_t>(i);
     return !left[k] && !right[k] && r.steps_evenly(i);
@@ -119,7 +120,7 @@ inline std::vector<FitWindow> fit_windows(const Take& take) {
 }
 
 /// Makes a recording ready. Throws RecordingError where the tips are never seen together.
-inline Stage make_stage(const Recording& given) {
+inline FitTake make_fit_take(const Recording& given) {
   const auto made = std::make_shared<Take>();
   Take& take = *made;
   take.recording = without_dropout_edges(given);
@@ -149,7 +150,7 @@ inline double lag_of(const UnknownVector& at) { return std::max(kShortestLag, at
 
 /// Lets the tips follow the given ones as s' = (c - s) / tau; exact for a c that is straight between the
 /// substeps.
-inline void lag_behind(std::vector<StageTips>& grid, double step, double tau) {
+inline void lag_behind(std::vector<FitTips>& grid, double step, double tau) {
   const auto follow = [&](auto tip, double lag) {
     std::vector<Vector3<double>> result;
     const double keep = std::exp(-step / lag);
@@ -162,13 +163,13 @@ inline void lag_behind(std::vector<StageTips>& grid, double step, double tau) {
     }
     return result;
   };
-  const auto left = [](const StageTips& s) { return s.tips.left; };
-  const auto right = [](const StageTips& s) { return s.tips.right; };
+  const auto left = [](const FitTips& s) { return s.tips.left; };
+  const auto right = [](const FitTips& s) { return s.tips.right; };
   const double more = tau * 1.001;
   const std::vector<Vector3<double>> l = follow(left, tau), r = follow(right, tau), l2 = follow(left, more),
                                      r2 = follow(right, more);
   for (std::size_t k = 0; k < grid.size(); ++k) {
-    StageTips& out = grid[k];
+    FitTips& out = grid[k];
     const Vector3<double> left_velocity = (out.tips.left - l[k]) / tau,
                           right_velocity = (out.tips.right - r[k]) / tau;
     out.left_acceleration = (out.tips.left_velocity - left_velocity) / tau;
@@ -189,7 +190,7 @@ inline constexpr double kForgotten = 40.0;
 
 /// Tips at each substep from row `first` to row `last`, read at the recorded time plus the time offset, as
 /// kServo lagging behind the recorded ones, less the tip offsets.
-inline std::vector<StageTips> stage_tips(const Take& take, const UnknownVector& at, Eigen::Index first,
+inline std::vector<FitTips> tips_of_take(const Take& take, const UnknownVector& at, Eigen::Index first,
                                          Eigen::Index last, Delay delay = Delay::kClock) {
   const bool lags = delay == Delay::kServo && last > first;
   const double tau = lag_of(at), rate = take.recording.rate;
@@ -198,11 +199,11 @@ inline std::vector<StageTips> stage_tips(const Take& take, const UnknownVector& 
   const double clock = at[index_of(Unknown::kTimeOffset)];
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));
-  std::vector<StageTips> result(static_cast<std::size_t>((last - begin) * take.substeps + 1));
+  std::vector<FitTips> result(static_cast<std::size_t>((last - begin) * take.substeps + 1));
   std::size_t hint = 0, hint_before = 0, hint_after = 0;
   for (Eigen::Index i = begin, k = 0; i <= last; ++i)
     for (int s = 0; s < (i < last ? take.substeps : 1); ++s, ++k) {
-      StageTips& out = result[static_cast<std::size_t>(k)];
+      FitTips& out = result[static_cast<std::size_t>(k)];
       const double fraction = static_cast<double>(s) / take.substeps;
       const Eigen::Index next = std::min(i + 1, take.times.size() - 1);
       const double gap = std::max(take.times[next] - take.times[i], 1e-6);
@@ -220,7 +221,7 @@ inline std::vector<StageTips> stage_tips(const Take& take, const UnknownVector& 
     }
   if (lags) lag_behind(result, 1.0 / (rate * take.substeps), tau);
   result.erase(result.begin(), result.begin() + (first - begin) * take.substeps);
-  for (StageTips& out : result) {
+  for (FitTips& out : result) {
     out.tips.left -= out.left_frame * left_offset;
     out.tips.right -= out.right_frame * right_offset;
     out.tips.left_velocity -= out.left_frame_rate * left_offset;

@@ -36,7 +36,7 @@ inline std::function<void(double)> towards(double begin, double end, std::functi
 }
 
 /// The time that a diagnosis may take, and what was not done for want of it.
-class Budget {
+class TimeBudget {
  public:
   /// Tells the time since some instant [s].
   using Clock = std::function<double()>;
@@ -45,7 +45,7 @@ class Budget {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
 
-  explicit Budget(double seconds, Clock clock = {})
+  explicit TimeBudget(double seconds, Clock clock = {})
       : clock_(clock ? std::move(clock) : Clock(steady_seconds)), seconds_(seconds), begin_(clock_()) {}
 
   double seconds() const { return seconds_; }
