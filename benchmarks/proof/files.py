@@ -37,8 +37,12 @@ def write_text(path: Path, text: str) -> None:
     write_bytes(path, text.encode())
 
 
+def json_text(value: Any) -> str:
+    return json.dumps(value, indent=1, allow_nan=False) + "\n"
+
+
 def write_json(path: Path, value: Any) -> None:
-    write_text(path, json.dumps(value, indent=1, allow_nan=False) + "\n")
+    write_text(path, json_text(value))
 
 
 def read_json(path: Path, what: str) -> Any:
@@ -73,8 +77,9 @@ def read_lines(path: Path) -> list[Any]:
 
 
 def write_packed(path: Path, values: Iterable[Any]) -> None:
-    """JSON lines, compressed by LZMA (.xz)."""
-    text = "".join(text_of(value) + "\n" for value in values)
+    """JSON lines, compressed by LZMA (.xz); members keep their order."""
+    lines = (json.dumps(value, allow_nan=False, separators=(",", ":")) for value in values)
+    text = "".join(line + "\n" for line in lines)
     write_bytes(path, lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
 
 

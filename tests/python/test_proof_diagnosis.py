@@ -42,6 +42,8 @@ from benchmarks.proof.diagnosis.names import (
 
 ROOT = Path(__file__).resolve().parents[2]
 BATCHES = ROOT / "benchmarks" / "proof" / "diagnosis" / "batches"
+# Of the file that was published when the batch was sealed, as SHA-256.
+DIGEST_OF_NINTH = "e5826092c34483a1b97484d43ffa24b1ed76905f0475c6a970d3f8538febd26a"
 
 SIZES = {
     "string_friction": {"coefficient": 0.2},
@@ -165,7 +167,7 @@ def sealed(tmp_path: Path) -> tuple[dict[str, Any], batch.Store]:
     store = batch.Store(tmp_path / "made")
     plans = draw.plans(3, 12)
     for plan in plans:
-        files.write_json(store.key_path(plan.name), key_of(plan))
+        files.write_json(store.key_path(plan.name), {**key_of(plan), "attempts": 1})
         files.write_text(store.recording(plan.name), f"time\n{plan.number}\n")
         files.write_text(store.recording(plan.name).with_suffix(".json"), "{}")
     return seal.describe(store, [plan.name for plan in plans], "0" * 40, 3, "plant"), store
@@ -376,7 +378,9 @@ def test_intervals_of_rates() -> None:
         (["quick", "--cases", "0"], "--cases: 0; expected a whole number from 1 to 9999"),
         (["quick", "--tool", "guess"], "--tool guess: expected one of diagnose, no_faults"),
         (["run", "never-sealed"], "never-sealed.json: there is no such file; expected a sealed batch"),
-        (["score", "never-sealed"], "never-sealed.json: there is no such file; expected a sealed batch"),
+        (["run", "ninth"], "ninth.jsonl.xz: the keys of batch ninth are open; seal a fresh one"),
+        (["seal", "ninth"], "ninth.jsonl.xz: batch ninth is scored already; choose another name"),
+        (["score", "never-sealed"], "never-sealed.jsonl.xz: there is no such file; `score` writes it"),
         (["score", "ninth", "--tool", "parameter_fit"], "ninth.jsonl.xz: no answers of parameter_fit"),
         (["seal", "../elsewhere"], "expected a name of letters"),
         (["run", "ninth", "--minutes", "nan"], "--minutes: nan; expected more than 0"),
@@ -421,13 +425,13 @@ def test_the_last_batch_scored_again_from_its_record_gives_its_page(
 def test_a_record_that_is_not_what_was_sealed_is_told(
     ninth: commands.Places, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    sealed, found = seal.read(ninth.published("ninth")), record.read(ninth.record("ninth"))
-    closed = set(seal.not_as_sealed(sealed, found.keys))
+    found = record.read(ninth.record("ninth"))
+    closed = set(found.not_as_sealed())
     assert len(closed) < 60  # none, but where the processor rounds otherwise
     changed = [key for key in found.keys if key["case"] not in closed and key["parameters"]][:2]
     changed[0]["names"] = [*changed[0]["names"], "wind"]
     next(iter(changed[1]["parameters"].values())).clear()
-    assert set(seal.not_as_sealed(sealed, found.keys)) == closed | {key["case"] for key in changed}
+    assert set(found.not_as_sealed()) == closed | {key["case"] for key in changed}
     found.write(ninth.record("ninth"))
     commands.score_batch(ninth, "ninth", "diagnose", 1, None)
     told = capsys.readouterr().out.splitlines()[0]
@@ -436,30 +440,60 @@ def test_a_record_that_is_not_what_was_sealed_is_told(
 
 def test_a_retired_batch_keeps_its_scores(ninth: commands.Places) -> None:
     scores = record.read(ninth.record("ninth")).summary("diagnose")["scores"]
-    digest = files.digest_of(ninth.published("ninth"))
     assert commands.retire_batch(ninth, "ninth") == 0
     assert [path.name for path in ninth.earlier.parent.iterdir()] == ["earlier.json"]
     batches = earlier.read(ninth.earlier)
     assert [*batches][-2:] == ["seventh", "ninth"]
-    assert batches["ninth"]["seal"] == digest
+    assert batches["ninth"]["seal"] == DIGEST_OF_NINTH
     assert [score["hits"] for score in batches["ninth"]["scores"]] == [score["hits"] for score in scores]
-    with pytest.raises(ValueError, match=r"ninth\.json: there is no such file; expected a sealed batch"):
+    with pytest.raises(ValueError, match=r"ninth\.jsonl\.xz: there is no such file"):
         commands.score_batch(ninth, "ninth", "diagnose", 1, None)
+
+
+def test_scoring_opens_a_batch_once_and_records_it(
+    sealed: tuple[dict[str, Any], batch.Store], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    description, store = sealed
+    places = commands.Places(tmp_path, tmp_path, tmp_path / "no plant", run.silent)
+    files.write_json(places.published("made"), description)
+    monkeypatch.setattr(commands.plant, "check", lambda program: None)
+    monkeypatch.setattr(commands.batch, "make", lambda *arguments, **options: [])  # all is there
+    keys = {entry["case"]: store.key(entry["case"]) for entry in description["sealed"]}
+    monkeypatch.setattr(commands.tools, "restricted", lambda path, names: right(keys[path.stem]))
+    with pytest.raises(ValueError, match="batch made: 12 cases have no answer of diagnose; run made first"):
+        commands.score_batch(places, "made", "diagnose", 1, None)
+    run.resume([*keys], places.answers("made", "diagnose"), lambda case: right(keys[case]))
+    run.resume([*keys], places.answers("made", "sindy"), lambda case: result([]))
+    commands.score_batch(places, "made", "diagnose", 1, tmp_path / "first.json")
+    assert not places.published("made").exists()
+    commands.score_batch(places, "made", "diagnose", 1, tmp_path / "again.json")
+    scored = files.read_json(tmp_path / "first.json", "scores")
+    assert scored == files.read_json(tmp_path / "again.json", "scores")
+    detected = next(one for one in scored["scores"] if one["name"] == "detected, SNR >= 10")
+    assert detected["hits"] == detected["total"] == sum(k["arm"] in score.WITH_PHYSICS for k in keys.values())
+    assert record.read(places.record("made")).answers.keys() == {"diagnose", "sindy", "oracle", "exchanged"}
 
 
 def test_a_record_comes_back(keys: list[dict[str, Any]], tmp_path: Path) -> None:
     keys = [{**key, "attempts": 1} for key in keys[:40]]
     answers = {"diagnose": {key["case"]: kept(right(key)) for key in keys}, "oracle": {}}
     answers["oracle"] = {key["case"]: kept(right(key)) for key in keys if physics_among(key["names"])}
-    whole = record.Record(keys, answers)
+    sealed = {"schema": seal.SCHEMA, "commit": "0" * 40, "plant": "", "seed": 5, "cases": 40, "arms": {}}
+    whole = record.Record({**sealed, "sealed": []}, keys, answers)
     whole.write(tmp_path / "one.jsonl.xz")
     again = record.read(tmp_path / "one.jsonl.xz")
     assert again.summary("diagnose") == whole.summary("diagnose")
+    assert again.sealed == whole.sealed
     (tmp_path / "one.jsonl.xz").write_text("{}")
     with pytest.raises(ValueError, match=r"one\.jsonl\.xz: not compressed by LZMA"):
         record.read(tmp_path / "one.jsonl.xz")
     files.write_packed(tmp_path / "one.jsonl.xz", [{"case": 1}])
-    with pytest.raises(ValueError, match=r"one\.jsonl\.xz, line 1: expected a case with its key"):
+    with pytest.raises(
+        ValueError, match=r"one\.jsonl\.xz: schema None; expected 'diabolo.concealed_batch/1'"
+    ):
+        record.read(tmp_path / "one.jsonl.xz")
+    files.write_packed(tmp_path / "one.jsonl.xz", [whole.sealed, {"case": 1}])
+    with pytest.raises(ValueError, match=r"one\.jsonl\.xz, line 2: expected a case with its key"):
         record.read(tmp_path / "one.jsonl.xz")
 
 

@@ -28,7 +28,7 @@ EXAMPLE = """\
   python -m benchmarks.proof.diagnosis seal tenth --cases 600      # then commit batches/tenth.json
   python -m benchmarks.proof.diagnosis run tenth --minutes 60      # goes on where it was stopped
   python -m benchmarks.proof.diagnosis score tenth && python -m benchmarks.proof.diagnosis page tenth
-  python -m benchmarks.proof.diagnosis score ninth                 # again from its record, in a second"""
+  python -m benchmarks.proof.diagnosis score ninth                 # again from its record"""
 
 
 def make_parser() -> argparse.ArgumentParser:

@@ -59,6 +59,8 @@ def tool_named(name: str) -> tools.Tool:
 
 def seal_batch(places: Places, name: str, cases: int, jobs: int) -> int:
     check_name(name)
+    if places.record(name).exists():
+        raise ValueError(f"{places.record(name)}: batch {name} is scored already; choose another name")
     result = seal.seal(
         name, places.published(name), places.store(name), places.program, cases, jobs, places.report
     )
@@ -78,6 +80,8 @@ def _is_committed(path: Path) -> bool:
 def run_batch(places: Places, name: str, tool: str, minutes: float, jobs: int) -> int:
     check_name(name)
     chosen = tool_named(tool)
+    if places.record(name).exists():
+        raise ValueError(f"{places.record(name)}: the keys of batch {name} are open; seal a fresh one")
     sealed = seal.read(places.published(name))
     if not _is_committed(places.published(name)):
         raise ValueError(f"{places.published(name)}: not committed as it is; the seal comes before the run")
@@ -136,8 +140,9 @@ def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, job
     """Opens the keys, asks who is told the truth, and keeps the answers of all tools that have all cases."""
     cases = {entry["case"] for entry in sealed["sealed"]}
     found = {who: run.answers(places.answers(name, who)) for who in tools.TOOLS}
-    if missing := cases - found[tool].keys():
-        raise ValueError(f"batch {name}: {len(missing)} cases have no answer of {tool}; run {name} first")
+    for who in (DIAGNOSE, tool):
+        if missing := cases - found[who].keys():
+            raise ValueError(f"batch {name}: {len(missing)} cases have no answer of {who}; run {name} first")
     store = places.store(name)
     plant.check(places.program)
     batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report)
@@ -148,8 +153,9 @@ def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, job
         for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
     }
     whole = {who: by_case for who, by_case in found.items() if cases <= by_case.keys()}
-    opened = record.Record(keys, whole | told)
+    opened = record.Record(sealed, keys, whole | told)
     opened.write(places.record(name))
+    places.published(name).unlink(missing_ok=True)  # the record has the seal
     return opened
 
 
@@ -157,28 +163,28 @@ def score_batch(places: Places, name: str, tool: str, jobs: int, json_file: Path
     """Opens a batch that was run here; scores one that is recorded already from its record."""
     check_name(name)
     tool_named(tool)
-    sealed = seal.read(places.published(name))
-    if places.answers(name, tool).exists():
-        found = open_batch(places, name, sealed, tool, jobs)
+    if places.published(name).exists():
+        found = open_batch(places, name, seal.read(places.published(name)), tool, jobs)
     else:
         found = record.read(places.record(name))
-        closed = seal.not_as_sealed(sealed, found.keys)
-        print(f"{sealed['cases'] - len(closed)} of {sealed['cases']} keys, drawn again, are those sealed")
+        cases = found.sealed["cases"]
+        print(f"{cases - len(found.not_as_sealed())} of {cases} keys, drawn again, are those sealed")
     if tool not in found.answers:
         raise ValueError(
             f"{places.record(name)}: no answers of {tool}; expected one of {', '.join(found.answers)}"
         )
     return _finish(
-        {"batch": name, "tool": tool, "commit": sealed["commit"], **found.summary(tool)}, json_file
+        {"batch": name, "tool": tool, "commit": found.sealed["commit"], **found.summary(tool)}, json_file
     )
 
 
 def write_page(places: Places, name: str, out: Path) -> int:
     check_name(name)
-    sealed = seal.read(places.published(name))
     found = record.read(places.record(name))
     others = {tool: found.summary(tool) for tool in tools.TOOLS if tool != DIAGNOSE and tool in found.answers}
-    written = page.write(out, name, sealed, found.summary(DIAGNOSE), others, earlier.read(places.earlier))
+    written = page.write(
+        out, name, found.sealed, found.summary(DIAGNOSE), others, earlier.read(places.earlier)
+    )
     print("; ".join(str(path) for path in written))
     return 0
 
@@ -186,17 +192,11 @@ def write_page(places: Places, name: str, out: Path) -> int:
 def retire_batch(places: Places, name: str) -> int:
     """Keeps of a scored batch its seed, the hash of its seal and its scores; git has the rest."""
     check_name(name)
-    published = places.published(name)
-    sealed = seal.read(published)
-    result = record.read(places.record(name)).summary(DIAGNOSE)
-    batches = {
-        **earlier.read(places.earlier),
-        name: earlier.entry(sealed, files.digest_of(published), result),
-    }
-    files.write_text(places.earlier, earlier.text_of(batches))
-    published.unlink()
+    found = record.read(places.record(name))
+    entry = earlier.entry(found.sealed, found.summary(DIAGNOSE))
+    files.write_text(places.earlier, earlier.text_of({**earlier.read(places.earlier), name: entry}))
     places.record(name).unlink()
-    print(f"{places.earlier}: holds {name} now; {published} and its record are gone")
+    print(f"{places.earlier}: holds {name} now; its record is gone")
     return 0
 
 
@@ -225,7 +225,7 @@ def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file
         who: oracles(places, wanted, own, store, answers_of(who))
         for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
     }
-    result = record.Record(keys, {tool: found, **told}).summary(tool)
+    result = record.summary(keys, {tool: found, **told}, tool)
     return _finish({"batch": None, "tool": tool, "seed": seed, **result}, json_file)
 
 

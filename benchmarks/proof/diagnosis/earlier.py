@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import files
+from . import seal
 from .answer import rounded
 
 Entry = dict[str, Any]
@@ -14,10 +15,14 @@ _OF_SEAL = ("commit", "plant", "seed", "cases")
 _OF_SCORE = ("name", "value", "hits", "total", "interval", "least", "most", "keeps", "fails")
 
 
-def entry(sealed: dict[str, Any], digest: str, result: dict[str, Any]) -> Entry:
-    """`digest` is that of the sealed batch's file, which the seed makes again."""
+def entry(sealed: dict[str, Any], result: dict[str, Any]) -> Entry:
+    """The hash is that of the file that was published, which the seed makes again."""
     scores = [{name: score[name] for name in _OF_SCORE} for score in result["scores"]]
-    return {**{name: sealed[name] for name in _OF_SEAL}, "seal": digest, "scores": rounded(scores)}
+    return {
+        **{name: sealed[name] for name in _OF_SEAL},
+        "seal": seal.digest(sealed),
+        "scores": rounded(scores),
+    }
 
 
 def text_of(batches: dict[str, Entry]) -> str:

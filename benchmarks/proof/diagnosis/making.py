@@ -11,6 +11,7 @@ from .. import plant
 from . import camera_steps, draw
 
 ATTEMPTS = 5 * draw.TRIES
+LONGEST_RUN = 120.0  # of the program, beyond which it is drawn again [s]
 SHORTEST_SHARE = 0.95  # of the length that was drawn
 
 
@@ -18,7 +19,7 @@ def play(program: Path, scenario: dict[str, Any], out: Path) -> dict[str, Any] |
     """What is at work in the recording that it writes; None where the play failed. Raises plant.RefusedError
     where the program does not know what the scenario asks for."""
     try:
-        return plant.play(program, scenario, out)
+        return plant.play(program, scenario, out, longest=LONGEST_RUN)
     except plant.FailedError:
         return None
     except plant.RefusedError as refused:

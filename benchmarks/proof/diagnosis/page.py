@@ -21,8 +21,8 @@ INTRODUCTION = """\
 
 Batch {name}: {cases} recordings of the project's plant. They were drawn and sealed at commit
 `{commit}` before any of them was diagnosed. The commit gives the seed, so
-that no batch can be chosen. Hashes of keys and recordings are in [{name}.json](../{folder}/{name}.json),
-keys and answers in [{name}.jsonl.xz](../{folder}/{name}.jsonl.xz).
+that no batch can be chosen. Hashes of keys and recordings, the keys and the answers are in
+[{name}.jsonl.xz](../{folder}/{name}.jsonl.xz), a line each.
 `{score}` scores them again.
 
 {arms}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A scored batch in one small file: of keys and answers what the scores are made of."""
+"""A scored batch in one small file: its seal, and of keys and answers what the scores are made of."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import files
-from . import score
+from . import draw, score, seal
 from .answer import Answer
 
 Key = dict[str, Any]
@@ -33,21 +33,44 @@ def kept_of_key(key: Key) -> Key:
     return {**{name: key[name] for name in _KEPT_OF_KEY}, "scenario": kept}
 
 
+def summary(keys: list[Key], answers: dict[str, dict[str, Answer]], tool: str) -> dict[str, Any]:
+    """The scores of a tool."""
+    told = (answers.get(who, {}) for who in (ORACLE, EXCHANGED))
+    return score.summary(score.judged(keys, answers[tool], *told))
+
+
 @dataclass(frozen=True)
 class Record:
-    """Keys, and answers by tool and case."""
+    """A sealed batch, its keys, and answers by tool and case."""
 
+    sealed: dict[str, Any]
     keys: list[Key]
     answers: dict[str, dict[str, Answer]]
     """Of the tools, and of who was told what is at work (ORACLE) or the other name of a tie (EXCHANGED)."""
 
     def summary(self, tool: str) -> dict[str, Any]:
-        """The scores of a tool."""
-        told = (self.answers.get(who, {}) for who in (ORACLE, EXCHANGED))
-        return score.summary(score.judged(self.keys, self.answers[tool], *told))
+        return summary(self.keys, self.answers, tool)
+
+    def not_as_sealed(self) -> list[str]:
+        """The cases whose key, drawn again from the seed, is not the recorded one or has not the sealed hash.
+
+        A processor that rounds otherwise may draw another last digit.
+        """
+        seed = self.sealed["seed"]
+        by_case = {key["case"]: key for key in self.keys}
+        plans = {plan.name: plan for plan in draw.plans(seed, self.sealed["cases"])}
+
+        def is_sealed(case: str, hash_of_key: str) -> bool:
+            key = by_case[case]
+            again = draw.draw(plans[case], key["attempts"] - 1).key(key["parameters"])
+            again["attempts"] = key["attempts"]
+            opens = seal.seal_of(again, seal.salt_of(seed, case)) == hash_of_key
+            return opens and kept_of_key(again) == kept_of_key(key)
+
+        return [one["case"] for one in self.sealed["sealed"] if not is_sealed(one["case"], one["key"])]
 
     def write(self, path: Path) -> None:
-        lines = []
+        lines = [self.sealed]
         for key in self.keys:
             found = {who: by[key["case"]] for who, by in self.answers.items() if key["case"] in by}
             lines.append({"key": kept_of_key(key), "answers": found})
@@ -58,12 +81,13 @@ def read(path: Path) -> Record:
     """Raises ValueError where the file is not there, or holds something else."""
     if not path.exists():
         raise ValueError(f"{path}: there is no such file; `score` writes it once all cases are answered")
+    sealed, *lines = files.read_packed(path) or [None]
     answers: dict[str, dict[str, Answer]] = {}
     keys = []
-    for number, line in enumerate(files.read_packed(path), start=1):
+    for number, line in enumerate(lines, start=2):
         if not isinstance(line, dict) or not {"key", "answers"} <= line.keys():
             raise ValueError(f"{path}, line {number}: expected a case with its key and answers")
         keys.append(line["key"])
         for who, found in line["answers"].items():
             answers.setdefault(who, {})[line["key"]["case"]] = found
-    return Record(keys, answers)
+    return Record(seal.checked(path, sealed), keys, answers)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import files, plant
-from . import arms, batch, draw, making, record
+from . import arms, batch, making
 
 SCHEMA = "diabolo.concealed_batch/1"
 TOOL = ("include", "batch", "python")
@@ -112,21 +112,30 @@ def seal(
     return result
 
 
-def read(published: Path) -> dict[str, Any]:
-    """A sealed batch."""
-    found = files.read_json(published, "a sealed batch (the action seal writes it)")
+def checked(path: Path, found: Any) -> dict[str, Any]:
+    """A sealed batch as a file holds it. Raises ValueError where it is something else."""
     schema = found.get("schema") if isinstance(found, dict) else None
     if schema != SCHEMA:
-        raise ValueError(f"{published}: schema {schema!r}; expected {SCHEMA!r}")
+        raise ValueError(f"{path}: schema {schema!r}; expected {SCHEMA!r}")
     lacking = [
         field for field in ("commit", "plant", "seed", "cases", "arms", "sealed") if field not in found
     ]
     if lacking:
-        raise ValueError(f"{published}: lacks {', '.join(lacking)}; expected a sealed batch")
+        raise ValueError(f"{path}: lacks {', '.join(lacking)}; expected a sealed batch")
     for number, entry in enumerate(found["sealed"]):
         if not isinstance(entry, dict) or not {"case", "recording", "key"} <= entry.keys():
-            raise ValueError(f"{published}: sealed[{number}]: expected case, recording and key")
+            raise ValueError(f"{path}: sealed[{number}]: expected case, recording and key")
     return dict(found)
+
+
+def read(published: Path) -> dict[str, Any]:
+    """A sealed batch."""
+    return checked(published, files.read_json(published, "a sealed batch (the action seal writes it)"))
+
+
+def digest(sealed: dict[str, Any]) -> str:
+    """The hash of the file that was published."""
+    return files.digest_of_text(files.json_text(sealed))
 
 
 def check_recordings(sealed: dict[str, Any], store: batch.Store, but: Collection[str] = ()) -> None:
@@ -148,22 +157,3 @@ def open_keys(sealed: dict[str, Any], store: batch.Store) -> list[dict[str, Any]
             raise ValueError(f"{store.key_path(entry['case'])}: not the key that was sealed")
         keys.append(key)
     return keys
-
-
-def not_as_sealed(sealed: dict[str, Any], keys: list[dict[str, Any]]) -> list[str]:
-    """The cases whose key, drawn again from the seed, has not the sealed hash, or is not the recorded one.
-
-    A processor that rounds otherwise may draw another last digit.
-    """
-    by_case = {key["case"]: key for key in keys}
-    plans = {plan.name: plan for plan in draw.plans(sealed["seed"], sealed["cases"])}
-
-    def is_sealed(case: str, sealed_hash: str) -> bool:
-        key = by_case[case]
-        drawn = draw.draw(plans[case], key["attempts"] - 1)
-        again = {**drawn.key(key["parameters"]), "attempts": key["attempts"]}
-        return (
-            record.kept_of_key(again) == key and seal_of(again, salt_of(sealed["seed"], case)) == sealed_hash
-        )
-
-    return [one["case"] for one in sealed["sealed"] if not is_sealed(one["case"], one["key"])]

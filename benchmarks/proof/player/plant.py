@@ -30,7 +30,6 @@ PITCH = 15.0  # of the sticks [deg]
 STICKS = np.tile([np.cos(np.radians(PITCH)), 0.0, np.sin(np.radians(PITCH))], 2)
 """Directions of both sticks, left over right."""
 STICK_DAMPING = 3.0  # of a tip [N s/m]
-LONGEST_RUN = 1200.0  # of the program [s]
 FORWARD = 0.55  # of the hands [m]
 PRACTICE = 30.0
 """Seconds of play that a diagnosis gets."""
@@ -168,7 +167,7 @@ class Plant:
     def _run(self, scenario: dict[str, Any]) -> Played:
         with tempfile.TemporaryDirectory() as folder:
             out, truth = Path(folder) / "take.csv", Path(folder) / "truth.csv"
-            plant.play(self.program, scenario, out, truth, LONGEST_RUN)
+            plant.play(self.program, scenario, out, truth)
             with truth.open(newline="") as lines:
                 rows = list(csv.DictReader(lines))
             recording = diabolo.load_recording(out)
