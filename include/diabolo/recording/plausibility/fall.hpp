@@ -37,11 +37,16 @@ struct Fall {
 /// how much shorter than the string the path is at least where it counts as slack [m].
 inline constexpr double kFallHalf = 0.05, kSlackBy = 0.08;
 
-/// What every sample that is seen all around tells about gravity: accelerations by least squares of
-/// parabolas, the string taken to be slack where its path is shorter throughout. Empty where rows are too far
-/// apart.
+/// Rows from one Fall to the next: all, or fewer of cameras above 150 Hz, so that work is linear in rows.
+inline Eigen::Index fall_stride(double rate) {
+  return std::max<Eigen::Index>(1, std::lround(kFallHalf * rate) / 6);
+}
+
+/// What samples that are seen all around tell about gravity: accelerations by least squares of parabolas, the
+/// string taken to be slack where its path is shorter throughout. Empty where rows are too far apart.
 inline std::vector<Fall> falls(const Recording& r) {
-  const Eigen::Index half = std::max<Eigen::Index>(2, std::lround(kFallHalf * r.rate)), n = 2 * half + 1;
+  const Eigen::Index half = std::max<Eigen::Index>(2, std::lround(kFallHalf * r.rate)), n = 2 * half + 1,
+                     stride = fall_stride(r.rate);
   if (static_cast<double>(half) > 2.0 * kFallHalf * r.rate) return {};
   Eigen::VectorXd weight(n);  // the second derivative of the parabola through n samples, times period^2
   for (Eigen::Index k = 0; k < n; ++k) weight[k] = static_cast<double>((k - half) * (k - half));
@@ -57,7 +62,7 @@ inline std::vector<Fall> falls(const Recording& r) {
     }
     ++seen;
     slack = path_at(r, i).length() < r.string_length - kSlackBy ? slack + 1 : 0;
-    if (seen < n) continue;
+    if (seen < n || i % stride != 0) continue;
     const Eigen::Index middle = i - half;
     const auto towards = [&](const Track& tip) {
       const Eigen::Vector3d way = tip.position.col(middle) - r.diabolo.position.col(middle);
@@ -94,7 +99,8 @@ inline double median_residual(const std::vector<Fall>& falls, const Eigen::Vecto
 /// least gravity itself.
 inline std::optional<int> other_axis_up(const Recording& r, const std::vector<Fall>& falls,
                                         const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity()) {
-  if (falls.empty() || static_cast<double>(falls.size()) < kFewestSecondsOfNoPlay * r.rate) return {};
+  const double rows = static_cast<double>(falls.size()) * static_cast<double>(fall_stride(r.rate));
+  if (falls.empty() || rows < kFewestSecondsOfNoPlay * r.rate) return {};
   const double gravity = Parameters<double>{}.gravity;
   const auto residual = [&](int axis) {
     return recording_plausibility_detail::median_residual(
@@ -132,7 +138,8 @@ inline std::string odd_fall(const Recording& r, const std::vector<Fall>& falls) 
     telling.push_back(fall);
     strengths.push_back(-left.dot(fall.acceleration) / left.squaredNorm());
   }
-  if (telling.size() < 20 || static_cast<double>(telling.size()) < kFewest * r.rate) return {};
+  const double rows = static_cast<double>(telling.size()) * static_cast<double>(fall_stride(r.rate));
+  if (telling.size() < 20 || rows < kFewest * r.rate) return {};
   const double strength = recording_plausibility_detail::median_of(strengths);
   if (strength > gravity / kOddFall && strength < gravity * kOddFall) return {};
   if (recording_plausibility_detail::median_residual(telling, -strength * up) >
