@@ -8,6 +8,7 @@ import hashlib
 import json
 import os
 import sys
+import textwrap
 import time
 from importlib import resources
 from pathlib import Path
@@ -39,6 +40,7 @@ AT_WORK = {
 }
 """By name in a key of the plant, the parameter that is 0 where the effect is not at work."""
 
+LINE = 100  # characters, of what is said in words
 BOLD, RED, GREEN, YELLOW, CYAN = "1", "31", "32", "33", "36"
 
 
@@ -160,7 +162,7 @@ def introduction(takes: list[Recording]) -> str:
     names = " and ".join(take.name for take in takes)
     return (
         f"Recordings: {names}, {seconds_of(takes):.0f} s of play from another simulator, data/plant.\n"
-        "It knows physics that our base model lacks. What that is stays concealed until the answer is there,\n"
+        "It knows physics that our base model lacks. What that is stays concealed until the answer,\n"
         "in some ten seconds."
     )
 
@@ -172,7 +174,8 @@ def seconds_of(takes: list[Recording]) -> float:
 def summary_text(
     answer: dict[str, Any], concealed: dict[str, dict[str, float]], takes: list[Recording], paint: Painter
 ) -> str:
-    lines = ["", f"{paint(answer['headline'], BOLD)}: {answer['sentence']}", ""]
+    said = textwrap.fill(f"{answer['headline']}: {answer['sentence']}", LINE)
+    lines = ["", said.replace(answer["headline"], paint(answer["headline"], BOLD), 1), ""]
     rows = found_rows(answer, concealed, seconds_of(takes))
     header = ("", "found [90 % interval]", "concealed", "where it shows")
     widths = [max(len(row[column]) for row, _ in [(header, ""), *rows]) for column in range(3)]
