@@ -112,7 +112,7 @@ def good_calls(take: Recording) -> dict[str, tuple[Callable[..., Any], dict[str,
         "hanging": (diabolo.hanging, {"model": "consistent", **at}),
         "success_rate": (diabolo.success_rate, {"play": play, "models": [diabolo.Model()]}),
         "model_for": (diabolo.model_for, {"model": "consistent", "recording": take}),
-        "best_guess": (diabolo.best_guess, {"model": diabolo.Model(), "result": {"ladder": []}}),
+        "best_guess": (diabolo.best_guess, {"model": diabolo.Model(), "result": []}),
         "view_html": (diabolo.view_html, {"recording": take}),
     }
 
