@@ -4,6 +4,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "diabolo/plan/motion_unknowns.hpp"
 #include "diabolo/plan/stick_spline.hpp"
 #include "diabolo/recording/formats/calibration.hpp"
+#include "diabolo/robot/motion/plan_limits.hpp"
 
 namespace diabolo::python {
 
@@ -78,21 +81,23 @@ Goals goals_of(const py::tuple& state) {
   return goals;
 }
 
-/// `others` is a function of the program that made it: it is copied, and cannot be pickled.
+/// `others` of robots is pickled with them; a function of the program that made it is copied, no more.
 void pickle_tip_limits() {
   using L = TipLimits;
   by_state<L>(
       [](const L& l) {
-        if (l.others)
+        const RobotLimits* const robots = l.others.target<RobotLimits>();
+        if (l.others && !robots)
           throw py::type_error(
               "TipLimits: others is a function, which cannot be pickled; expected limits without others");
         return py::make_tuple(l.speed, l.acceleration, l.jerk, l.string_margin, l.least_gap, l.lowest,
-                              l.highest);
+                              l.highest, robots ? py::cast(*robots) : py::object(py::none()));
       },
       [](const py::tuple& state) {
         L limits{state[0].cast<double>(),         state[1].cast<double>(), state[2].cast<double>(),
                  state[3].cast<double>(),         state[4].cast<double>(), state[5].cast<Vector3<double>>(),
                  state[6].cast<Vector3<double>>()};
+        if (!state[7].is_none()) limits.others = state[7].cast<RobotLimits>();
         limits.validate();
         return limits;
       });
@@ -146,6 +151,75 @@ void pickle_calibration() {
       });
 }
 
+using Numbers = std::vector<double>;
+
+/// The arm of the paper where it stands, with its own links.
+void pickle_arm() {
+  by_state<StickArm>(
+      [](const StickArm& arm) {
+        Numbers links;
+        for (const Pose<double>& link : arm.chain.links()) {
+          links.insert(links.end(), link.rotation.data(), link.rotation.data() + 9);
+          links.insert(links.end(), link.position.data(), link.position.data() + 3);
+        }
+        const Vector3<double>& at = arm.base.position;
+        return py::make_tuple(arm.side == Side::kRight, at.z(), 2.0 * std::abs(at.y()), at.x(), links);
+      },
+      [](const py::tuple& state) {
+        StickArm arm = paper_arm(state[0].cast<bool>() ? Side::kRight : Side::kLeft,
+                                 {state[1].cast<double>(), state[2].cast<double>(), state[3].cast<double>()});
+        const auto numbers = state[4].cast<Numbers>();
+        Chain<double>::Links links;
+        if (numbers.size() != 12 * links.size()) throw py::value_error("StickArm: expected six links");
+        const double* from = numbers.data();
+        for (Pose<double>& link : links) {
+          link.rotation = Eigen::Map<const Matrix3<double>>(from);
+          link.position = Eigen::Map<const Vector3<double>>(from + 9);
+          from += 12;
+        }
+        arm.chain = Chain<double>(links);
+        return arm;
+      });
+}
+
+void pickle_grid() {
+  by_state<IkSeedGrid>(
+      [](const IkSeedGrid& grid) {
+        const GridBox& box = grid.box();
+        return py::make_tuple(box.lower, box.upper, box.knots, grid.joints(),
+                              static_cast<int>(grid.interpolation()));
+      },
+      [](const py::tuple& state) {
+        return IkSeedGrid({.lower = state[0].cast<Vector3<double>>(),
+                           .upper = state[1].cast<Vector3<double>>(),
+                           .knots = state[2].cast<std::array<int, 3>>()},
+                          state[3].cast<std::vector<Joints<double>>>(),
+                          static_cast<GridInterpolation>(state[4].cast<int>()));
+      });
+}
+
+void pickle_robots() {
+  pickle_arm();
+  pickle_grid();
+  by_state<StickMap>([](const StickMap& map) { return py::make_tuple(map.arm(), map.grid()); },
+                     [](const py::tuple& state) {
+                       return StickMap(state[0].cast<StickArm>(), state[1].cast<IkSeedGrid>());
+                     });
+  using Each = std::array<double, kJointCount>;
+  by_state<RobotLimits>(
+      [](const RobotLimits& robots) {
+        const StickPlanner& planner = robots.planner();
+        const JointLimits& limits = planner.limits();
+        return py::make_tuple(planner.left(), planner.right(), limits.speed, limits.acceleration, limits.jerk,
+                              robots.least_clearance(), robots.share());
+      },
+      [](const py::tuple& state) {
+        const JointLimits limits{state[2].cast<Each>(), state[3].cast<Each>(), state[4].cast<Each>()};
+        return RobotLimits(StickPlanner(state[0].cast<StickMap>(), state[1].cast<StickMap>(), limits),
+                           state[5].cast<double>(), state[6].cast<double>());
+      });
+}
+
 }  // namespace
 
 void bind_pickles() {
@@ -160,6 +234,7 @@ void bind_pickles() {
   by_members(&DiaboloProperties::mass, &DiaboloProperties::diameter, &DiaboloProperties::length,
              &DiaboloProperties::axle_radius);
   pickle_calibration();
+  pickle_robots();
 }
 
 }  // namespace diabolo::python

@@ -3,7 +3,7 @@
 
 namespace diabolo::python {
 
-/// Copies and pickles of goals, limits, motions and calibrations, whose classes are bound already.
+/// Copies and pickles of goals, limits, motions, calibrations and arms, whose classes are bound already.
 void bind_pickles();
 
 }  // namespace diabolo::python

@@ -57,9 +57,11 @@ StringState string_state_from_python(const py::object& state) {
   if (py::isinstance<py::str>(state)) {
     const auto found = std::ranges::find(kNames, state.cast<std::string>());
     if (found != kNames.end()) return static_cast<StringState>(found - kNames.begin());
-  } else if (py::isinstance<py::int_>(state) || py::hasattr(state, "__index__")) {
+  } else if (const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(state.ptr()))) {
     for (std::size_t code = 0; code < kNames.size(); ++code)
-      if (state.equal(py::int_(code))) return static_cast<StringState>(code);
+      if (index.equal(py::int_(code))) return static_cast<StringState>(code);
+  } else {
+    PyErr_Clear();
   }
   throw std::invalid_argument("string_state: " + shown_value(state) +
                               "; expected 'on_string', 'loose', 'flying' or a StringState");

@@ -112,7 +112,7 @@ def good_calls(take: Recording) -> dict[str, tuple[Callable[..., Any], dict[str,
         "hanging": (diabolo.hanging, {"model": "consistent", **at}),
         "success_rate": (diabolo.success_rate, {"play": play, "models": [diabolo.Model()]}),
         "model_for": (diabolo.model_for, {"model": "consistent", "recording": take}),
-        "best_guess": (diabolo.best_guess, {"model": diabolo.Model(), "result": {"ladder": []}}),
+        "best_guess": (diabolo.best_guess, {"model": diabolo.Model(), "result": []}),
         "view_html": (diabolo.view_html, {"recording": take}),
     }
 
@@ -280,6 +280,25 @@ def test_limits_with_a_function_are_copied_but_not_pickled() -> None:
         assert "mine" in [use.name for use in diabolo._core.limit_uses(path, other, 1.45)]
     with pytest.raises(TypeError, match="others is a function, which cannot be pickled"):
         pickle.dumps(limits)
+
+
+def test_limits_of_robots_are_pickled_with_their_arms() -> None:
+    arms = [robot.StickArm(side, height=0.72, spacing=1.08) for side in ("left", "right")]
+    maps = [robot.StickMap(arm, robot.SeedGrid.build(arm)) for arm in arms]
+    limits = diabolo.TipLimits(others=robot.RobotLimits(*maps, speed=2.0, least_clearance=0.2, share=0.9))
+    path = diabolo.StickSpline(
+        [0.0, 0.5, 1.0], [[0.7, 0.5, 1.3], [0.7, 0.55, 1.4], [0.7, 0.5, 1.3]], [[0.7, -0.5, 1.3]] * 3
+    ).path()
+    expected, *others = (
+        [state_of(use) for use in diabolo._core.limit_uses(path, each, 1.45)]
+        for each in (limits, copy.deepcopy(limits), pickle.loads(pickle.dumps(limits)))
+    )
+    assert len(expected) > 12
+    assert others == [expected, expected]
+    joints, faults = maps[0].solve([0.7, 0.5, 1.3])
+    again = pickle.loads(pickle.dumps(maps[0]))
+    np.testing.assert_array_equal(again.solve([0.7, 0.5, 1.3])[0], joints)
+    assert faults == 0 and again.arm.side == "left"
 
 
 # ---- texts ----

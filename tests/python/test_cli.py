@@ -280,6 +280,7 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
     [
         ("convert", "feet.csv", "out.csv"),
         ("evaluate", "feet.csv", "--model", "paper"),
+        ("evaluate", "feet.csv", "feet.csv", "--model", "paper"),
         ("evaluate", "feet.csv", "--starts", "every=0.5", "--model", "paper"),
         ("simulate", "out.csv", "--on", "feet.csv"),
         ("view", "feet.csv", "--model", "paper", "--out", "out.html"),
@@ -452,6 +453,17 @@ def test_it_works_without_standard_error(tidy: Path) -> None:
     assert done.returncode == 0 and "consistent" in done.stdout
 
 
+def let_it_run(process: subprocess.Popen[Any]) -> None:
+    """Waits until the command, once loaded, catches SIGTERM, and lets it work for a while."""
+    status = Path(f"/proc/{process.pid}/status")
+    for _ in range(600):
+        caught = next(line for line in status.read_text().splitlines() if line.startswith("SigCgt:"))
+        if int(caught.split()[1], 16) >> (signal.SIGTERM - 1) & 1:
+            break
+        time.sleep(0.1)
+    time.sleep(2.0)
+
+
 def long_evaluation(tidy: Path) -> list[str | Path]:
     """Takes far longer than a test would wait: the same recording, many times over, at many starts."""
     options = ["--starts", "every=0.001", "--json", "out.json", "--plot", "out.png"]
@@ -492,7 +504,7 @@ def test_ctrl_c_stops_it_and_leaves_nothing(tidy: Path) -> None:
     process = subprocess.Popen(
         long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
-    time.sleep(3.0)
+    let_it_run(process)
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=20)
     assert (process.returncode, output, errors) == (130, "", "diabolo: interrupted\n")
@@ -505,7 +517,7 @@ def test_the_progress_bar_is_for_terminals(tidy: Path) -> None:
     process = subprocess.Popen(
         long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.DEVNULL, stderr=terminal
     )
-    time.sleep(3.0)
+    let_it_run(process)
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=20) == 130
     os.close(terminal)
@@ -579,7 +591,7 @@ def test_sigterm_stops_it_and_leaves_nothing(tidy: Path) -> None:
     process = subprocess.Popen(
         long_evaluation(tidy), cwd=tidy.parent, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
-    time.sleep(3.0)
+    let_it_run(process)
     process.send_signal(signal.SIGTERM)
     output, errors = process.communicate(timeout=20)
     assert (process.returncode, output, errors) == (143, "", "diabolo: terminated\n")

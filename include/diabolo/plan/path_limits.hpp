@@ -48,6 +48,12 @@ class PathLimits {
 
   explicit operator bool() const { return static_cast<bool>(look_); }
 
+  /// What they were made of, where that is a Look; else null.
+  template <LooksAtPaths Look>
+  const Look* target() const {
+    return look_.template target<Look>();
+  }
+
   /// What a path uses up; nothing where there are no limits. Throws std::invalid_argument where a number of
   /// theirs is none.
   Uses operator()(const TipPath<double>& path) const { return look_ ? checked(look_(path)) : Uses{}; }

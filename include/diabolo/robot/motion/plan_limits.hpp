@@ -38,6 +38,10 @@ class RobotLimits {
       throw std::invalid_argument("share: " + shown(share) + "; must be above 0, at most 1");
   }
 
+  const StickPlanner& planner() const { return *planner_; }
+  double least_clearance() const { return least_clearance_; }  ///< [m]
+  double share() const { return share_; }
+
   /// Eleven limits: of each arm its box, reach and joints; the clearance.
   std::vector<LimitUse> operator()(const TipPath<double>& path) const {
     const Ticks ticks(path, ticks_of(path));
