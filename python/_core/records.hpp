@@ -12,8 +12,8 @@ namespace diabolo::python {
 
 namespace py = pybind11;
 
-/// As dictionaries and lists.
-inline py::object to_python(const nlohmann::ordered_json& json) {
+/// An object as a dictionary.
+inline py::dict to_python(const nlohmann::ordered_json& json) {
   return py::module_::import("json").attr("loads")(json.dump());
 }
 
