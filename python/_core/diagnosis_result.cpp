@@ -4,6 +4,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "diabolo/diagnose/best_guess.hpp"
 #include "diabolo/json/diagnosis_file.hpp"
 
@@ -12,17 +17,11 @@
 
 namespace diabolo::python {
 
-using namespace py::literals;
-
 namespace {
 
-std::string summary(const DiagnosisResult& result) {
-  return "<DiagnosisResult " + result.headline + ": " + result.sentence + ">";
-}
+using namespace py::literals;
 
-}  // namespace
-
-void bind_diagnosis_result(py::module_& module) {
+void bind_parts(py::module_& module) {
   bind_record<Estimate>(module);
   bind_record<EffectPlace>(module);
   bind_record<EffectSize>(module);
@@ -32,14 +31,42 @@ void bind_diagnosis_result(py::module_& module) {
   bind_record<UpperLimit>(module);
   bind_record<HeldOutErrors>(module);
   bind_record<ProposedMotion>(module);
-  bind_record<LadderRow>(module);
+  bind_record<LadderRow>(module).def(py::init([](std::string name, double estimate, double z, bool claimed) {
+                                       LadderRow row;
+                                       row.name = std::move(name);
+                                       row.estimate = estimate;
+                                       row.z = z;
+                                       row.claimed = claimed;
+                                       return row;
+                                     }),
+                                     "name"_a, "estimate"_a, "z"_a, "claimed"_a);
   bind_record<LocatedDirection>(module);
   bind_record<LocatedWindow>(module);
   bind_record<Location>(module);
   bind_record<RecordingNoise>(module);
-  bind_record<Thresholds>(module);
-  bind_record<InputFile>(module);
-  bind_record<DiagnosisResult>(module, &summary)
+  bind_record<Thresholds>(module).def(py::init<>());
+  bind_record<InputFile>(module).def(py::init([](std::string file, std::string sha256) {
+                                       return InputFile{std::move(file), std::move(sha256)};
+                                     }),
+                                     "file"_a, "sha256"_a);
+}
+
+/// With what only its caller knows.
+DiagnosisResult completed(DiagnosisResult result, std::optional<double> seconds,
+                          std::vector<InputFile> inputs, std::optional<std::string> model) {
+  result.seconds = seconds;
+  result.inputs = std::move(inputs);
+  result.model = std::move(model);
+  return result;
+}
+
+}  // namespace
+
+void bind_diagnosis_result(py::module_& module) {
+  bind_parts(module);
+  bind_record<DiagnosisResult>(module)
+      .def("completed", &completed, "seconds"_a = py::none(), "inputs"_a = std::vector<InputFile>(),
+           "model"_a = py::none(), "The same with what only its caller knows; the rest as it is.")
       .def("to_json", &write_diagnosis, "The text of its file, schema diabolo.diagnosis/1.")
       .def_static(
           "from_json", [](const std::string& text) { return read_diagnosis(text, "diagnosis"); }, "text"_a,

@@ -79,11 +79,12 @@ def test_the_result_is_an_object_and_a_file(found: Diagnosis, tmp_path: Path) ->
     assert result.fit.horizons_s == [0.1, 0.25, 0.5, 1.0]
     assert result.effects[0].parameters[0].ci90.low < result.effects[0].parameters[0].value
     assert result.to_dict() == json.loads(result.to_json())
-    (tmp_path / "diagnosis.json").write_text(result.replaced(seconds=1.5).to_json())
+    (tmp_path / "diagnosis.json").write_text(result.completed(seconds=1.5).to_json())
     again = DiagnosisResult.load(tmp_path / "diagnosis.json")
     assert again.seconds == 1.5 and again != result
-    assert again.replaced(seconds=None) == result
-    assert "NAMED" in repr(result) or "TIE" in repr(result)
+    assert again.completed() == result
+    assert result.sentence in repr(result)
+    assert "'unit': '1'" in repr(result.effects[0].parameters[0])
     with pytest.raises(AttributeError):
         result.headline = "NOTHING_MISSING"  # type: ignore[misc]
 

@@ -472,7 +472,7 @@ def test_command_complains_in_one_sentence(command: Command, tmp_path: Path) -> 
         (["throw", "--cycles", "3"], "not caught"),
         (["hop", "--goal", "spin=5"], "nothing that hop can aim at"),
         (["hop", "--limit", "joint_speed=2"], "with --robots only"),
-        (["hop", "--diagnosis", __file__], "no JSON"),
+        (["hop", "--diagnosis", __file__], "not JSON"),
         (["hop", "--recording", ""], "an empty name"),
     ):
         done = command("plan", *arguments)

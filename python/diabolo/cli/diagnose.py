@@ -112,7 +112,7 @@ def run(arguments: argparse.Namespace) -> None:
             threads=arguments.threads,
             progress=report,
         )
-    result = diagnosis.result.replaced(
+    result = diagnosis.result.completed(
         seconds=time.monotonic() - begin, inputs=hashes, model=None if folder is None else MODEL_FILE
     ).to_dict()
     texts = {} if folder is None else _texts(folder, diagnosis.model, result)

@@ -13,6 +13,7 @@ import numpy as np
 from .._core import (
     DiaboloProperties,
     DiagnosisResult,
+    PlannedPlay,
     Recording,
     RobotLimits,
     SeedGrid,
@@ -25,7 +26,7 @@ from .._core import (
 )
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS
-from ..player import ACTIONS, WANTED, PlannedPlay, best_guess, model_for, plan_action
+from ..player import ACTIONS, WANTED, best_guess, model_for, plan_action
 from ..view import view_html
 from . import files, plots
 from .arguments import add_command, output_name, read_model

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._core import Model, baseline
+from .._core import Model, PlannedPlay, baseline
 from ..enums import StringState
 from ..evaluation import ALL_RECORDINGS, Evaluation, Excerpt, HorizonRow, position_errors, predict
-from ..player import PlannedPlay
 from .files import whole_file
 
 if TYPE_CHECKING:
