@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/alternatives.hpp"
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/axle_motion.hpp"
 #include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/findings.hpp"
@@ -28,22 +29,6 @@
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
 
 namespace diabolo {
-
-/// How a diagnosis is done.
-struct DiagnosisOptions {
-  Model base = consistent_model();  ///< the simulator that is asked about
-  std::vector<Recording> holdout;   ///< to compare on; else recordings, or blocks, are left out in turn
-  std::vector<std::string> bank;    ///< names of the candidates; empty: all but placebos
-  double budget = 1e9;              ///< nothing more is looked for after it [s]
-  std::uint64_t seed = 1;           ///< of the bootstrap
-  int threads = 0;                  ///< 0: one for every processor; the result is the same
-};
-
-/// How a diagnosis is watched: the name of the step, and the fraction done of it all.
-struct DiagnosisWatch {
-  std::function<void(const std::string&, double)> progress;
-  std::function<bool()> cancelled;
-};
 
 namespace detail {
 
@@ -235,11 +220,8 @@ inline void claim_swap(Diagnosis& d, long frames, const std::string& reason) {
 
 }  // namespace detail
 
-/// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
-/// std::invalid_argument about options, and Cancelled.
-template <class D = detail::FitDual>
-Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options = {},
-                   const DiagnosisWatch& watch = {}) {
+template <class D>
+Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, const DiagnosisWatch& watch) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
   check_threads(options.threads);
   long swapped = 0, frames = 0;

@@ -145,19 +145,18 @@ void look_by(Fit& fit, const Model& base, const ActiveSet& carried, int threads,
   weigh(fit);
 }
 
-/// The same with as few derivatives as these lengths allow: a step costs about as much as it has. (A
-/// template, as is all that calls it, lest every program that includes it compile the simulation on long
-/// duals.)
+/// The same with as few derivatives as detail::kLengths allow. (A template, as is all that calls it, lest
+/// every program that includes it compile the simulation on long duals.)
 template <class D = detail::FitDual>
 void look(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
-  constexpr int kStarts = 8, kShort = 32, kMedium = 40;
+  using detail::kLengths, detail::Shortened;
   const auto columns = kStartUnknowns + carried.count();
-  if (columns <= kStarts)
-    look_by<detail::Shortened<D, kStarts>>(fit, base, carried, threads, watch);
-  else if (columns <= kShort)
-    look_by<detail::Shortened<D, kShort>>(fit, base, carried, threads, watch);
-  else if (columns <= kMedium)
-    look_by<detail::Shortened<D, kMedium>>(fit, base, carried, threads, watch);
+  if (columns <= kLengths[0])
+    look_by<Shortened<D, kLengths[0]>>(fit, base, carried, threads, watch);
+  else if (columns <= kLengths[1])
+    look_by<Shortened<D, kLengths[1]>>(fit, base, carried, threads, watch);
+  else if (columns <= kLengths[2])
+    look_by<Shortened<D, kLengths[2]>>(fit, base, carried, threads, watch);
   else
     look_by<D>(fit, base, carried, threads, watch);
 }
