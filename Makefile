@@ -26,10 +26,10 @@ test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUI
 ctest := ctest --output-on-failure --no-tests=error -j $(JOBS)
 
 package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
-  $(shell find cmake include batch python -type f -not -name '*.pyc')
+  $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-plant test-python test-all ur-rtde prove prove-player mujoco browser sanitize \
+.PHONY: help demo test test-core test-cpp test-headers test-plant test-python test-all ur-rtde prove prove-player mujoco browser sanitize \
   fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
@@ -74,6 +74,11 @@ test-cpp:
 	@cmake --build $(BUILD)/test -j $(JOBS) -- -k 0
 	@$(ctest) --test-dir $(BUILD)/test
 
+test-headers: # Every header compiles alone; as long as all of test-cpp.
+	@$(packages) build test
+	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
+	@cmake --build $(BUILD)/test -j $(JOBS) --target test_headers -- -k 0
+
 test-core: # The predictor alone: the quick part of test-cpp.
 	@$(packages) build test
 	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
@@ -110,7 +115,7 @@ ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtd
 	else \
 	  echo "ur_rtde could not be fetched: its client is left out, the stand-in controller alone is tested"; \
 	fi
-	@$(cmake) -S . -B $(BUILD)/ur5e/diabolo -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BATCH=OFF \
+	@$(cmake) -S . -B $(BUILD)/ur5e/diabolo -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BATCH=OFF -DDIABOLO_BUILD_DIAGNOSE=OFF \
 	  -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF -DDIABOLO_BUILD_EXAMPLES=OFF >/dev/null
 	@cmake --install $(BUILD)/ur5e/diabolo --prefix $(BUILD)/ur5e/prefix --component cpp >/dev/null
 	@$(cmake) -S examples/ur5e_rtde -B $(BUILD)/ur5e/build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
@@ -141,7 +146,7 @@ prove-player: $(VENV)/.package plant ## Play a few plans on the independent plan
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
+test-all: test test-headers mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
 
 browser: $(VENV)/.package-with-tests ## Look at the report and the view as a person sees them
 	@$(packages) browser
@@ -163,7 +168,7 @@ fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	@$(packages) build lint
 	@$(cmake) -S . -B $(BUILD)/fuzz -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_CXX_COMPILER=clang++ \
 	  -DDIABOLO_SANITIZE=address,undefined -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF \
-	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
+	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_DIAGNOSE=OFF -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
 	@cmake --build $(BUILD)/fuzz -j $(JOBS)
 	@BUILD=$(BUILD) tools/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: MIT
-# Installs the headers, the optional compiled target and the package files for find_package(diabolo).
+# Installs the headers, the optional compiled targets and the package files for find_package(diabolo).
 include(CMakePackageConfigHelpers)
 
 set(config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/diabolo")
 set(installed_targets diabolo)
 set(architecture ARCH_INDEPENDENT)
-if(TARGET diabolo_batch)
-  list(APPEND installed_targets diabolo_batch)
-  set(architecture "")
-endif()
+foreach(compiled IN ITEMS batch diagnose)
+  string(TOUPPER "DIABOLO_BUILD_${compiled}" option)
+  if(${option})
+    list(APPEND installed_targets diabolo_${compiled})
+    set(architecture "")
+  endif()
+endforeach()
 
 install(DIRECTORY include/diabolo DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT cpp
         FILES_MATCHING PATTERN "*.hpp")

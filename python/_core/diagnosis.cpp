@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/diagnose/diagnosis.hpp"
+#include "diabolo/diagnose/compiled.hpp"
 
 #include <pybind11/stl.h>
 

@@ -82,7 +82,7 @@ __all__ = [
     "Freedom",
     "Goals",
     "GravityTilt",
-    "Horizon",
+    "RecedingHorizon",
     "HorizonRow",
     "HorizonScore",
     "Integrator",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "diabolo/diagnose/compiled.hpp"
 
 using namespace diabolo;
 using Vector = Vector3<double>;

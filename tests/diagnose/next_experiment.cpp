@@ -2,6 +2,7 @@
 #include "diabolo/diagnose/next_experiment.hpp"
 
 #include "catch.hpp"
+#include "diabolo/diagnose/compiled.hpp"
 #include "diabolo/diagnose/first_fit.hpp"
 
 using namespace diabolo;

@@ -8,22 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/fit.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 
 namespace diabolo {
-
-enum class CandidateKind { kPhysics, kMeasurement };
-
-/// Something that may be missing, under the name that a result gives it, with the unknowns that it is made
-/// of.
-struct Candidate {
-  std::string_view name, plain;
-  CandidateKind kind;
-  std::vector<Unknown> unknowns;  ///< none of body_swap, which is seen without a fit
-  double floor;   ///< claimed only beyond, in any of its unknowns; of physics see kSmallestReach
-  bool positive;  ///< a negative amplitude is against physics
-};
 
 /// Physics is claimed only where it moves the diabolo by so much within half a second, in the most affected
 /// tenth of the windows [m]; the spin by this share within this time [s].

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/inquiry.hpp"
 #include "diabolo/recording/plausibility/odd_tracking.hpp"
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
@@ -31,11 +32,8 @@ inline void claim_swap(Diagnosis& d, long frames, const std::string& reason) {
 
 }  // namespace diagnose_detail
 
-/// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
-/// std::invalid_argument about options, and Cancelled.
-template <class D = diagnose_detail::FitDual>
-Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options = {},
-                   const DiagnosisWatch& watch = {}) {
+template <class D>
+Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, const DiagnosisWatch& watch) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; at least one expected");
   check_threads(options.threads);
   long swapped = 0, frames = 0;

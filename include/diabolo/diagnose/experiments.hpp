@@ -8,28 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/string/hanging.hpp"
 
 namespace diabolo {
-
-/// A part of a motion, as for a string of 1.45 m: tips by the time [s], and a start; on the string it hangs
-/// at rest.
-struct MotionPart {
-  double seconds;
-  std::function<Tips<double>(double)> tips;  ///< positions and directions of the sticks
-  double spin;                               ///< [rad/s]
-  Vector3<double> velocity;                  ///< of a throw [m/s]; zero: on the string
-};
-
-/// A motion that somebody may record.
-struct Experiment {
-  std::string_view motion, plain;
-  double seconds;  ///< to record
-  std::vector<MotionPart> parts;
-};
 
 namespace diagnose_detail {
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
 #include "diabolo/diagnose/experiments.hpp"
@@ -19,85 +20,6 @@
 #include "diabolo/diagnose/select.hpp"
 
 namespace diabolo {
-
-/// A candidate and what speaks for it and against it.
-struct Finding {
-  const Candidate* candidate = nullptr;
-  UnknownVector estimate = UnknownVector::Zero();   ///< SI units; those of the candidate's unknowns count
-  UnknownVector deviation = UnknownVector::Zero();  ///< standard deviations
-  double z = 0.0;                                   ///< significance in standard deviations
-  double p_value = 1.0;                             ///< over all candidates
-  double size = 0.0;                                ///< see size_of()
-  bool sure = false;                                ///< by its significance
-  bool material = false;                            ///< by its size
-  bool possible = true;                             ///< no farther off than a measurement may be
-  bool claimed = false;                             ///< sure and material, and part of the model
-  double confidence = 0.0;
-  long swapped = 0;  ///< frames, of body_swap
-  std::vector<std::string> tied_with;
-  std::vector<std::size_t> windows;  ///< in which it matters
-  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; of claims.
-  std::vector<std::optional<Interval>> worsening_ci95;
-  std::string reason;  ///< why it is claimed, or not
-};
-
-/// A force that is left over, without a name.
-struct UnexplainedForce {
-  Unknown unknown;
-  double value, deviation, z, size;
-  PowerLaw law;           ///< how it grows
-  bool in_model = false;  ///< as an UnnamedForce
-  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; where tried.
-  std::vector<std::optional<Interval>> worsening_ci95{};
-};
-
-/// What was seen in a window before anything was added, and what is left.
-struct WindowFinding {
-  std::size_t recording;
-  double begin, end;  ///< [s]
-  StringState mode;
-  double residual_before, residual_after;  ///< root mean square, position [m]
-  std::array<double, 7> z;                 ///< of the latent accelerations before; NaN where they say nothing
-};
-
-/// What to record next, and the odds that it would give against the wrong one of what it parts.
-struct Proposal {
-  const Experiment* experiment;
-  std::vector<std::string> parts;  ///< names
-  std::optional<double> odds;      ///< not told of faults of measurement
-};
-
-enum class Headline {
-  kInsufficientData,
-  kTie,
-  kNamed,
-  kMeasurementFault,
-  kNumerical,
-  kUnnamedStructure,
-  kNothingMissing
-};
-
-/// The answer.
-struct Diagnosis {
-  Headline headline = Headline::kNothingMissing;
-  std::string base, sentence, reason;
-  double base_gravity = kStandardGravity;  ///< [m/s^2]
-  double base_string_length = 0.0;         ///< [m]
-  std::vector<Finding> findings;           ///< of every candidate, the surest first
-  std::vector<UnexplainedForce> unexplained_forces;
-  std::vector<WindowFinding> windows;
-  std::vector<std::pair<std::string, CameraNoise>> noise;
-  UnknownVector at = UnknownVector::Zero();
-  UnknownVector deviation = UnknownVector::Zero();
-  Model model;
-  HeldOut heldout;
-  std::vector<Proposal> proposals;
-  double unexplained = 0.0;           ///< share of the windows that are far off after all
-  bool withdrawn = false;             ///< physics that stands out, but does not help on what was left out
-  std::optional<double> numerical;    ///< share of the base's error that its numerical rules make
-  std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
-  std::size_t windows_seen = 0;       ///< in the recordings, of which `windows` were fitted
-};
 
 inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7, kLatentForces = 5;
 

@@ -168,19 +168,18 @@ void linearize_by(Fit& fit, const Model& base, const ActiveSet& carried, int thr
   reweight(fit);
 }
 
-/// The same with as few derivatives as these lengths allow: a step costs about as much as it has. (A
-/// template, as is all that calls it, lest every program that includes it compile the simulation on long
-/// duals.)
+/// The same with as few derivatives as kLengths allow. (A template, as is all that calls it, lest every
+/// program that includes it compile the simulation on long duals.)
 template <class D = diagnose_detail::FitDual>
 void linearize(Fit& fit, const Model& base, const ActiveSet& carried, int threads, const Watch& watch) {
-  constexpr int kStarts = 8, kShort = 32, kMedium = 40;
+  using diagnose_detail::kLengths, diagnose_detail::Shortened;
   const auto columns = kStartUnknowns + carried.count();
-  if (columns <= kStarts)
-    linearize_by<diagnose_detail::Shortened<D, kStarts>>(fit, base, carried, threads, watch);
-  else if (columns <= kShort)
-    linearize_by<diagnose_detail::Shortened<D, kShort>>(fit, base, carried, threads, watch);
-  else if (columns <= kMedium)
-    linearize_by<diagnose_detail::Shortened<D, kMedium>>(fit, base, carried, threads, watch);
+  if (columns <= kLengths[0])
+    linearize_by<Shortened<D, kLengths[0]>>(fit, base, carried, threads, watch);
+  else if (columns <= kLengths[1])
+    linearize_by<Shortened<D, kLengths[1]>>(fit, base, carried, threads, watch);
+  else if (columns <= kLengths[2])
+    linearize_by<Shortened<D, kLengths[2]>>(fit, base, carried, threads, watch);
   else
     linearize_by<D>(fit, base, carried, threads, watch);
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/fit_take.hpp"
 #include "diabolo/diagnose/latent_force.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
@@ -19,19 +20,12 @@
 
 namespace diabolo {
 
-/// Numbers of a window's start: position, velocity and spin.
-inline constexpr int kStartUnknowns = 7;
+/// Usual sizes of a start's numbers [m], [m/s], [rad/s].
 inline constexpr double kStartScales[kStartUnknowns] = {0.01, 0.01, 0.01, 0.1, 0.1, 0.1, 1.0};
 /// Standard deviation of a start about its first guess, in its scales; far wider than a camera's.
 inline constexpr double kStartPriors[kStartUnknowns] = {5.0, 5.0, 5.0, 50.0, 50.0, 50.0, 300.0};
 
 namespace diagnose_detail {
-
-/// Derivatives only show the way of a fit and its spread: seven digits are enough.
-using FitDual = Dual<double, kStartUnknowns + kUnknowns, float>;
-/// A dual with fewer.
-template <class D, int N>
-using Shortened = Dual<decltype(D::value), N, typename D::Gradient::Scalar>;
 
 /// The unknowns as numbers with derivatives: by a window's start first, then by those that are carried, in
 /// their order. By the others there are none.

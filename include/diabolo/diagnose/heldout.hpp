@@ -9,25 +9,12 @@
 #include <random>
 #include <vector>
 
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/evidence.hpp"
 #include "diabolo/evaluate/horizon_score.hpp"
 
 namespace diabolo {
-
-/// Errors on data that the model was not fitted to, of the base and with what was found.
-struct HeldOut {
-  bool whole_recordings = false;                      ///< left out one by one; else blocks of rows
-  std::vector<double> horizons{0.1, 0.25, 0.5, 1.0};  ///< [s]
-  std::vector<std::optional<double>> base_error, augmented_error;  ///< mean distances [m]
-  std::vector<std::optional<Interval>> improvement_ci95;           ///< of base less augmented [m]
-  /// What the start's noise alone would put the augmented model off by, mean [m].
-  std::vector<std::optional<double>> start_error;
-  /// Of what the augmented model's error grows by where one claim is taken out of it and all else fitted
-  /// again: claim by claim, horizon by horizon [m].
-  std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
-  std::size_t windows = 0;
-};
 
 /// Rows of a recording that a model is fitted without.
 struct Fold {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/fit.hpp"
 #include "diabolo/math/bootstrap.hpp"
 
@@ -15,15 +16,6 @@ namespace diabolo {
 
 /// From this deviation on an exponent says nothing.
 inline constexpr double kVagueExponent = 1.0;
-
-/// How a force without a name grows: value at `at`, times (x / at)^exponent, x a scalar of the motion.
-struct PowerLaw {
-  std::string_view scalar, unit;           ///< x and its unit
-  double exponent = 0.0, deviation = 0.0;  ///< and its standard deviation; a vague one is zero
-  double at = 0.0, value = 0.0;            ///< a usual x, and the force there, in the unit of its unknown
-  double explained = 0.0;                  ///< share of what the windows say beyond nothing
-  std::vector<std::pair<double, double>> curve;  ///< x, and the mean of what the windows around it say
-};
 
 /// What one window says of an unknown at a fit, all others held.
 struct WindowSays {

@@ -54,14 +54,6 @@ void move_to_marker(Vector3<D>& centre, const Eigen::Matrix3d& frame, const Dual
 inline constexpr int kWindowColumns = kStartUnknowns + kUnknowns + 1;
 using WindowMatrix = Eigen::MatrixXd;  ///< kWindowColumns x kWindowColumns
 
-/// Standard deviations of what a camera reports.
-struct CameraNoise {
-  double position = 1e-3;  ///< one coordinate [m]
-  double spin = 3.0;       ///< [rad/s]
-
-  bool operator==(const CameraNoise&) const = default;
-};
-
 /// What one window says, in the scales of kUnknownInfos and kStartScales.
 struct WindowSystem {
   /// [J r]^T [J r] of the positions [m] and of the spin [rad/s]; r = recorded - predicted.

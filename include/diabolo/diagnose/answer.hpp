@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/diagnosis_options.hpp"
+#include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/math/bootstrap.hpp"
+#include "diabolo/math/dual.hpp"
+#include "diabolo/model.hpp"
+#include "diabolo/recording/recording.hpp"
+
+// What diagnose() is asked and what it answers. A program that includes this header alone compiles fast and
+// links diabolo::diagnose; one that includes diagnosis.hpp compiles the whole diagnosis itself.
+namespace diabolo {
+
+enum class CandidateKind { kPhysics, kMeasurement };
+
+/// Something that may be missing, under the name that a result gives it, with the unknowns that it is made
+/// of.
+struct Candidate {
+  std::string_view name, plain;
+  CandidateKind kind;
+  std::vector<Unknown> unknowns;  ///< none of body_swap, which is seen without a fit
+  double floor;   ///< claimed only beyond, in any of its unknowns; of physics see kSmallestReach
+  bool positive;  ///< a negative amplitude is against physics
+};
+
+/// Standard deviations of what a camera reports.
+struct CameraNoise {
+  double position = 1e-3;  ///< one coordinate [m]
+  double spin = 3.0;       ///< [rad/s]
+
+  bool operator==(const CameraNoise&) const = default;
+};
+
+/// How a force without a name grows: value at `at`, times (x / at)^exponent, x a scalar of the motion.
+struct PowerLaw {
+  std::string_view scalar, unit;           ///< x and its unit
+  double exponent = 0.0, deviation = 0.0;  ///< and its standard deviation; a vague one is zero
+  double at = 0.0, value = 0.0;            ///< a usual x, and the force there, in the unit of its unknown
+  double explained = 0.0;                  ///< share of what the windows say beyond nothing
+  std::vector<std::pair<double, double>> curve;  ///< x, and the mean of what the windows around it say
+};
+
+/// Errors on data that the model was not fitted to, of the base and with what was found.
+struct HeldOut {
+  bool whole_recordings = false;                      ///< left out one by one; else blocks of rows
+  std::vector<double> horizons{0.1, 0.25, 0.5, 1.0};  ///< [s]
+  std::vector<std::optional<double>> base_error, augmented_error;  ///< mean distances [m]
+  std::vector<std::optional<Interval>> improvement_ci95;           ///< of base less augmented [m]
+  /// What the start's noise alone would put the augmented model off by, mean [m].
+  std::vector<std::optional<double>> start_error;
+  /// Of what the augmented model's error grows by where one claim is taken out of it and all else fitted
+  /// again: claim by claim, horizon by horizon [m].
+  std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
+  std::size_t windows = 0;
+};
+
+/// A candidate and what speaks for it and against it.
+struct Finding {
+  const Candidate* candidate = nullptr;
+  UnknownVector estimate = UnknownVector::Zero();   ///< SI units; those of the candidate's unknowns count
+  UnknownVector deviation = UnknownVector::Zero();  ///< standard deviations
+  double z = 0.0;                                   ///< significance in standard deviations
+  double p_value = 1.0;                             ///< over all candidates
+  double size = 0.0;                                ///< see size_of()
+  bool sure = false;                                ///< by its significance
+  bool material = false;                            ///< by its size
+  bool possible = true;                             ///< no farther off than a measurement may be
+  bool claimed = false;                             ///< sure and material, and part of the model
+  double confidence = 0.0;
+  long swapped = 0;  ///< frames, of body_swap
+  std::vector<std::string> tied_with;
+  std::vector<std::size_t> windows;  ///< in which it matters
+  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; of claims.
+  std::vector<std::optional<Interval>> worsening_ci95;
+  std::string reason;  ///< why it is claimed, or not
+};
+
+/// A force that is left over, without a name.
+struct UnexplainedForce {
+  Unknown unknown;
+  double value, deviation, z, size;
+  PowerLaw law;           ///< how it grows
+  bool in_model = false;  ///< as an UnnamedForce
+  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; where tried.
+  std::vector<std::optional<Interval>> worsening_ci95{};
+};
+
+/// What was seen in a window before anything was added, and what is left.
+struct WindowFinding {
+  std::size_t recording;
+  double begin, end;  ///< [s]
+  StringState mode;
+  double residual_before, residual_after;  ///< root mean square, position [m]
+  std::array<double, 7> z;                 ///< of the latent accelerations before; NaN where they say nothing
+};
+
+/// A part of a motion, as for a string of 1.45 m: tips by the time [s], and a start; on the string it hangs
+/// at rest.
+struct MotionPart {
+  double seconds;
+  std::function<Tips<double>(double)> tips;  ///< positions and directions of the sticks
+  double spin;                               ///< [rad/s]
+  Vector3<double> velocity;                  ///< of a throw [m/s]; zero: on the string
+};
+
+/// A motion that somebody may record.
+struct Experiment {
+  std::string_view motion, plain;
+  double seconds;  ///< to record
+  std::vector<MotionPart> parts;
+};
+
+/// What to record next, and the odds that it would give against the wrong one of what it parts.
+struct Proposal {
+  const Experiment* experiment;
+  std::vector<std::string> parts;  ///< names
+  std::optional<double> odds;      ///< not told of faults of measurement
+};
+
+enum class Headline {
+  kInsufficientData,
+  kTie,
+  kNamed,
+  kMeasurementFault,
+  kNumerical,
+  kUnnamedStructure,
+  kNothingMissing
+};
+
+/// The answer.
+struct Diagnosis {
+  Headline headline = Headline::kNothingMissing;
+  std::string base, sentence, reason;
+  double base_gravity = kStandardGravity;  ///< [m/s^2]
+  double base_string_length = 0.0;         ///< [m]
+  std::vector<Finding> findings;           ///< of every candidate, the surest first
+  std::vector<UnexplainedForce> unexplained_forces;
+  std::vector<WindowFinding> windows;
+  std::vector<std::pair<std::string, CameraNoise>> noise;
+  UnknownVector at = UnknownVector::Zero();
+  UnknownVector deviation = UnknownVector::Zero();
+  Model model;
+  HeldOut heldout;
+  std::vector<Proposal> proposals;
+  double unexplained = 0.0;           ///< share of the windows that are far off after all
+  bool withdrawn = false;             ///< physics that stands out, but does not help on what was left out
+  std::optional<double> numerical;    ///< share of the base's error that its numerical rules make
+  std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
+  std::size_t windows_seen = 0;       ///< in the recordings, of which `windows` were fitted
+};
+
+/// Numbers of a window's start: position, velocity and spin.
+inline constexpr int kStartUnknowns = 7;
+
+namespace diagnose_detail {
+
+/// Derivatives only show the way of a fit and its spread: seven digits are enough.
+using FitDual = Dual<double, kStartUnknowns + kUnknowns, float>;
+/// A dual with fewer.
+template <class D, int N>
+using Shortened = Dual<decltype(D::value), N, typename D::Gradient::Scalar>;
+/// Derivatives that are carried, as few as will do: a step costs about as much as it has.
+inline constexpr int kLengths[] = {8, 32, 40, kStartUnknowns + kUnknowns};
+
+}  // namespace diagnose_detail
+
+/// Finds what a simulator leaves out. Throws RecordingError where a recording cannot be used at all,
+/// std::invalid_argument about options, and Cancelled.
+template <class D = diagnose_detail::FitDual>
+Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options = {},
+                   const DiagnosisWatch& watch = {});
+
+}  // namespace diabolo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/window_rollout.hpp"
+
+// What diabolo::diagnose has compiled of a diagnosis' parts. A program that links it and calls fit.hpp,
+// refine.hpp and others itself includes this header too, and compiles them in a fraction of the time.
+namespace diabolo {
+
+namespace diagnose_detail {
+
+/// The duals of a diagnosis, by the index of their length.
+template <int Index>
+using CompiledDual = Shortened<FitDual, kLengths[Index]>;
+
+}  // namespace diagnose_detail
+
+extern template Diagnosis diagnose<diagnose_detail::FitDual>(std::vector<Recording>, DiagnosisOptions,
+                                                             const DiagnosisWatch&);
+
+extern template WindowSystem window_system(
+    const Take&, const FitWindow&, const diagnose_detail::FitModel<diagnose_detail::CompiledDual<0>>&,
+    const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<0>>&, Delay, bool);
+extern template WindowSystem window_system(
+    const Take&, const FitWindow&, const diagnose_detail::FitModel<diagnose_detail::CompiledDual<1>>&,
+    const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<1>>&, Delay, bool);
+extern template WindowSystem window_system(
+    const Take&, const FitWindow&, const diagnose_detail::FitModel<diagnose_detail::CompiledDual<2>>&,
+    const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<2>>&, Delay, bool);
+extern template WindowSystem window_system(
+    const Take&, const FitWindow&, const diagnose_detail::FitModel<diagnose_detail::CompiledDual<3>>&,
+    const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<3>>&, Delay, bool);
+
+}  // namespace diabolo
