@@ -80,7 +80,7 @@ TEST_CASE("Files of other kinds are refused") {
   };
   CHECK(says("t,error\n0,1\n") ==
         "x.csv, line 1: starts with \"t,error\"; expected a Motive export (\"Format "
-        "Version,...\") or a tidy recording (\"time,...\")");
+        "Version,...\") or a tidy recording (\"time,...\"); --columns maps other names");
   CHECK(says("") == "x.csv: the file is empty");
   CHECK(says(test::tidy_text()) == "x.csv: expected " + (folder / "x.json").string() +
                                        " beside it, which says the string's length, the rate and what the "

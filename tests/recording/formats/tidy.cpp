@@ -77,14 +77,16 @@ TEST_CASE("Columns may stand in any order, sticks may have orientations") {
 }
 
 TEST_CASE("Headers that do not fit are refused") {
-  CHECK(says_of("left_x", "left_q") ==
-        "play.csv, line 1: column 2 is \"left_q\", which a tidy recording lacks");
+  CHECK(
+      says_of("left_x", "left_q") ==
+      "play.csv, line 1: column 2 is \"left_q\", which a tidy recording lacks (--columns maps other names)");
   CHECK(says_of("left_y", "left_x") == "play.csv, line 1: column \"left_x\" is there twice");
   CHECK(says_of("time,", "") == "play.csv, line 1: column \"time\" is missing");
   CHECK(says_of("diabolo_qw", "left_qx") == "play.csv, line 1: column \"diabolo_qw\" is missing");
   CHECK(says_of("diabolo_qw", "diabolo_qw,left_qx") == "play.csv, line 1: column \"left_qy\" is missing");
   CHECK(says_of("diabolo_qw", "diabolo_qw,right_qw") == "play.csv, line 1: column \"right_qx\" is missing");
-  CHECK(says("\n") == "play.csv, line 1: column 1 is \"\", which a tidy recording lacks");
+  CHECK(says("\n") ==
+        "play.csv, line 1: column 1 is \"\", which a tidy recording lacks (--columns maps other names)");
   CHECK(says(tidy_text().substr(0, tidy_text().find('\n') + 1)) ==
         "play.csv, line 1: the file ends here; expected at least one line of data");
   std::string wide = "time";

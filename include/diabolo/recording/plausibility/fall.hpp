@@ -52,6 +52,8 @@ inline std::vector<Fall> falls(const Recording& r) {
   for (Eigen::Index k = 0; k < n; ++k) weight[k] = static_cast<double>((k - half) * (k - half));
   weight.array() -= weight.mean();
   weight *= 2.0 * r.rate * r.rate / weight.squaredNorm();
+  // A string may be shorter than it is said to be.
+  const double taut = std::min(r.string_length, usual_path_length(r).value_or(r.string_length));
   std::vector<Fall> result;
   Eigen::Index seen = 0, slack = 0;  // samples in a row
   for (Eigen::Index i = 0; i < r.size(); ++i) {
@@ -61,7 +63,7 @@ inline std::vector<Fall> falls(const Recording& r) {
       continue;
     }
     ++seen;
-    slack = path_at(r, i).length() < r.string_length - kSlackBy ? slack + 1 : 0;
+    slack = path_at(r, i).length() < taut - kSlackBy ? slack + 1 : 0;
     if (seen < n || i % stride != 0) continue;
     const Eigen::Index middle = i - half;
     const auto towards = [&](const Track& tip) {
