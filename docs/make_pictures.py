@@ -206,7 +206,7 @@ def draw_diagnosis(path: Path) -> None:
             fit["horizons_s"], [1e3 * error for error in fit[key]], "o-", color=color, lw=2, label=label
         )
     errors.set(
-        title="error on the recording left out", xlabel="predicted ahead [s]", ylabel="[mm]", ylim=(0, 200)
+        title="error on the held-out recording", xlabel="predicted ahead [s]", ylabel="[mm]", ylim=(0, 200)
     )
     errors.legend(frameon=False)
     figure.savefig(path, dpi=110)
