@@ -205,9 +205,7 @@ def draw_diagnosis(path: Path) -> None:
         errors.plot(
             fit["horizons_s"], [1e3 * error for error in fit[key]], "o-", color=color, lw=2, label=label
         )
-    errors.set(
-        title="error on the recording left out", xlabel="predicted ahead [s]", ylabel="[mm]", ylim=(0, 200)
-    )
+    errors.set(title="mean held-out error", xlabel="predicted ahead [s]", ylabel="[mm]", ylim=(0, 200))
     errors.legend(frameon=False)
     figure.savefig(path, dpi=110)
 

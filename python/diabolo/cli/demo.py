@@ -40,6 +40,11 @@ AT_WORK = {
 }
 """By name in a key of the plant, the parameter that is 0 where the effect is not at work."""
 
+NEXT = f"""
+Your own recordings:
+  diabolo diagnose TAKE.csv --out diagnosis
+  diabolo view TAKE.csv --model {BASE} --model diagnosis/{MODEL_FILE} --every 1 --out replay.html"""
+
 LINE = 100  # characters, of what is said in words
 BOLD, RED, GREEN, YELLOW, CYAN = "1", "31", "32", "33", "36"
 
@@ -109,7 +114,7 @@ def run(arguments: argparse.Namespace) -> None:
     if not quiet:
         print(summary_text(answer, concealed, takes, Painter.of_terminal()))
         print(f"\nreport  {outputs[0]}\nreplay  {outputs[1]}  (before, after and recording, side by side)")
-        print("Your own recordings: diabolo diagnose TAKE.csv --out diagnosis")
+        print(NEXT)
 
 
 def concealed_in(recording: Path) -> dict[str, dict[str, float]]:
