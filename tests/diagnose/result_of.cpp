@@ -75,3 +75,16 @@ TEST_CASE("what the base's rules make comes before any physics") {
   CHECK(result.effects[0].parameters.at(0).value == 0.7);
   CHECK_FALSE(result.effects[0].p_value);
 }
+
+TEST_CASE("bodies that were exchanged are told, although nothing is unknown of them") {
+  Diagnosis d;
+  Finding swap;
+  swap.candidate = &candidate_of("body_swap");
+  swap.claimed = true;
+  swap.swapped = 60;
+  d.findings = {swap};
+  const DiagnosisResult result = result_of(d, {});
+  CHECK(result.effects.at(0).parameters.at(0).value == 60.0);
+  CHECK(result.ladder.at(0).parameter == "frames");
+  CHECK(result.upper_limits.empty());
+}

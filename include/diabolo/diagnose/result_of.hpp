@@ -154,9 +154,10 @@ inline LadderRow row_of(const Finding& f) {
 
 /// How much of physics that is not claimed may be there; nothing where the data cannot say.
 inline std::optional<UpperLimit> limit_of(const Finding& f) {
+  if (f.claimed || f.candidate->kind != CandidateKind::kPhysics) return {};
   const UnknownInfo& info = info_of(f.candidate->unknowns.front());
   const int u = index_of(f.candidate->unknowns.front());
-  if (f.claimed || f.candidate->kind != CandidateKind::kPhysics || !(f.deviation[u] > 0.0)) return {};
+  if (!(f.deviation[u] > 0.0)) return {};
   const double limit = std::max(0.0, std::abs(f.estimate[u]) + kNormal95 * f.deviation[u]);
   return UpperLimit{std::string(f.candidate->name), std::string(info.name), limit, std::string(info.unit)};
 }
