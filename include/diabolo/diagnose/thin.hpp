@@ -17,7 +17,7 @@ namespace diabolo {
 inline constexpr double kPredictionsPerWindow = 90.0, kLongestPrediction = 0.1;
 
 /// Windows that are fitted however little time there is.
-inline constexpr std::size_t kFewestFitted = 32;
+inline constexpr std::size_t kFewestFitted = 20;
 
 /// Share of the time in which windows are chosen.
 inline constexpr double kChoosingShare = 0.1;
@@ -59,7 +59,7 @@ inline UnknownVector usual_information(const std::vector<UnknownVector>& informa
 /// an unknown that few windows show gets these.
 inline std::vector<std::size_t> windows_that_decide(const std::vector<UnknownVector>& information,
                                                     std::size_t most) {
-  const std::size_t count = information.size();
+  const std::size_t count = information.size(), parts = std::min(most, count);
   std::vector<std::size_t> result;
   const UnknownVector usual = diagnose_detail::usual_information(information);
   UnknownVector known = prior_precision().array() + 1.0;
@@ -67,10 +67,10 @@ inline std::vector<std::size_t> windows_that_decide(const std::vector<UnknownVec
     if (!information[i].allFinite()) return UnknownVector::Zero();
     return information[i].cwiseMin(usual).cwiseMax(0.0);
   };
-  for (std::size_t part = 0; part < std::min(most, count); ++part) {
-    std::size_t best = part * count / most;
+  for (std::size_t part = 0; part < parts; ++part) {
+    std::size_t best = part * count / parts;
     double most_gain = -1.0;
-    for (std::size_t i = best; i < (most < count ? (part + 1) * count / most : best + 1); ++i) {
+    for (std::size_t i = best; i < (part + 1) * count / parts; ++i) {
       const double gain = (says(i).array() / known.array()).log1p().sum();
       if (gain > most_gain) most_gain = gain, best = i;
     }
