@@ -179,7 +179,7 @@ def plan_action(
         plan_action("throw_and_catch", height=0.6).answer
     """
     if name not in ACTIONS:
-        raise ValueError(f"action: {shown(name)}; expected one of {', '.join(ACTIONS)}")
+        raise ValueError(f"name: {shown(name)}; expected one of {', '.join(ACTIONS)}")
     for what, value in (("height", height), ("sideways", sideways), ("spin_gain", spin_gain)):
         if value is not None and name not in WANTED[what]:
             raise ValueError(
