@@ -129,7 +129,8 @@ def test_every_argument_of_every_function_is_named(played: Recording) -> None:
                     missed.append((name, argument, wrong, "was taken"))
                 except (ValueError, TypeError) as error:
                     text = str(error)
-                    if argument not in text or "\n" in text or len(text) > 250:
+                    called = {argument, "action"} if argument == "name" else {argument}
+                    if not any(one in text for one in called) or "\n" in text or len(text) > 250:
                         missed.append((name, argument, wrong, text))
     assert not missed
 
