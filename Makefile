@@ -19,6 +19,8 @@ pip := $(VENV)/bin/python -m pip install --quiet --quiet# errors alone: warnings
 cmake := cmake -G Ninja
 ifneq ($(shell command -v ccache),)
 cmake += -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+ccache := --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER=ccache
+export CCACHE_SLOPPINESS ?= pch_defines,time_macros# else nothing with a precompiled header is found again
 endif
 # Optimised a little, so that tests run fast, and with assertions; other groups of targets in trees of their own.
 test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF \
@@ -29,8 +31,8 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-headers test-plant test-python test-all ur-rtde prove prove-player mujoco browser sanitize \
-  fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
+.PHONY: help demo test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco browser \
+  sanitize fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 26
@@ -45,15 +47,16 @@ $(VENV)/.created: tools/build-requirements.txt
 
 # Without build isolation, so that a second build compiles only what changed.
 install_package = $(pip) --no-build-isolation --config-settings=build-dir=$(BUILD)/python \
-  --config-settings=cmake.define.DIABOLO_WARNINGS_AS_ERRORS=$(DIABOLO_WARNINGS_AS_ERRORS)
+  --config-settings=cmake.define.DIABOLO_WARNINGS_AS_ERRORS=$(DIABOLO_WARNINGS_AS_ERRORS) $(ccache)
+compiling := (compiles for some minutes, once; another run takes seconds)
 
 $(VENV)/.package: $(VENV)/.created $(package_sources)
-	@echo "Installing the Python package into $(VENV): compiles its extension, once, in some minutes"
+	@echo "Installing the Python package into $(VENV) $(compiling)"
 	@$(install_package) '.[plot]'
 	@touch $@
 
 $(VENV)/.package-with-tests: $(VENV)/.created $(package_sources)
-	@echo "Installing the Python package and its test tools into $(VENV)"
+	@echo "Installing the Python package and its test tools into $(VENV) $(compiling)"
 	@$(install_package) '.[plot,test]'
 	@touch $(VENV)/.package $@
 
@@ -72,12 +75,13 @@ test-cpp:
 	@$(packages) build test
 	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
 	@cmake --build $(BUILD)/test -j $(JOBS) -- -k 0
-	@$(ctest) --test-dir $(BUILD)/test
+	@$(ctest) --test-dir $(BUILD)/test -LE long
 
-test-headers: # Every header compiles alone; as long as all of test-cpp.
+test-long: # Every header compiles alone, and every law keeps in every Scalar: as long to compile as test-cpp.
 	@$(packages) build test
 	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
-	@cmake --build $(BUILD)/test -j $(JOBS) --target test_headers -- -k 0
+	@cmake --build $(BUILD)/test -j $(JOBS) --target test_headers tests_long -- -k 0
+	@$(ctest) --test-dir $(BUILD)/test -L long
 
 test-core: # The predictor alone: the quick part of test-cpp.
 	@$(packages) build test
@@ -146,7 +150,7 @@ prove-player: $(VENV)/.package plant ## Play a few plans on the independent plan
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test test-headers mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
+test-all: test test-long mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
 
 browser: $(VENV)/.package-with-tests ## Look at the report and the view as a person sees them
 	@$(packages) browser
@@ -168,7 +172,8 @@ fuzz: # Each target for FUZZ_SECONDS, as many at once as there are processors.
 	@$(packages) build lint
 	@$(cmake) -S . -B $(BUILD)/fuzz -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DCMAKE_CXX_COMPILER=clang++ \
 	  -DDIABOLO_SANITIZE=address,undefined -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF \
-	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_DIAGNOSE=OFF -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
+	  -DDIABOLO_BUILD_EXAMPLES=OFF -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_DIAGNOSE=OFF \
+	  -DDIABOLO_BUILD_FUZZERS=ON >/dev/null
 	@cmake --build $(BUILD)/fuzz -j $(JOBS)
 	@BUILD=$(BUILD) tools/fuzz.sh $(FUZZ_SECONDS) $(JOBS)
 
