@@ -55,20 +55,37 @@ py::dict keywords_of(const Call& call) {
 
 bool is_masked(PyObject* value) { return std::string_view(Py_TYPE(value)->tp_name).ends_with("MaskedArray"); }
 
-/// Makes pybind11's complaint about arguments that do not fit a sentence.
-void explain(const Call& call) {
-  if (!PyErr_ExceptionMatches(PyExc_TypeError)) return;
+template <class Go>
+PyObject* checked(const Call& call, const Go& go);
+
+/// Where pybind11 complains about arguments that do not fit: another call where a recording was given by the
+/// name of its file, else a sentence in the place of the complaint.
+template <class Go>
+PyObject* explained(const Call& call, const Go& go) {
+  if (!PyErr_ExceptionMatches(PyExc_TypeError)) return nullptr;
   py::error_already_set error;
   const std::string text = py::str(error.value());
-  if (text.find("): incompatible ") == std::string::npos) return error.restore();
-  try {
-    const py::object sentence =
-        py::module_::import("diabolo.argument_errors")
-            .attr("sentence")(dispatch().names[call.record], text, positional_of(call), keywords_of(call));
-    PyErr_SetObject(PyExc_TypeError, sentence.ptr());
-  } catch (py::error_already_set&) {
+  if (text.find("): incompatible ") == std::string::npos) {
     error.restore();
+    return nullptr;
   }
+  try {
+    const py::module_ words = py::module_::import("diabolo.argument_errors");
+    const py::tuple positional = positional_of(call);
+    const py::dict keywords = keywords_of(call);
+    const py::object loaded = words.attr("with_recordings")(text, positional, keywords);
+    if (!loaded.is_none()) {
+      std::vector<PyObject*> values;
+      for (const py::handle value : py::reinterpret_borrow<py::list>(loaded)) values.push_back(value.ptr());
+      return checked({call.record, values.data(), call.positional, call.names}, go);
+    }
+    const py::object sentence =
+        words.attr("sentence")(dispatch().names[call.record], text, positional, keywords);
+    PyErr_SetObject(PyExc_TypeError, sentence.ptr());
+  } catch (py::error_already_set& other) {
+    other.restore();
+  }
+  return nullptr;
 }
 
 /// Calls `go(values)` with masked arrays as plain ones.
@@ -95,8 +112,7 @@ template <class Go>
 PyObject* checked(const Call& call, const Go& go) {
   const bool masked = std::any_of(call.values, call.values + call.size(), &is_masked);
   PyObject* const result = masked ? unmasked(call, go) : go(call.values);
-  if (!result) explain(call);
-  return result;
+  return result ? result : explained(call, go);
 }
 
 PyObject* checked_fast(PyObject* record, PyObject* const* values, Py_ssize_t positional, PyObject* names) {

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _core
-from .checks import numbers, shown
+from .checks import numbers, recording_of, shown
 
 NUMBERS = "an array of numbers"
+RECORDING = "diabolo._core.Recording"
 
 
 class Parameter(NamedTuple):
@@ -25,11 +27,32 @@ class Parameter(NamedTuple):
 
 def sentence(function: str, complaint: str, values: tuple[Any, ...], keywords: Mapping[str, Any]) -> str:
     """Function, argument, what was found and what is expected, from pybind11's list of signatures."""
-    signatures = re.findall(r"^    \d+\. (.*)$", complaint, re.MULTILINE)
+    signatures = _signatures(complaint)
     if ": incompatible constructor" in complaint:
         values = values[1:]
     problems = [_problem(_parameters(signature), values, keywords) for signature in signatures]
     return f"{function}: " + "; or ".join(dict.fromkeys(problems))
+
+
+def with_recordings(complaint: str, values: tuple[Any, ...], keywords: Mapping[str, Any]) -> list[Any] | None:
+    """All arguments in order, recordings in the place of their files' names; None without such names."""
+    for signature in _signatures(complaint):
+        parameters = _parameters(signature)
+        types = {parameter.name: parameter.type for parameter in parameters}
+        names = ["self"] if ": incompatible constructor" in complaint else []
+        names += [parameter.name for parameter in _before_star(parameters)]
+        given = [*zip(names, values, strict=False), *keywords.items()]
+        files = [types.get(name) == RECORDING and isinstance(value, str | PathLike) for name, value in given]
+        if any(files) and len(given) == len(values) + len(keywords):
+            return [
+                recording_of(name, value) if file else value
+                for (name, value), file in zip(given, files, strict=True)
+            ]
+    return None
+
+
+def _signatures(complaint: str) -> list[str]:
+    return re.findall(r"^    \d+\. (.*)$", complaint, re.MULTILINE)
 
 
 def plain_array(function: str, given: Any, dropouts: bool) -> Any:

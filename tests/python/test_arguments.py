@@ -348,6 +348,15 @@ def test_the_name_of_a_file_does_for_its_recording(
     )
     assert diabolo.model_for("consistent", file) == diabolo.model_for("consistent", loaded)
     assert diabolo.view_html(file) == diabolo.view_html(loaded)
+    np.testing.assert_array_equal(diabolo.baseline(file), diabolo.baseline(recording=loaded))
+    np.testing.assert_array_equal(
+        diabolo.start_state(row=100, recording=file).to_array(), diabolo.start_state(loaded, 100).to_array()
+    )
+    assert TipMotion.of_recording(file, "held").end == TipMotion.of_recording(loaded, "held").end
+    with pytest.raises(TypeError, match=r"^start_state: row: 'one'; expected a whole number$"):
+        diabolo.start_state(file, "one")
+    with pytest.raises(ValueError, match=r"no\.csv: there is no such file"):
+        diabolo.baseline(kind(tmp_path / "no.csv"))
     with pytest.raises(ValueError, match=r"no\.csv: there is no such file"):
         diabolo.diagnose(tmp_path / "no.csv")
     with pytest.raises(ValueError, match="hold the same 481 samples"):
