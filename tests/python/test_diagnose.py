@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -271,6 +272,13 @@ def test_a_spent_budget_is_told(played: Recording) -> None:
     assert "the budget of 1e-06 s is spent" in hurried.sentence
     assert hurried.model == Model.named("consistent")
     assert diagnose(played).to_dict()["not_done"] == []
+
+
+def test_with_little_time_few_windows_are_fitted() -> None:
+    answer = diagnose(make_recording(seconds=20.0), budget=1e-3)
+    (left,) = answer.result["not_done"]
+    assert re.fullmatch(r"fitting more than 20 of [0-9]+ windows \(no time left\)", left)
+    assert answer.sentence.endswith(f"Not done: {left}.")
 
 
 def test_rules_that_are_numerical_are_told_from_physics() -> None:

@@ -13,8 +13,12 @@
 namespace diabolo {
 
 /// What a whole diagnosis costs for each window that it fits, in predictions of it with derivatives by all
-/// unknowns (benchmarks/diagnosis/long_takes.py), and how long one may ever take [s].
-inline constexpr double kPredictionsPerWindow = 90.0, kLongestPrediction = 0.1;
+/// unknowns: what all threads share, and what one does alone. (65 to 80 in all were measured, on shipped
+/// recordings and on 20 minutes of play: benchmarks/diagnosis/long_takes.py.)
+inline constexpr double kSharedPerWindow = 90.0, kAlonePerWindow = 10.0;
+
+/// How long such a prediction may ever take [s].
+inline constexpr double kLongestPrediction = 0.1;
 
 /// Windows that are fitted however little time there is.
 inline constexpr std::size_t kFewestFitted = 20;
@@ -119,7 +123,8 @@ template <class D = diagnose_detail::FitDual>
 void thin(Fit& fit, const Model& base, int threads, TimeBudget& budget, const Watch& watch = {}) {
   const std::size_t count = window_count(fit.fit_takes);
   std::size_t candidates = count;
-  const double longest = kPredictionsPerWindow * kLongestPrediction * static_cast<double>(kMostWindows);
+  const double per_window = kSharedPerWindow + kAlonePerWindow * static_cast<double>(thread_count(threads)),
+               longest = per_window * kLongestPrediction * static_cast<double>(kMostWindows);
   if (budget.seconds() < longest && count > kFewestFitted) {
     const double each = seconds_per_prediction<D>(fit, base, budget, threads, watch),
                  left = (budget.seconds() - budget.elapsed()) / std::max(each, 1e-9);
@@ -127,7 +132,7 @@ void thin(Fit& fit, const Model& base, int threads, TimeBudget& budget, const Wa
       return static_cast<std::size_t>(
           std::clamp(wanted, static_cast<double>(least), static_cast<double>(std::max(least, most))));
     };
-    fit.most_windows = windows(left / kPredictionsPerWindow, kFewestFitted, kMostWindows);
+    fit.most_windows = windows(left / per_window, kFewestFitted, kMostWindows);
     candidates = std::min(count, windows(kChoosingShare * left, fit.most_windows, count));
   }
   if (count <= fit.most_windows) return;

@@ -22,7 +22,7 @@ struct FitWatch : Watch {
 
 /// Shares of the budget after which no fit goes on, no trial beside what was found, and no comparison of
 /// rules. What is left is for the comparison on data left out.
-inline constexpr double kFitsShare = 0.75, kTrialsShare = 0.85, kRulesShare = 0.92;
+inline constexpr double kFitsShare = 0.8, kTrialsShare = 0.87, kRulesShare = 0.93;
 
 /// Watches work of unknown length that comes in rounds, each of which tells its fraction: what is reported
 /// goes from `begin` towards `end` and slows down on the way, half of which is some twenty rounds.
