@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a diagnosis of long takes costs, with and without a budget: seconds and the most memory.
-
-.venv/bin/python -m benchmarks.speed.long_takes --plant build/plant/diabolo-plant
-"""
+"""What a diagnosis of long takes costs, with and without a budget: seconds and the most memory."""
 
 from __future__ import annotations
 
@@ -11,7 +8,7 @@ import itertools
 import json
 import multiprocessing
 import resource
-import subprocess
+import sys
 import tempfile
 import time
 import warnings
@@ -21,6 +18,9 @@ from typing import NamedTuple
 import numpy as np
 from diabolo import Recording, RecordingWarning, diagnose, load_recording
 from numpy.typing import NDArray
+
+from .. import command
+from ..proof import plant
 
 SCENARIOS = sorted((Path(__file__).parents[2] / "data" / "recordings").glob("*.scenario.json"))
 UNSEEN = 0.5
@@ -41,23 +41,21 @@ class Cost(NamedTuple):
     """Things that were not done."""
 
 
-def play(plant: str, scenario: Path, seed: int, folder: Path) -> Path:
+def play(program: Path, scenario: Path, seed: int, folder: Path) -> Path:
     """A play of the plant, the same motion for each camera's seed."""
-    settings = json.loads(scenario.read_text()) | {"seed": seed}
-    given, out = folder / f"{seed}.scenario.json", folder / f"{seed}.csv"
-    given.write_text(json.dumps(settings))
-    subprocess.run([plant, str(given), "--out", str(out)], check=True, capture_output=True)
+    out = folder / f"{seed}.csv"
+    plant.play(program, json.loads(scenario.read_text()) | {"seed": seed}, out)
     return out
 
 
-def plays(plant: str, minutes: float, folder: Path) -> list[Path]:
+def plays(program: Path, minutes: float, folder: Path) -> list[Path]:
     """As many plays as make a take of this length."""
     files: list[Path] = []
     seconds = 0.0
     for seed, scenario in zip(itertools.count(1000), itertools.cycle(SCENARIOS), strict=False):
         if seconds >= 60.0 * minutes:
             break
-        files.append(play(plant, scenario, seed, folder))
+        files.append(play(program, scenario, seed, folder))
         seconds += float(load_recording(files[-1]).time[-1]) + UNSEEN
     return files
 
@@ -103,29 +101,38 @@ def cost(files: list[Path], minutes: float, budget: float, threads: int) -> Cost
     )
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--plant", default="build/plant/diabolo-plant")
+def make_parser() -> argparse.ArgumentParser:
+    parser = command.make_parser(
+        "benchmarks.speed.long_takes",
+        __doc__,
+        "  make plant && python -m benchmarks.speed.long_takes --minutes 4 --budgets 30",
+    )
+    plant.add_option(parser)
     parser.add_argument("--minutes", nargs="+", type=float, default=[1.0, 4.0, 20.0])
     parser.add_argument("--budgets", nargs="+", type=float, default=[5.0, 30.0, 1e9])
     parser.add_argument("--threads", type=int, default=2)
-    arguments = parser.parse_args()
+    return parser
+
+
+def act(given: argparse.Namespace) -> int:
+    plant.check(given.plant)
     print("| minutes | budget | seconds | of processors | memory | windows | answer | not done |")
     print("|---|---|---|---|---|---|---|---|")
     with (
         tempfile.TemporaryDirectory() as folder,
         multiprocessing.get_context("spawn").Pool(1, maxtasksperchild=1) as pool,
     ):
-        files = plays(arguments.plant, max(arguments.minutes), Path(folder))
-        for minutes, budget in itertools.product(arguments.minutes, arguments.budgets):
-            spent = Cost(*pool.apply(cost, (files, minutes, budget, arguments.threads)))
+        files = plays(given.plant, max(given.minutes), Path(folder))
+        for minutes, budget in itertools.product(given.minutes, given.budgets):
+            spent = Cost(*pool.apply(cost, (files, minutes, budget, given.threads)))
             print(
                 f"| {minutes:g} | {'none' if budget >= 1e9 else f'{budget:g} s'} | {spent.seconds:.1f} "
                 f"| {spent.processor_seconds:.1f} | {spent.megabytes:.0f} MB | {spent.fitted} "
                 f"| {', '.join(spent.answer)} | {spent.left} |",
                 flush=True,
             )
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(command.run(make_parser(), act))

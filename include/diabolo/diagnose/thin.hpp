@@ -14,7 +14,7 @@ namespace diabolo {
 
 /// What a whole diagnosis costs for each window that it fits, in predictions of it with derivatives by all
 /// unknowns: what all threads share, and what one does alone. (65 to 80 in all were measured, on shipped
-/// recordings and on 20 minutes of play: benchmarks/diagnosis/long_takes.py.)
+/// recordings and on 20 minutes of play: python -m benchmarks.speed.long_takes.)
 inline constexpr double kSharedPerWindow = 90.0, kAlonePerWindow = 10.0;
 
 /// How long such a prediction may ever take [s].
