@@ -85,12 +85,12 @@ def palette_of(frame: Image.Image) -> Image.Image:
     sample = frame.copy()
     for place, color in enumerate(("white", INK, LEFT, RIGHT, BEFORE, AFTER)):
         sample.paste(color, (60 * place, 0, 60 * place + 60, 60))
-    return sample.quantize(48, dither=Image.Dither.NONE)
+    return sample.quantize(32, dither=Image.Dither.NONE)
 
 
 def take_figure(take: diabolo.Recording, positions: dict[str, NDArray[np.float64]], now: float) -> Figure:
     """Two scenes, seen from behind the player, over the errors so far."""
-    figure = Figure(figsize=(7.2, 4.2), dpi=100)
+    figure = Figure(figsize=(7.2, 4.2))
     grid = figure.add_gridspec(
         2, 2, height_ratios=[3.2, 1], left=0.095, right=0.985, top=0.92, bottom=0.12, hspace=0.12
     )
@@ -138,9 +138,9 @@ def draw_scene(
     axes.text(-0.28, 0.47, "black: recorded", color=INK, fontsize=9)
 
 
-def image_of(figure: Figure) -> Image.Image:
+def image_of(figure: Figure, dpi: int = 88) -> Image.Image:
     with io.BytesIO() as data:
-        figure.savefig(data, format="png")
+        figure.savefig(data, format="png", dpi=dpi)
         data.seek(0)
         return Image.open(data).convert("RGB")
 
@@ -171,7 +171,7 @@ def draw_prediction(path: Path) -> None:
             height.plot(time, shown, color=color, lw=2.2, label=label)
     height.set(title="height", xlabel="time [s]", ylabel="z [m]")
     height.legend(frameon=False)
-    figure.savefig(path, dpi=110)
+    image_of(figure, 110).quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def draw_diagnosis(path: Path) -> None:
@@ -207,7 +207,7 @@ def draw_diagnosis(path: Path) -> None:
         )
     errors.set(title="mean held-out error", xlabel="predicted ahead [s]", ylabel="[mm]", ylim=(0, 200))
     errors.legend(frameon=False)
-    figure.savefig(path, dpi=110)
+    image_of(figure, 110).quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def draw_plan(path: Path) -> None:
@@ -228,7 +228,7 @@ def draw_plan(path: Path) -> None:
     side.legend(frameon=False)
     height.set(title="height", xlabel="time [s]", ylabel="z [m]")
     height.legend(frameon=False)
-    figure.savefig(path, dpi=110)
+    image_of(figure, 110).quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def panels() -> tuple[Figure, Any]:
