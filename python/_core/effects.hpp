@@ -24,7 +24,7 @@ inline std::string class_name(std::string_view name) {
 
 template <class Effect>
 void validate_effect(const Effect& effect) {
-  validate_fields<double>(effect, std::string(Effect::kName) + " ");
+  validate_fields<double>(effect, std::string(Effect::kName).append(" "));
 }
 
 template <class Effect>
