@@ -95,9 +95,9 @@ def cost(files: list[Path], minutes: float, budget: float, threads: int) -> Cost
         time.monotonic() - begin,
         time.process_time() - processor,
         resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
-        len(answer.result["locate"]["windows"]),
-        [effect["name"] for effect in answer.effects],
-        len(answer.result["not_done"]),
+        len(answer.result.locate.windows),
+        [effect.name for effect in answer.effects],
+        len(answer.result.not_done),
     )
 
 

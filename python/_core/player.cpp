@@ -516,7 +516,7 @@ void bind_plans(py::module_& module) {
           },
           "home_left"_a, "home_right"_a, "model"_a, "others"_a = std::vector<State<double>>(),
           "The action that catches the diabolo, which flies, as it is or as in one of the other states.");
-  py::class_<FullRecedingHorizon>(module, "Horizon",
+  py::class_<FullRecedingHorizon>(module, "RecedingHorizon",
                                   R"(Motion that is planned piece by piece while it is played.
 
     seam = horizon.seam(now)         # where a plan that is begun now can set in
