@@ -240,7 +240,9 @@ def test_another_axis_up_is_refused_and_turned_on_demand(
     path = tmp_path / "hop.csv"
     y_up = [track[:, [0, 2, 1]] * [1, 1, -1] for track in (take.left, take.right, take.diabolo)]
     Recording(take.time, *y_up, take.rate, properties=take.properties, string_length=1.45).save(path)
-    with pytest.raises(RecordingError, match=r"hop\.csv: the motion says that y points up, not z .* --up=y, "):
+    with pytest.raises(
+        RecordingError, match=r"hop\.csv: the motion says that y points up, not z .* --up=y, "
+    ):
         load_recording(path)
     turned = load_recording(path, up="y")
     np.testing.assert_allclose(turned.diabolo, take.diabolo, atol=1e-15)
@@ -288,7 +290,9 @@ def test_columns_of_ones_own_are_mapped(tmp_path: Path, capsys: pytest.CaptureFi
         )
     path.write_text("\n".join(lines).replace("np.float64(", "").replace(")", "") + "\n")
     columns = {"time": "ms[ms]"} | {
-        f"{name}_{axis}": f"{name[0].upper()}{axis}[mm]" for name in ("left", "right", "diabolo") for axis in "xyz"
+        f"{name}_{axis}": f"{name[0].upper()}{axis}[mm]"
+        for name in ("left", "right", "diabolo")
+        for axis in "xyz"
     }
     own = load_recording(path, columns=columns)
     np.testing.assert_allclose(own.left, take.left, atol=1e-12)

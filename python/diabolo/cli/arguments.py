@@ -51,8 +51,8 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--up",
         metavar="AXIS",
-        help="which axis of the file points up: x, y (Motive's default), z, -x, -y or -z, with -mirrored behind "
-        "it for a left-handed frame; default: z, and a motion that clearly says otherwise is refused",
+        help="which axis of the file points up: x, y (Motive's default), z, -x, -y or -z, with -mirrored "
+        "behind it for a left-handed frame; default: z, and a motion that clearly says otherwise is refused",
     )
     parser.add_argument(
         "--columns",
