@@ -21,6 +21,15 @@ using CompiledDual = Shortened<FitDual, kLengths[Index]>;
 extern template Diagnosis diagnose<diagnose_detail::FitDual>(std::vector<Recording>, DiagnosisOptions,
                                                              const DiagnosisWatch&);
 
+extern template diagnose_detail::FitModel<diagnose_detail::CompiledDual<0>> diagnose_detail::fit_model(
+    const Model&, const Recording&, const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<0>>&);
+extern template diagnose_detail::FitModel<diagnose_detail::CompiledDual<1>> diagnose_detail::fit_model(
+    const Model&, const Recording&, const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<1>>&);
+extern template diagnose_detail::FitModel<diagnose_detail::CompiledDual<2>> diagnose_detail::fit_model(
+    const Model&, const Recording&, const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<2>>&);
+extern template diagnose_detail::FitModel<diagnose_detail::CompiledDual<3>> diagnose_detail::fit_model(
+    const Model&, const Recording&, const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<3>>&);
+
 extern template WindowSystem window_system(
     const Take&, const FitWindow&, const diagnose_detail::FitModel<diagnose_detail::CompiledDual<0>>&,
     const diagnose_detail::DualUnknowns<diagnose_detail::CompiledDual<0>>&, Delay, bool);
