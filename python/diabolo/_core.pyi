@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['ACTION_NAMES', 'Action', 'Air', 'Calibration', 'DiaboloProperties', 'ErrorSummary', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'Horizon', 'HorizonScore', 'Interval', 'LandingRestitution', 'LimitUse', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'ParameterInfo', 'Parameters', 'Plan', 'Predictor', 'Recording', 'RecordingError', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'Waypoint', 'action', 'baseline', 'check_plan', 'comparable_windows', 'diagnose', 'foresee', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'plan', 'plan_cost', 'plan_throw_and_catch', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Air', 'Calibration', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hanging', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1074,9 +1074,17 @@ class DiaboloProperties:
         """
         The paper's red diabolo, without markers.
         """
+    def __copy__(self) -> DiaboloProperties:
+        ...
+    def __deepcopy__(self, memo: dict) -> DiaboloProperties:
+        ...
+    def __getstate__(self) -> tuple[float, float, float, float]:
+        ...
     def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex, diameter: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, axle_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0065) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def axle_radius(self) -> float:
@@ -1117,6 +1125,14 @@ class Calibration:
         """
         Of the red diabolo with the sticks of July 2020; the default.
         """
+    def __copy__(self) -> Calibration:
+        ...
+    def __deepcopy__(self, memo: dict) -> Calibration:
+        ...
+    def __getstate__(self) -> tuple[tuple[list[str], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], tuple[list[str], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], tuple[list[str], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], DiaboloProperties, float]:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
     def save(self, path: os.PathLike | str | bytes) -> None:
         """
         Writes it, whole or not at all.
@@ -1175,9 +1191,16 @@ class Recording:
     orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or along the stick outwards.
     """
     @staticmethod
-    def load(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
+    def load(path: os.PathLike | str | bytes, calibration: Calibration = ..., *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
         """
         Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.
+        
+        up: which axis of the file points up, "y" for Motive's default, "-z", or "y-mirrored" where left and right are
+        exchanged, too. Without it that is z, and a file whose motion clearly says otherwise is refused.
+        
+        columns: maps a CSV of your own, {"time": "t[ms]", "left_x": "lx[mm]", ...} or "time=t[ms],left_x=lx[mm],...".
+        Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
+        it, string and diabolo are the calibration's.
         """
     def __getstate__(self) -> tuple:
         ...
@@ -1207,7 +1230,7 @@ class Recording:
         """
     def warnings(self) -> list[str]:
         """
-        What is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each.
+        What its reader changed, and what is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each.
         """
     @property
     def diabolo(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1247,6 +1270,11 @@ class Recording:
     @property
     def name(self) -> str:
         ...
+    @property
+    def notes(self) -> list[str]:
+        """
+        What its reader changed or took for granted, a clause each.
+        """
     @property
     def properties(self) -> DiaboloProperties:
         ...
@@ -1645,11 +1673,763 @@ class HorizonScore:
         """
         Starts that could be compared.
         """
+class Estimate:
+    """
+    A number that was estimated.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def ci90(self) -> Interval | None:
+        """
+        90 % interval.
+        """
+    @property
+    def name(self) -> str:
+        """
+        By its fixed name.
+        """
+    @property
+    def unit(self) -> str:
+        """
+        1 for a plain number.
+        """
+    @property
+    def value(self) -> float:
+        """
+        In its unit.
+        """
+class EffectPlace:
+    """
+    Where an effect matters.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def direction(self) -> str:
+        """
+        In which it acts.
+        """
+    @property
+    def intervals(self) -> list[Interval]:
+        """
+        When it matters [s].
+        """
+    @property
+    def modes(self) -> list[str]:
+        """
+        States of the string in which it matters.
+        """
+class EffectSize:
+    """
+    What an effect does to a free diabolo; null where it does not act so.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def acceleration_mps2(self) -> float | None:
+        """
+        As a constant one would move it as far.
+        """
+    @property
+    def position_05s_m(self) -> float | None:
+        """
+        How far it moves the diabolo in 0.5 s.
+        """
+    @property
+    def position_1s_m(self) -> float | None:
+        """
+        How far it moves the diabolo in 1 s.
+        """
+    @property
+    def spin_share_1s(self) -> float | None:
+        """
+        Which share of the spin it changes in 1 s.
+        """
+class ClaimedEffect:
+    """
+    Something that is missing, or was measured wrongly, and is claimed.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def confidence(self) -> float | None:
+        """
+        Chance that the name is right.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        physics, measurement or numerical.
+        """
+    @property
+    def material(self) -> bool:
+        """
+        Whether it is large enough to matter.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Of the candidate.
+        """
+    @property
+    def p_value(self) -> float | None:
+        """
+        Over all candidates.
+        """
+    @property
+    def parameters(self) -> list[Estimate]:
+        """
+        What it comes out as.
+        """
+    @property
+    def size(self) -> EffectSize:
+        """
+        How much it does to a free diabolo.
+        """
+    @property
+    def tied_with(self) -> list[str]:
+        """
+        Candidates that explain as much in its place.
+        """
+    @property
+    def where(self) -> EffectPlace:
+        """
+        Where it matters.
+        """
+    @property
+    def worse_without_ci95_m(self) -> list[Interval | None]:
+        """
+        By how much held-out data is predicted worse without it, 95 % interval of each horizon.
+        """
+class UnnamedPlace:
+    """
+    Where something without a name acts.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def direction(self) -> str:
+        """
+        In which it acts.
+        """
+class UnnamedStructure:
+    """
+    Something that is there and has no name.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def curve(self) -> list[typing.Annotated[list[float], "FixedSize(2)"]]:
+        """
+        Scalar, and the mean around it.
+        """
+    @property
+    def deviation(self) -> float:
+        """
+        Standard deviation of the mean.
+        """
+    @property
+    def explained(self) -> float | None:
+        """
+        Share of what is left over; null where it is in the model.
+        """
+    @property
+    def exponent(self) -> float:
+        """
+        Power of the scalar.
+        """
+    @property
+    def exponent_deviation(self) -> float:
+        """
+        Its standard deviation.
+        """
+    @property
+    def in_model(self) -> bool:
+        """
+        Whether its law is part of the model.
+        """
+    @property
+    def law(self) -> str:
+        """
+        In words.
+        """
+    @property
+    def scalar(self) -> str:
+        """
+        Scalar of the motion that it grows with.
+        """
+    @property
+    def scalar_unit(self) -> str:
+        ...
+    @property
+    def size_m(self) -> float:
+        """
+        How far it moves a free diabolo in 0.5 s.
+        """
+    @property
+    def unit(self) -> str:
+        ...
+    @property
+    def value(self) -> float:
+        """
+        Mean, in its unit.
+        """
+    @property
+    def where(self) -> UnnamedPlace:
+        """
+        Where it acts.
+        """
+    @property
+    def worse_without_ci95_m(self) -> list[Interval | None]:
+        """
+        By how much held-out data is predicted worse without it, 95 % interval of each horizon.
+        """
+    @property
+    def z(self) -> float:
+        """
+        Standard deviations from zero.
+        """
+class UpperLimit:
+    """
+    Physics that is not claimed: how much of it may still be there.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def limit95(self) -> float:
+        """
+        It is below this in size, at 95 %.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Of the candidate that is not claimed.
+        """
+    @property
+    def parameter(self) -> str:
+        ...
+    @property
+    def unit(self) -> str:
+        ...
+class HeldOutErrors:
+    """
+    Errors on data that was not fitted, horizon by horizon.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def augmented_error_m(self) -> list[float | None]:
+        """
+        The same with what was found.
+        """
+    @property
+    def base_error_m(self) -> list[float | None]:
+        """
+        Mean position error of the base.
+        """
+    @property
+    def fitted_windows(self) -> int:
+        """
+        Windows that were fitted.
+        """
+    @property
+    def heldout(self) -> str:
+        """
+        recordings, or blocks of one.
+        """
+    @property
+    def holdout_unused(self) -> list[str]:
+        """
+        Held-out recordings without a start to compare.
+        """
+    @property
+    def horizons_s(self) -> list[float]:
+        """
+        After the start.
+        """
+    @property
+    def improvement_ci95_m(self) -> list[Interval | None]:
+        """
+        95 % interval of base less augmented.
+        """
+    @property
+    def of_windows(self) -> int:
+        """
+        Of so many; the others say least.
+        """
+    @property
+    def start_error_m(self) -> list[float | None]:
+        """
+        What the noise of the starts alone makes.
+        """
+    @property
+    def windows(self) -> int:
+        """
+        Predictions that were compared.
+        """
+class ProposedMotion:
+    """
+    A motion that would tell ties apart.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def motion(self) -> str:
+        """
+        By its name.
+        """
+    @property
+    def odds(self) -> float | None:
+        """
+        Against the wrong one, to 1.
+        """
+    @property
+    def parts(self) -> list[str]:
+        """
+        Candidates that are tied, and that it tells apart.
+        """
+    @property
+    def seconds(self) -> float:
+        """
+        To record.
+        """
+    @property
+    def what(self) -> str:
+        """
+        In words.
+        """
+class LadderRow:
+    """
+    A candidate, and what speaks for it.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __init__(self, name: str, estimate: typing.SupportsFloat | typing.SupportsIndex, z: typing.SupportsFloat | typing.SupportsIndex, claimed: bool) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def claimed(self) -> bool:
+        ...
+    @property
+    def estimate(self) -> float:
+        """
+        Of the parameter.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        physics or measurement.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Of the candidate.
+        """
+    @property
+    def p_value(self) -> float:
+        """
+        Over all candidates.
+        """
+    @property
+    def parameter(self) -> str:
+        """
+        Of several, the one that stands out most.
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why it is claimed, or not.
+        """
+    @property
+    def size_m(self) -> float | None:
+        """
+        How far it moves a free diabolo in 0.5 s; null where it acts on spin.
+        """
+    @property
+    def unit(self) -> str:
+        ...
+    @property
+    def z(self) -> float:
+        """
+        Standard deviations from zero.
+        """
+class LocatedDirection:
+    """
+    A direction in which something may be missing.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def mode(self) -> str:
+        """
+        State of the string in which it is looked at.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def unit(self) -> str:
+        ...
+class LocatedWindow:
+    """
+    What is missing in a window of a recording.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def begin_s(self) -> float:
+        ...
+    @property
+    def end_s(self) -> float:
+        ...
+    @property
+    def mode(self) -> str:
+        """
+        State of the string at its begin.
+        """
+    @property
+    def recording(self) -> str:
+        """
+        By its name.
+        """
+    @property
+    def residual_after_m(self) -> float:
+        """
+        The same with what was found.
+        """
+    @property
+    def residual_before_m(self) -> float:
+        """
+        Root mean square of the base.
+        """
+    @property
+    def z(self) -> list[float | None]:
+        """
+        Of what is missing, direction by direction.
+        """
+class Location:
+    """
+    Where base and recordings part.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def directions(self) -> list[LocatedDirection]:
+        ...
+    @property
+    def windows(self) -> list[LocatedWindow]:
+        ...
+class RecordingNoise:
+    """
+    Noise of a recording.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def position_m(self) -> float:
+        """
+        Standard deviation.
+        """
+    @property
+    def recording(self) -> str:
+        """
+        By its name.
+        """
+    @property
+    def spin_rad_s(self) -> float:
+        """
+        Standard deviation.
+        """
+class Thresholds:
+    """
+    What decided the claims, so that nobody has to copy it.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __init__(self) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def measurement(self) -> float:
+        """
+        The same of a fault of measurement.
+        """
+    @property
+    def physics(self) -> float:
+        """
+        Standard deviations beyond which physics counts.
+        """
+    @property
+    def worthwhile_odds(self) -> float:
+        """
+        Below these a proposed motion parts nothing.
+        """
+class InputFile:
+    """
+    A file that was diagnosed.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __init__(self, file: str, sha256: str) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def file(self) -> str:
+        """
+        Name without folders.
+        """
+    @property
+    def sha256(self) -> str:
+        ...
+class DiagnosisResult:
+    """
+    Everything that a diagnosis says, as its file holds it.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def from_json(text: str) -> DiagnosisResult:
+        """
+        Reads the text of such a file; what it lacks is as in an empty result.
+        """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> DiagnosisResult:
+        """
+        Reads such a file.
+        """
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def completed(self, seconds: typing.SupportsFloat | typing.SupportsIndex | None = None, inputs: collections.abc.Sequence[InputFile] = [], model: str | None = None) -> DiagnosisResult:
+        """
+        The same with what only its caller knows; the rest as it is.
+        """
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    def to_json(self) -> str:
+        """
+        The text of its file, schema diabolo.diagnosis/1.
+        """
+    @property
+    def base(self) -> str:
+        """
+        Name of the simulator that was asked about.
+        """
+    @property
+    def effects(self) -> list[ClaimedEffect]:
+        """
+        What is claimed, the surest first.
+        """
+    @property
+    def fit(self) -> HeldOutErrors:
+        """
+        Errors on data that was not fitted.
+        """
+    @property
+    def headline(self) -> str:
+        """
+        The first that holds of INSUFFICIENT_DATA, TIE, NAMED, MEASUREMENT_FAULT, NUMERICAL, UNNAMED_STRUCTURE and NOTHING_MISSING.
+        """
+    @property
+    def inputs(self) -> list[InputFile]:
+        """
+        Files that were diagnosed, where its caller said so.
+        """
+    @property
+    def ladder(self) -> list[LadderRow]:
+        """
+        Every candidate, and why it was claimed or not.
+        """
+    @property
+    def locate(self) -> Location:
+        """
+        Where base and recording part, window by window.
+        """
+    @property
+    def model(self) -> str | None:
+        """
+        Name of the model's file; null where none was written.
+        """
+    @property
+    def next_experiment(self) -> list[ProposedMotion]:
+        """
+        Motions that would part ties.
+        """
+    @property
+    def noise(self) -> list[RecordingNoise]:
+        """
+        Of each recording.
+        """
+    @property
+    def not_done(self) -> list[str]:
+        """
+        What budget or base kept from being asked.
+        """
+    @property
+    def nuisances(self) -> list[Estimate]:
+        """
+        What was measured on the way.
+        """
+    @property
+    def schema(self) -> str:
+        """
+        diabolo.diagnosis/1.
+        """
+    @property
+    def seconds(self) -> float | None:
+        """
+        That it took; null where its caller did not say.
+        """
+    @property
+    def sentence(self) -> str:
+        """
+        The answer in words.
+        """
+    @property
+    def thresholds(self) -> Thresholds:
+        """
+        What decided the claims.
+        """
+    @property
+    def unnamed(self) -> list[UnnamedStructure]:
+        """
+        What is there and has no name.
+        """
+    @property
+    def upper_limits(self) -> list[UpperLimit]:
+        """
+        What may be there unseen.
+        """
+    @property
+    def version(self) -> str:
+        """
+        Of the tool.
+        """
 class Waypoint:
     """
     A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
     """
+    def __copy__(self) -> Waypoint:
+        ...
+    def __deepcopy__(self, memo: dict) -> Waypoint:
+        ...
+    def __getstate__(self) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], float, float, float]:
+        ...
     def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0, velocity_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, direction_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def direction_weight(self) -> float:
@@ -1689,7 +2469,15 @@ class Goals:
     apex [m], above the tips, and landing [m] are those of the flight that the motion ends in; caught is the weight
     of missing a diabolo that flies.
     """
+    def __copy__(self) -> Goals:
+        ...
+    def __deepcopy__(self, memo: dict) -> Goals:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
     def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, spin_weight: typing.SupportsFloat | typing.SupportsIndex = 0.02, taut: typing.SupportsFloat | typing.SupportsIndex | None = None, apex: typing.SupportsFloat | typing.SupportsIndex | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def apex(self) -> float | None:
@@ -1742,7 +2530,15 @@ class LimitUse:
     """
     How much of a limit a path uses: value, limit, and the excess, at most zero where it is kept, as a share or in metres.
     """
+    def __copy__(self) -> LimitUse:
+        ...
+    def __deepcopy__(self, memo: dict) -> LimitUse:
+        ...
+    def __getstate__(self) -> tuple[str, float, float, str, float, float]:
+        ...
     def __init__(self, name: str, value: typing.SupportsFloat | typing.SupportsIndex, limit: typing.SupportsFloat | typing.SupportsIndex, unit: str, time: typing.SupportsFloat | typing.SupportsIndex, excess: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def excess(self) -> float:
@@ -1771,7 +2567,15 @@ class TipLimits:
     highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
     robot's.
     """
+    def __copy__(self) -> TipLimits:
+        ...
+    def __deepcopy__(self, memo: dict) -> TipLimits:
+        ...
+    def __getstate__(self) -> tuple[float, float, float, float, float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Any]:
+        ...
     def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: typing.Any = None) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def acceleration(self) -> float:
@@ -1798,7 +2602,15 @@ class Freedom:
     """
     What a solver may change of a seed: x too, durations, the last point; up to a reach [m] of each coordinate and a stretch of each duration, as a share.
     """
+    def __copy__(self) -> Freedom:
+        ...
+    def __deepcopy__(self, memo: dict) -> Freedom:
+        ...
+    def __getstate__(self) -> tuple[bool, bool, bool, float, float]:
+        ...
     def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: typing.SupportsFloat | typing.SupportsIndex = 0.4, stretch: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def forward(self) -> bool:
@@ -1823,7 +2635,15 @@ class StickSpline:
     acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right; sticks: their
     directions, unit vectors, likewise, zero where not known; StickFlex alone looks at them.
     """
+    def __copy__(self) -> StickSpline:
+        ...
+    def __deepcopy__(self, memo: dict) -> StickSpline:
+        ...
+    def __getstate__(self) -> tuple[float, list[float], list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]], int, tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]] | None, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]]:
+        ...
     def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def path(self) -> TipPath:
         """
@@ -1943,7 +2763,7 @@ class Seam:
     @property
     def time(self) -> float:
         ...
-class Horizon:
+class RecedingHorizon:
     """
     Motion that is planned piece by piece while it is played.
     
@@ -1966,6 +2786,80 @@ class Horizon:
     @property
     def path(self) -> TipPath:
         ...
+class PlannedPlay:
+    """
+    A planned motion, and what it leads to by the model that it was planned with.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def action(self) -> str:
+        ...
+    @property
+    def answer(self) -> str:
+        """
+        The same in a sentence: that of the first plan that misses a goal, or why there are no more.
+        """
+    @property
+    def ended(self) -> str:
+        """
+        Why there are fewer cycles than were asked for; empty where there are not.
+        """
+    @property
+    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Left tip [m], shape (N, 3).
+        """
+    @property
+    def path(self) -> TipPath:
+        """
+        Of the tips.
+        """
+    @property
+    def planning_time(self) -> float:
+        """
+        Of all plans together [s].
+        """
+    @property
+    def plans(self) -> list[Plan]:
+        """
+        One a cycle; of a throw and catch, two, or one where there is nothing to catch.
+        """
+    @property
+    def reached(self) -> bool:
+        """
+        Whether every goal of every cycle is reached.
+        """
+    @property
+    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Right tip [m], shape (N, 3).
+        """
+    @property
+    def start(self) -> State:
+        """
+        State of the diabolo.
+        """
+    @property
+    def states(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Position [m], velocity [m/s] and spin [rad/s], shape (N, 7).
+        """
+    @property
+    def string_states(self) -> typing.Annotated[numpy.typing.NDArray[numpy.uint8], "[m, 1]"]:
+        """
+        As in StringState, shape (N,).
+        """
+    @property
+    def time(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [s], shape (N,).
+        """
+    @property
+    def wanted(self) -> list[Goals]:
+        """
+        The goals of the first cycle.
+        """
 class StickArm:
     """
     A UR5e where it stands, with the stick in its flange, as in the paper.
@@ -1974,9 +2868,17 @@ class StickArm:
     world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for each of the six links, shape
     (6, 6), as the ROS driver extracts it; None is the arm of the data sheet. Joints are [rad], base to last wrist.
     """
+    def __copy__(self) -> StickArm:
+        ...
+    def __deepcopy__(self, memo: dict) -> StickArm:
+        ...
+    def __getstate__(self) -> tuple[bool, float, float, float, list[float]]:
+        ...
     def __init__(self, side: str, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, spacing: typing.SupportsFloat | typing.SupportsIndex = 1.1, forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, calibration: typing.Any = None) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def flange(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -2021,6 +2923,14 @@ class SeedGrid:
         """
         What save() wrote.
         """
+    def __copy__(self) -> SeedGrid:
+        ...
+    def __deepcopy__(self, memo: dict) -> SeedGrid:
+        ...
+    def __getstate__(self) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[list[int], "FixedSize(3)"], list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]], int]:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
     def save(self, path: os.PathLike | str | bytes) -> None:
         """
         Write a CSV of x, y, z [m] and q1 to q6 [rad], a line for each key point.
@@ -2053,7 +2963,15 @@ class StickMap:
     """
     The joints of an arm as a function of its stick's tip, without drift.
     """
+    def __copy__(self) -> StickMap:
+        ...
+    def __deepcopy__(self, memo: dict) -> StickMap:
+        ...
+    def __getstate__(self) -> tuple[StickArm, SeedGrid]:
+        ...
     def __init__(self, arm: StickArm, grid: SeedGrid) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def slopes(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -2078,7 +2996,15 @@ class RobotLimits:
     """
     def __call__(self, path: TipPath) -> list[LimitUse]:
         ...
+    def __copy__(self) -> RobotLimits:
+        ...
+    def __deepcopy__(self, memo: dict) -> RobotLimits:
+        ...
+    def __getstate__(self) -> tuple[StickMap, StickMap, typing.Annotated[list[float], "FixedSize(6)"], typing.Annotated[list[float], "FixedSize(6)"], typing.Annotated[list[float], "FixedSize(6)"], float, float]:
+        ...
     def __init__(self, left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1, share: typing.SupportsFloat | typing.SupportsIndex = 0.97) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """
@@ -2088,25 +3014,33 @@ def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """
     The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
     """
+def best_guess(model: Model, ladder: collections.abc.Sequence[LadderRow]) -> Model:
+    """
+    See diabolo.best_guess.
+    """
 def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> dict:
     """
     Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.
-    """
-def comparable_windows(recording: Recording, base: Model) -> int:
-    """
-    Starts from which a recording that is held out can be compared; see diabolo.diagnose.
     """
 def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
     """
     See diabolo.diagnose.
     """
+def diagnosis_schema() -> str:
+    """
+    The JSON schema of a diagnosis' file.
+    """
 def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0, down_to: typing.SupportsFloat | typing.SupportsIndex = ...) -> tuple:
     """
     What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`.
     """
+def hanging(model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> State:
+    """
+    See diabolo.hanging.
+    """
 def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: typing.SupportsFloat | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> State:
     """
-    A diabolo that hangs at rest below the tips.
+    A diabolo that hangs at rest at the lowest point between the tips.
     """
 def home_pose(name: str, string_length: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
     """
@@ -2124,7 +3058,7 @@ def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsF
     """
     How much a path uses of each limit, from its exact maxima.
     """
-def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ...) -> Recording:
+def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ..., *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
     """
     The same as Recording.load.
     """
@@ -2132,17 +3066,25 @@ def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
     """
     The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's.
     """
+def model_for(model: Model, recording: Recording) -> Model:
+    """
+    See diabolo.model_for.
+    """
 def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
     """
     See diabolo.plan.
+    """
+def plan_action(action: str, models: collections.abc.Sequence[Model], start: State | None, cycles: typing.SupportsInt | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex, pace: typing.SupportsFloat | typing.SupportsIndex, height: typing.SupportsFloat | typing.SupportsIndex | None, sideways: typing.SupportsFloat | typing.SupportsIndex | None, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None, limits: TipLimits, solver: str, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]) -> PlannedPlay:
+    """
+    See diabolo.plan_action.
     """
 def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: StickSpline, goals: Goals, limits: TipLimits, dt: typing.SupportsFloat | typing.SupportsIndex = 0.004) -> float:
     """
     The paper's residual of a motion; infinite where it breaks a limit.
     """
-def plan_throw_and_catch(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
+def played_recording(name: str, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], states: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, properties: DiaboloProperties, string_length: typing.SupportsFloat | typing.SupportsIndex) -> Recording:
     """
-    Plans of a throw and of the catch that follows, None where there is nothing to catch; the path of both, and whether both are reached.
+    A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin.
     """
 def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
     """
@@ -2180,9 +3122,19 @@ def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsI
     """
     State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program.
     """
+def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> float:
+    """
+    See diabolo.success_rate.
+    """
+def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list[Recording], list[str]]:
+    """
+    Recordings without the samples that they share with ones before, and what was trimmed.
+    """
 def ur5e_inverse(flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
     """
     Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4).
     """
-ACTION_NAMES: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'stop')
+AIMS: dict = {'height': ('hop', 'throw', 'side_throw', 'throw_and_catch'), 'sideways': ('swing', 'side_throw', 'throw_and_catch'), 'spin_gain': ('linear_acceleration', 'circular_acceleration')}
+DIAGNOSIS_SCHEMA: str = 'diabolo.diagnosis/1'
+PLANNED_ACTIONS: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'stop', 'throw_and_catch')
 __version__: str = '0.1.0'

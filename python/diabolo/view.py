@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Model, Recording, Waypoint
-from .checks import AnyRecording, RecordingWarning, list_of, recording_of, warn_of
+from .checks import AnyRecording, RecordingWarning, list_of, recording_of, shown, warn_of
 from .evaluation import predict
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
@@ -39,6 +39,8 @@ def view_html(
     goals = list_of("goals", goals, (Waypoint,))
     step = max(1, -(-len(recording) // MOST_FRAMES))
     rows = slice(None, None, step)
+    if predictions is not None and not isinstance(predictions, Mapping):
+        raise ValueError(f"predictions: {shown(predictions)}; expected positions by name")
     for name, positions in (predictions or {}).items():
         if np.shape(positions) != (len(recording), 3):
             raise ValueError(

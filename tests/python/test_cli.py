@@ -242,7 +242,7 @@ def test_info_reads_takes_that_the_calibration_does_not_fit(command: Command, mo
 
 def test_a_warning_that_cannot_be_printed_loses_nothing(tidy: Path) -> None:
     played = Recording.load(tidy)
-    odd = Recording(played.time, played.left, played.right, 3.0 * played.diabolo, played.rate)
+    odd = Recording(played.time, played.left, played.right, played.diabolo, played.rate, string_length=3.0)
     odd.save(tidy.with_name("odd.csv"))
     command = f"{sys.executable} -m diabolo evaluate odd.csv --model paper --json odd.out 2> /dev/full"
     done = subprocess.run(

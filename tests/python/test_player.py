@@ -487,7 +487,9 @@ def test_view_shows_recording_and_prediction(command: Command, tmp_path: Path) -
     done = command("view", str(tmp_path / "swing.csv"), "--model", "consistent", "--out", str(page))
     assert done.returncode == 0, done.stderr
     data = json.loads(re.search(r"const data = (\{.*\});\n", page.read_text())[1])  # type: ignore[index]
-    assert len(data["time"]) == len(data["prediction"]) == 601
+    (ghost,) = data["predictions"]
+    assert ghost["name"] == "consistent"
+    assert len(data["time"]) == len(ghost["positions"]) == 601
     assert data["string_length"] == LENGTH
     assert command("view", str(tmp_path / "none.csv"), "--out", str(page)).returncode == 2
 

@@ -22,7 +22,6 @@ from diabolo import (
     rollout,
 )
 from diabolo.cli import main
-from diabolo.cli.demo import packaged_recordings
 
 
 def with_dropouts(played: Recording) -> Recording:
@@ -230,7 +229,7 @@ def test_the_real_recordings_are_read(real_recordings: Path) -> None:
 
 
 def shipped(name: str) -> Path:
-    return next(path for path in packaged_recordings() if path.stem == name)
+    return Path(__file__).parents[2] / "data" / "recordings" / f"{name}.csv"
 
 
 def test_another_axis_up_is_refused_and_turned_on_demand(
