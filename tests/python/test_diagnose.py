@@ -207,11 +207,13 @@ def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
         ([played, copy], []),
         ([played], [copy]),
         ([played, copy.cut(100, 200)], []),
-        ([played.cut(0, 240)], [copy.cut(100, 400)]),  # too much to be trimmed
+        ([played.cut(0, 240)], [copy.cut(150, 400)]),
     ):
         with pytest.raises(ValueError, match=r"'played' and 'copy' hold the same [0-9]+ samples"):
             diagnose(takes, holdout=held)
     assert diagnose([played.cut(0, 40), copy.cut(40, 80)]).headline == "INSUFFICIENT_DATA"
+    with pytest.warns(diabolo.RecordingWarning, match="'copy' overlaps 'played' by 11 samples"):
+        diagnose([played.cut(0, 40), copy.cut(30, 80)])
 
 
 @pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")

@@ -258,16 +258,16 @@ def test_another_axis_up_is_refused_and_turned_on_demand(
 
 
 def test_clocks_jitter_jumps_and_a_cut_line_are_put_right_and_told(tmp_path: Path) -> None:
-    names, *rows = shipped("throw").read_text().splitlines()
+    names, *rows = shipped("swing").read_text().splitlines()
     random = np.random.default_rng(2)
     cells = [row.split(",") for row in rows]
     for row in cells:
         row[0] = f"{1.7e9 + float(row[0]) + random.normal(0.0, 0.4e-3):.6f}"
     cells[500][9] = f"{float(cells[500][9]) + 0.5:.6f}"  # of the diabolo, up
     text = "\n".join([names, *(",".join(row) for row in cells)])
-    (tmp_path / "throw.csv").write_text(text[:-3])
-    (tmp_path / "throw.json").write_text(shipped("throw").with_suffix(".json").read_text())
-    take, whole = load_recording(tmp_path / "throw.csv"), load_recording(shipped("throw"))
+    (tmp_path / "swing.csv").write_text(text[:-3])
+    (tmp_path / "swing.json").write_text(shipped("swing").with_suffix(".json").read_text())
+    take, whole = load_recording(tmp_path / "swing.csv"), load_recording(shipped("swing"))
     assert len(take) == len(whole) - 1
     np.testing.assert_allclose(np.diff(take.time), 1.0 / 120.0, atol=1e-6)
     assert not take.diabolo_valid[500] and whole.diabolo_valid[500]

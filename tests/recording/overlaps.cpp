@@ -25,6 +25,9 @@ TEST_CASE("Excerpts that share a few samples are trimmed") {
 
 TEST_CASE("Takes at the same times, and ones that are given twice, are left alone") {
   const Recording r = test::shipped("swing");
+  std::vector<Recording> beside{cut(r, 0, 40), cut(r, 40, 80)};  // that share their border
+  CHECK(trim_overlaps(beside).empty());
+  CHECK(beside[1].size() == 41);
   std::vector<Recording> others{r, test::shipped("throw"), r, cut(r, 100, 400)};
   CHECK(trim_overlaps(others).empty());
   CHECK(others[2].size() == r.size());

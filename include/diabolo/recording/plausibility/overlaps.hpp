@@ -18,8 +18,8 @@ namespace diabolo {
 inline constexpr double kLongestOverlap = 0.5;
 
 /// Cuts the samples off a recording that one before it in the list holds, too, where they are its first or
-/// its last and make up at most kLongestOverlap. Samples are the same where time and positions are. Returns
-/// what was trimmed, a sentence each.
+/// its last and make up at most kLongestOverlap. A single one may be the border of two. Samples are the same
+/// where time and positions are. Returns what was trimmed, a sentence each.
 inline std::vector<std::string> trim_overlaps(std::vector<Recording>& recordings) {
   const auto same = [](const Recording& a, Eigen::Index i, const Recording& b, Eigen::Index j) {
     const auto alike = [i, j](const Track& x, const Track& y) {
@@ -47,7 +47,7 @@ inline std::vector<std::string> trim_overlaps(std::vector<Recording>& recordings
            j >= 0 && j < rows && last >= first && same(given, j, later, last); --j)
         --last;
       const Eigen::Index shared = first + size - 1 - last;
-      if (shared == 0 || first > last || static_cast<double>(shared) > kLongestOverlap * later.rate) continue;
+      if (shared < 2 || first > last || static_cast<double>(shared) > kLongestOverlap * later.rate) continue;
       notes.push_back("'" + later.name + "' overlaps '" + given.name + "' by " + std::to_string(shared) +
                       " samples, which are left out of it");
       later = cut(later, first, last);
