@@ -3,7 +3,6 @@
 
 #include "diabolo/evaluate/baseline.hpp"
 #include "diabolo/string/hanging.hpp"
-#include "effect_scene.hpp"
 #include "effects/scene.hpp"
 
 using namespace effect_scene;
