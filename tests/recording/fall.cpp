@@ -47,6 +47,12 @@ TEST_CASE("The axis that points up shows in any play, also where the hands are s
     }
 }
 
+TEST_CASE("Lengths that are wrong are no frame that is") {
+  Recording r = test::shipped("hold");
+  r.diabolo.position *= 3.0;  // above the tips
+  CHECK(!other_axis_up(r, falls(r)));
+}
+
 TEST_CASE("Axes may be those of a file that is turned about z") {
   const Recording r = in_frame(test::shipped("hop"), {2, false});
   Eigen::Matrix3d quarter;  // y of the recording is x of the file, x its -y
