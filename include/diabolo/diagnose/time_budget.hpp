@@ -26,7 +26,8 @@ inline constexpr double kFitsShare = 0.8, kTrialsShare = 0.87, kRulesShare = 0.9
 
 /// Watches work of unknown length that comes in rounds, each of which tells its fraction: what is reported
 /// goes from `begin` towards `end` and slows down on the way, half of which is some twenty rounds.
-inline std::function<void(double)> towards(double begin, double end, std::function<void(double)> report) {
+inline std::function<void(double)> towards(double begin, double end,
+                                           const std::function<void(double)>& report) {
   constexpr double kRounds = 30.0;
   return [=, rounds = 0.0, before = 0.0](double fraction) mutable {
     if (fraction < before) rounds += 1.0;

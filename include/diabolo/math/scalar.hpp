@@ -49,6 +49,12 @@ constexpr Float value_of(Float x) {
   return x;
 }
 
+/// The number behind a Scalar with one lane, as a double.
+template <class Scalar>
+double plain(const Scalar& x) {
+  return static_cast<double>(value_of(x));
+}
+
 /// `a` where `condition` holds, else `b`; evaluates both.
 template <std::floating_point Float>
 constexpr Float select(bool condition, Float a, Float b) {

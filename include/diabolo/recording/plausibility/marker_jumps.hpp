@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -74,7 +75,7 @@ class JumpFinder {
 
   /// Marks a jump right after sample i; returns the sample from which the motion is known again, i for none.
   Index mark_jump(Index i) {
-    const Index longest = std::clamp<Index>(static_cast<Index>(kLongestJump * recording_.rate + 0.5), 1, 100);
+    const Index longest = std::clamp<Index>(std::lround(kLongestJump * recording_.rate), 1, 100);
     const Eigen::Vector3d step = at(i) - at(i - 1);
     for (Index k = 1; k <= longest; ++k) {
       if (!follows(i + k)) {

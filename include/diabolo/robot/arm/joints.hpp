@@ -18,12 +18,6 @@ using Joints = Eigen::Matrix<Scalar, 6, 1>;
 inline constexpr int kJointCount = 6;
 inline constexpr double kPi = std::numbers::pi;
 
-/// The number behind a Scalar, as a double.
-template <class Scalar>
-double plain(const Scalar& x) {
-  return static_cast<double>(value_of(x));
-}
-
 /// Whether every angle is finite.
 template <class Scalar>
 bool all_finite(const Joints<Scalar>& joints) {
