@@ -13,6 +13,9 @@ has_header() {
   printf '#include <%s>\n' "$1" |
     c++ -std=c++20 -E -x c++ -isystem /usr/include/eigen3 -isystem /usr/local/include/eigen3 - >/dev/null 2>&1
 }
+has_library() { # headers alone may come with another package
+  printf 'int main() {}' | c++ -x c++ - -l"$1" -o /dev/null 2>/dev/null
+}
 has_cmake() {
   local version
   version=$(cmake --version 2>/dev/null | sed -n '1s/.*version //p') && printf '3.25\n%s\n' "$version" | sort -V -C
@@ -45,9 +48,9 @@ missing_packages() {
     plant) has_header CLI/CLI.hpp || echo libcli11-dev ;;
     ur-rtde)
       has_header CLI/CLI.hpp || echo libcli11-dev
-      has_header boost/system/error_code.hpp || echo libboost-system-dev
-      has_header boost/program_options.hpp || echo libboost-program-options-dev
-      has_header boost/thread/thread.hpp || echo libboost-thread-dev
+      has_library boost_system || echo libboost-system-dev
+      has_library boost_program_options || echo libboost-program-options-dev
+      has_library boost_thread || echo libboost-thread-dev
       ;;
     bench)
       has_header benchmark/benchmark.h || echo libbenchmark-dev
