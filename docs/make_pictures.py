@@ -27,7 +27,7 @@ from PIL import Image
 
 IMAGES = Path(__file__).with_name("images")
 SHOWN = "2020-07-11_basic_physics/right_hand_extend_1.csv"  # in the moving picture; no fit sees it
-BEGIN, SECONDS, BETWEEN_FRAMES = 1.0, 6.0, 0.07  # real time: GIF counts in hundredths of a second
+BEGIN, SECONDS, BETWEEN_FRAMES = 1.0, 4.0, 0.1  # real time: GIF counts in hundredths of a second
 ANEW = 1.0  # between the starts of its predictions [s]
 TRAIL = 0.6  # [s]
 INK, SOFT, LEFT, RIGHT = "#111827", "#9ca3af", "#c2410c", "#1d4ed8"
@@ -85,7 +85,7 @@ def palette_of(frame: Image.Image) -> Image.Image:
     sample = frame.copy()
     for place, color in enumerate(("white", INK, LEFT, RIGHT, BEFORE, AFTER)):
         sample.paste(color, (60 * place, 0, 60 * place + 60, 60))
-    return sample.quantize(32, dither=Image.Dither.NONE)
+    return sample.quantize(16, dither=Image.Dither.NONE)
 
 
 def take_figure(take: diabolo.Recording, positions: dict[str, NDArray[np.float64]], now: float) -> Figure:
@@ -138,7 +138,7 @@ def draw_scene(
     axes.text(-0.28, 0.47, "black: recorded", color=INK, fontsize=9)
 
 
-def image_of(figure: Figure, dpi: int = 88) -> Image.Image:
+def image_of(figure: Figure, dpi: int = 80) -> Image.Image:
     with io.BytesIO() as data:
         figure.savefig(data, format="png", dpi=dpi)
         data.seek(0)
