@@ -14,6 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST_HEADER = 300  # lines
+LARGEST_TREE = 6_000_000  # bytes of all files together
 
 # The bands of include/diabolo, from the lowest. A room is a folder, or some headers of the top level, which
 # hold the words that a user types. A header includes lower bands, its own room, or a room beside it that does
@@ -184,6 +185,9 @@ def main() -> int:
         if name.endswith((".hpp", ".cpp")):
             faults += check_cpp_file(name, lines)
         faults += check_words(name, lines)
+    size = sum((ROOT / name).stat().st_size for name in names)
+    if size > LARGEST_TREE:
+        faults.append(f"tree:1: {size} bytes; expected at most {LARGEST_TREE}")
     summary = f"{len(names)} files: bands, licence lines, lengths and words are in order"
     print("\n".join(faults) or summary)
     return 1 if faults else 0
