@@ -122,7 +122,7 @@ def test_library_and_mujoco_come_to_the_reference(benchmark):
 
 def test_benchmark_says_what_it_lacks():
     done = subprocess.run(
-        [sys.executable, str(BENCHMARK), "--compiler", "no-such-compiler"], capture_output=True, text=True
+        [sys.executable, "-m", BENCHMARK, "--compiler", "no-such-compiler"], capture_output=True, text=True
     )
     assert done.returncode == 2
     assert "no-such-compiler" in done.stderr

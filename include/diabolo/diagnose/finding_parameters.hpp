@@ -28,6 +28,29 @@ inline std::pair<double, double> length_of(double a, double b, double da, double
   return {length, length > 0.0 ? std::hypot(a * da, b * db) / length : std::hypot(da, db)};
 }
 
+/// What has one parameter, its own unknown, under a fixed name.
+struct NamedUnknown {
+  Unknown unknown;
+  const char *name, *unit;
+};
+inline constexpr std::array<NamedUnknown, 15> kNamedUnknowns{{
+    {Unknown::kFriction, "coefficient", "1"},
+    {Unknown::kWraps, "turns", "1"},
+    {Unknown::kRestitution, "coefficient", "1"},
+    {Unknown::kLinearDrag, "rate", "1/s"},
+    {Unknown::kQuadraticDrag, "coefficient", "1/m"},
+    {Unknown::kSpinCoupling, "coefficient", "1/s"},
+    {Unknown::kGyroscopicGain, "gain", "1/m"},
+    {Unknown::kPlacebo, "rate", "1/s"},
+    {Unknown::kStringTangent, "acceleration", "m/s^2"},
+    {Unknown::kLift, "coefficient", "1/rad"},
+    {Unknown::kStringMass, "linear_density", "kg/m"},
+    {Unknown::kSpinAir, "coefficient", "1/rad"},
+    {Unknown::kSpinAxle, "rate", "rad/s^2"},
+    {Unknown::kLag, "seconds", "s"},
+    {Unknown::kTimeOffset, "seconds", "s"},
+}};
+
 /// The parameters of a finding by their fixed names.
 inline std::vector<Estimate> parameters_of(const Finding& f, double given_length, double given_gravity) {
   const auto value = [&](Unknown u) { return f.estimate[index_of(u)]; };
@@ -50,45 +73,22 @@ inline std::vector<Estimate> parameters_of(const Finding& f, double given_length
     const double frames = static_cast<double>(f.swapped);
     return {Estimate{"frames", frames, "1", Interval{frames, frames}}};
   }
-  switch (first_of(*f.candidate)) {
+  const Unknown first = first_of(*f.candidate);
+  for (const auto& [unknown, name, unit] : kNamedUnknowns)
+    if (unknown == first) return {plain(name, unknown, unit)};
+  switch (first) {
     case kCompliance:
       return {stiffness(kCompliance), damping(kDamping)};
     case kStickCompliance:
       return {stiffness(kStickCompliance), damping(kStickDamping)};
-    case kFriction:
-      return {plain("coefficient", kFriction, "1")};
-    case kWraps:
-      return {plain("turns", kWraps, "1")};
-    case kRestitution:
-      return {plain("coefficient", kRestitution, "1")};
-    case kLinearDrag:
-      return {plain("rate", kLinearDrag, "1/s")};
-    case kQuadraticDrag:
-      return {plain("coefficient", kQuadraticDrag, "1/m")};
     case kWindX:
       return {plain("x", kWindX, "m/s"), plain("y", kWindY, "m/s")};
-    case kSpinCoupling:
-      return {plain("coefficient", kSpinCoupling, "1/s")};
     case kGravity: {
       if (f.candidate->kind == CandidateKind::kPhysics) return {plain("g", kGravity, "m/s^2", given_gravity)};
       // In the file's seconds gravity is as much stronger as the square of what the rate is too high by.
       const double factor = std::sqrt(std::max(1e-6, 1.0 + value(kGravity) / given_gravity));
       return {with_deviation("factor", factor, deviation(kGravity) / (2.0 * factor * given_gravity), "1")};
     }
-    case kGyroscopicGain:
-      return {plain("gain", kGyroscopicGain, "1/m")};
-    case kPlacebo:
-      return {plain("rate", kPlacebo, "1/s")};
-    case kStringTangent:
-      return {plain("acceleration", kStringTangent, "m/s^2")};
-    case kLift:
-      return {plain("coefficient", kLift, "1/rad")};
-    case kStringMass:
-      return {plain("linear_density", kStringMass, "kg/m")};
-    case kSpinAir:
-      return {plain("coefficient", kSpinAir, "1/rad")};
-    case kSpinAxle:
-      return {plain("rate", kSpinAxle, "rad/s^2")};
     case kTiltX: {
       const auto [angle, spread] =
           length_of(value(kTiltX), value(kTiltY), deviation(kTiltX), deviation(kTiltY));
@@ -99,10 +99,6 @@ inline std::vector<Estimate> parameters_of(const Finding& f, double given_length
     }
     case kLengthScale:
       return {plain("factor", kLengthScale, "1", 1.0)};
-    case kLag:
-      return {plain("seconds", kLag, "s")};
-    case kTimeOffset:
-      return {plain("seconds", kTimeOffset, "s")};
     case kMarkerX: {
       const auto [radius, spread] =
           length_of(value(kMarkerY), value(kMarkerZ), deviation(kMarkerY), deviation(kMarkerZ));
@@ -110,6 +106,7 @@ inline std::vector<Estimate> parameters_of(const Finding& f, double given_length
     }
     case kLeftX: {
       std::vector<Estimate> list;
+      list.reserve(6);
       const std::array<const char*, 6> names{"left_x", "left_y", "left_z", "right_x", "right_y", "right_z"};
       for (int i = 0; i < 6; ++i)
         list.push_back(

@@ -105,6 +105,7 @@ inline std::optional<int> other_axis_up(const Recording& r, const std::vector<Fa
   if (falls.empty() || rows < kFewestSecondsOfNoPlay * r.rate) return {};
   // A frame keeps lengths: where the path is none of the string, something else is wrong.
   std::vector<double> paths;
+  paths.reserve(falls.size());
   for (const Fall& fall : falls) paths.push_back(path_at(r, fall.row).length());
   if (const double path = recording_plausibility_detail::median_of(paths);
       path > r.string_length + kOddPathLength || path < 0.5 * r.string_length)
