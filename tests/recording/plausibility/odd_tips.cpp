@@ -3,8 +3,8 @@
 
 #include "catch.hpp"
 #include "diabolo/recording/plausibility/warnings.hpp"
-#include "played.hpp"
-#include "shipped.hpp"
+#include "recording/played.hpp"
+#include "recording/shipped.hpp"
 
 using namespace diabolo;
 

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "catch.hpp"
-#include "shipped.hpp"
-#include "support.hpp"
+#include "recording/shipped.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 

@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "diabolo/json/recording_file.hpp"
-#include "support.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 using test::complaint;

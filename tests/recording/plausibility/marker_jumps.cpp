@@ -4,9 +4,9 @@
 #include <random>
 
 #include "catch.hpp"
-#include "played.hpp"
-#include "shipped.hpp"
-#include "support.hpp"
+#include "recording/played.hpp"
+#include "recording/shipped.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 

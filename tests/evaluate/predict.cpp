@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "diabolo/recording/played_recording.hpp"
 #include "diabolo/recording/spin.hpp"
-#include "played.hpp"
+#include "recording/played.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;

@@ -2,7 +2,7 @@
 #include "diabolo/recording/plausibility/overlaps.hpp"
 
 #include "catch.hpp"
-#include "shipped.hpp"
+#include "recording/shipped.hpp"
 
 using namespace diabolo;
 

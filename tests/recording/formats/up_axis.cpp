@@ -2,8 +2,8 @@
 #include "diabolo/recording/formats/up_axis.hpp"
 
 #include "catch.hpp"
-#include "shipped.hpp"
-#include "support.hpp"
+#include "recording/shipped.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 using test::complaint;

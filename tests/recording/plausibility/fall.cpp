@@ -4,8 +4,8 @@
 #include "catch.hpp"
 #include "diabolo/recording/formats/up_axis.hpp"
 #include "diabolo/recording/plausibility/warnings.hpp"
-#include "shipped.hpp"
-#include "support.hpp"
+#include "recording/shipped.hpp"
+#include "recording/support.hpp"
 
 using namespace diabolo;
 
