@@ -61,13 +61,13 @@ inline std::string write_metadata(const TidyMetadata& metadata) {
 /// What a file does not say of itself.
 struct ReadOptions {
   std::optional<UpAxis> up;  ///< which axis points up; nothing: z, and a motion that contradicts is refused
-  std::vector<Column> columns;  ///< maps a CSV of somebody's own
+  std::vector<MappedColumn> columns;  ///< maps a CSV of somebody's own
 };
 
 /// Reads a CSV in the world frame. One whose columns are mapped needs no JSON file beside it: the string's
 /// length and the diabolo are then the calibration's, the rate is that of the times.
 inline Recording load_tidy(const std::filesystem::path& path, std::string_view text,
-                           const Calibration& calibration, const std::vector<Column>& columns) {
+                           const Calibration& calibration, const std::vector<MappedColumn>& columns) {
   const std::string file_name = path.string();
   const std::filesystem::path metadata = std::filesystem::path(path).replace_extension(".json");
   if (std::filesystem::exists(metadata))

@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 22> kTidyColumns{
     "left_qz",   "left_qw",   "right_qx",   "right_qy",   "right_qz",   "right_qw"};
 
 /// Where a tidy column is found in a CSV of somebody's own.
-struct Column {
+struct MappedColumn {
   std::string tidy;   ///< of kTidyColumns
   std::string given;  ///< the name in the file's header: as written here, or without its unit
   std::string bare;   ///< the name without its unit
@@ -47,12 +47,12 @@ inline constexpr std::array<ColumnUnit, 9> kColumnUnits{{{true, "s", 1.0},
 
 /// The column that `text` names, "NAME" or "NAME[UNIT]", for a tidy one. Throws RecordingError about another
 /// tidy name and another unit.
-inline Column column_of(std::string_view tidy, std::string_view text) {
+inline MappedColumn column_of(std::string_view tidy, std::string_view text) {
   const std::string where = "columns: " + std::string(tidy) + "=" + std::string(text);
   const auto at = std::find(kTidyColumns.begin(), kTidyColumns.end(), tidy);
   if (at == kTidyColumns.end())
     throw RecordingError("columns: " + shown(tidy) + "; expected time, left_x, diabolo_qw and the like");
-  Column column{std::string(tidy), std::string(text), std::string(text), 1.0};
+  MappedColumn column{std::string(tidy), std::string(text), std::string(text), 1.0};
   if (text.empty()) throw RecordingError(where + "; expected the name of a column");
   const std::size_t open = text.rfind('[');
   if (open == text.npos || open == 0 || !text.ends_with(']')) return column;
@@ -71,8 +71,8 @@ inline Column column_of(std::string_view tidy, std::string_view text) {
 }
 
 /// Reads "time=t[ms],left_x=lx[mm],...". Throws RecordingError about another text.
-inline std::vector<Column> columns_of(std::string_view text) {
-  std::vector<Column> columns;
+inline std::vector<MappedColumn> columns_of(std::string_view text) {
+  std::vector<MappedColumn> columns;
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t stop = std::min(text.find(',', first), text.size());
     const std::string_view part = text.substr(first, stop - first);

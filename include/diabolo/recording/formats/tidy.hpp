@@ -31,7 +31,7 @@ struct TidyMetadata {
 /// One pass over a tidy CSV; use read_tidy().
 class TidyReader {
  public:
-  TidyReader(std::string_view text, const std::string& file_name, const std::vector<Column>& columns)
+  TidyReader(std::string_view text, const std::string& file_name, const std::vector<MappedColumn>& columns)
       : csv_(text, file_name, CutLine::kLeaveOut), times_(csv_), columns_(columns) {}
 
   Recording read(const TidyMetadata& metadata) && {
@@ -109,7 +109,7 @@ class TidyReader {
 
   /// Finds the columns that are mapped, then tidy ones that are not, and lets the others be.
   void map_columns(const std::vector<std::string_view>& cells) {
-    for (const Column& column : columns_) {
+    for (const MappedColumn& column : columns_) {
       const std::ptrdiff_t tidy = std::ranges::find(kTidyColumns, column.tidy) - kTidyColumns.begin();
       bool found = false;
       for (const std::string& name : {column.given, column.bare})
@@ -166,7 +166,7 @@ class TidyReader {
 
   CsvReader csv_;
   RowTimes times_;
-  const std::vector<Column>& columns_;  ///< of a CSV of somebody's own; none of a tidy one
+  const std::vector<MappedColumn>& columns_;  ///< of a CSV of somebody's own; none of a tidy one
   std::array<std::size_t, kTidyColumns.size()> at_{};
   std::array<double, kTidyColumns.size()> unit_{};
   std::vector<char> ignored_;
@@ -178,7 +178,7 @@ class TidyReader {
 /// columns are left alone and the diabolo's orientation may be missing. Throws RecordingError with file, line
 /// and what was expected.
 inline Recording read_tidy(std::string_view text, const std::string& file_name, const TidyMetadata& metadata,
-                           const std::vector<Column>& columns = {}) {
+                           const std::vector<MappedColumn>& columns = {}) {
   return TidyReader(text, file_name, columns).read(metadata);
 }
 
