@@ -15,8 +15,9 @@ namespace {
 
 using namespace py::literals;
 
-Model make(const Parameters<double>& parameters, const std::string& name, const std::string& interpolation,
-           bool own_string_length, bool own_mass, bool own_axle_radius, const py::kwargs& effects) {
+Model make_model(const Parameters<double>& parameters, const std::string& name,
+                 const std::string& interpolation, bool own_string_length, bool own_mass,
+                 bool own_axle_radius, const py::kwargs& effects) {
   Model model{.name = name,
               .parameters = parameters,
               .effects = {},
@@ -29,7 +30,7 @@ Model make(const Parameters<double>& parameters, const std::string& name, const 
 }
 
 /// The keyword arguments that make the model again.
-py::dict to_dict(const Model& model) {
+py::dict model_dict(const Model& model) {
   py::dict fields("parameters"_a = model.parameters, "name"_a = model.name,
                   "interpolation"_a = choice_to_python(model.interpolation).attr("value"),
                   "own_string_length"_a = model.own_string_length, "own_mass"_a = model.own_mass,
@@ -39,7 +40,7 @@ py::dict to_dict(const Model& model) {
   return fields;
 }
 
-Model from_dict(const py::dict& fields) { return py::type::of<Model>()(**fields).cast<Model>(); }
+Model model_from(const py::dict& fields) { return py::type::of<Model>()(**fields).cast<Model>(); }
 
 }  // namespace
 
@@ -54,7 +55,7 @@ changes nothing. Where a Model is to be simulated, Parameters will do.
 The rest matters where a recording is to be predicted: `interpolation` says how its tips are read between the
 samples, as in diabolo.Interpolation; string length, mass and axle radius are the recording's unless the model
 says that its own count.)");
-  cls.def(py::init(&make), "parameters"_a = Parameters<double>(), py::kw_only(), "name"_a = "custom",
+  cls.def(py::init(&make_model), "parameters"_a = Parameters<double>(), py::kw_only(), "name"_a = "custom",
           "interpolation"_a = "spline", "own_string_length"_a = false, "own_mass"_a = false,
           "own_axle_radius"_a = false);
   cls.def_static(
@@ -89,9 +90,10 @@ says that its own count.)");
         [](Model& m) -> Effect& { return std::get<Effect>(m.effects.members); },
         [](Model& m, const Effect& effect) { std::get<Effect>(m.effects.members) = effect; });
   });
-  cls.def("to_dict", &to_dict, "The keyword arguments that make the model again.");
-  cls.def("__repr__", [](const Model& m) { return call_text("Model", to_dict(m), to_dict(from_dict({}))); });
-  bind_copies(cls, &to_dict, &from_dict);
+  cls.def("to_dict", &model_dict, "The keyword arguments that make the model again.");
+  cls.def("__repr__",
+          [](const Model& m) { return call_text("Model", model_dict(m), model_dict(model_from({}))); });
+  bind_copies(cls, &model_dict, &model_from);
 }
 
 }  // namespace diabolo::python

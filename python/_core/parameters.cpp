@@ -36,7 +36,7 @@ void from_python(py::handle value, const std::string& name, Enum& field) {
   field = choice_from_python<Enum>(cast_to<std::string>(value, name, "a str"), name);
 }
 
-py::dict to_dict(const P& parameters) {
+py::dict parameters_dict(const P& parameters) {
   py::dict fields;
   add_numbers(parameters, fields);
   P::for_each_rule(parameters, [&]<class Rule>(const RuleInfo& info, const Rule& rule) {
@@ -83,9 +83,9 @@ void bind_rule(py::class_<P>& cls) {
 
 /// The call that makes them again, from the preset that they differ from in the fewest fields.
 std::string shortest_call(const P& parameters) {
-  const py::dict fields = to_dict(parameters);
+  const py::dict fields = parameters_dict(parameters);
   const auto from = [&](const char* name, const P& preset) {
-    return call_text(name, fields, to_dict(preset));
+    return call_text(name, fields, parameters_dict(preset));
   };
   return std::min({from("Parameters", P::consistent()), from("Parameters.paper", P::paper()),
                    from("Parameters.published", P::published())},
@@ -153,9 +153,9 @@ is a ValueError that names the field, the value and the range.)");
   cls.def(
       "replace", [](const P& p, const py::kwargs& fields) { return with_fields(p, fields); },
       "A copy with other values in the given fields.");
-  cls.def("to_dict", &to_dict, "All fields by name; Parameters(**fields) builds them again.");
+  cls.def("to_dict", &parameters_dict, "All fields by name; Parameters(**fields) builds them again.");
   cls.def("__repr__", &shortest_call);
-  bind_copies(cls, &to_dict,
+  bind_copies(cls, &parameters_dict,
               [](const py::dict& fields) { return with_fields(P::consistent(), py::kwargs(fields)); });
 }
 

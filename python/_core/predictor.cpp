@@ -18,7 +18,7 @@ namespace {
 using namespace py::literals;
 using Simulator = FullPredictor<double>;
 
-Simulator make(const Model& model, const py::kwargs& given) {
+Simulator make_predictor(const Model& model, const py::kwargs& given) {
   AllEffects<double> effects = model.effects;
   assign_effects(effects, given);
   return Simulator(model.parameters, effects);
@@ -91,10 +91,10 @@ void bind_predictor(py::module_& module) {
 
 It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().)")
       .def(py::init([](const Parameters<double>& parameters, const py::kwargs& effects) {
-             return make({.name = {}, .parameters = parameters, .effects = {}}, effects);
+             return make_predictor({.name = {}, .parameters = parameters, .effects = {}}, effects);
            }),
            "parameters"_a)
-      .def(py::init(&make), "model"_a)
+      .def(py::init(&make_predictor), "model"_a)
       .def_property_readonly(
           "parameters", [](const Simulator& p) { return p.parameters(); }, "A copy.")
       .def(py::pickle(

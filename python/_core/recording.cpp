@@ -69,10 +69,11 @@ OrientationTrack to_orientation(const std::optional<Array>& array, const std::st
   return track;
 }
 
-Recording make(const Array& time, const Array& left, const Array& right, const Array& diabolo, double rate,
-               const std::optional<Array>& diabolo_orientation, const std::optional<Array>& left_orientation,
-               const std::optional<Array>& right_orientation, const std::string& name,
-               const DiaboloProperties& properties, double string_length) {
+Recording make_recording(const Array& time, const Array& left, const Array& right, const Array& diabolo,
+                         double rate, const std::optional<Array>& diabolo_orientation,
+                         const std::optional<Array>& left_orientation,
+                         const std::optional<Array>& right_orientation, const std::string& name,
+                         const DiaboloProperties& properties, double string_length) {
   expect_shape(time, "time", {kAny});
   const py::ssize_t size = time.shape(0);
   Recording recording;
@@ -139,10 +140,10 @@ Recording from_tuple(const py::tuple& t) {
   const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
   const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
   Recording recording =
-      make(time, t[1].cast<Array>(), t[2].cast<Array>(), t[3].cast<Array>(), t[4].cast<double>(),
-           orientation(5), orientation(6), orientation(7), t[8].cast<std::string>(),
-           {t[9].cast<double>(), t[10].cast<double>(), t[11].cast<double>(), t[12].cast<double>()},
-           t[13].cast<double>());
+      make_recording(time, t[1].cast<Array>(), t[2].cast<Array>(), t[3].cast<Array>(), t[4].cast<double>(),
+                     orientation(5), orientation(6), orientation(7), t[8].cast<std::string>(),
+                     {t[9].cast<double>(), t[10].cast<double>(), t[11].cast<double>(), t[12].cast<double>()},
+                     t[13].cast<double>());
   recording.frame = t[14].cast<std::vector<long>>();
   recording.notes = t[15].cast<std::vector<std::string>>();
   check_recording(recording);
@@ -298,7 +299,7 @@ void bind_recording(py::module_& module) {
 World frame: x forward (away from the player), y left, z up. Arrays are read-only views; a dropout is NaN. To
 make one from arrays, hand over `time` [s] of the shape (N,), positions [m] of the shape (N, 3) and, if known,
 orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or along the stick outwards.)");
-  cls.def(py::init(&make), "time"_a, "left"_a, "right"_a, "diabolo"_a, "rate"_a, py::kw_only(),
+  cls.def(py::init(&make_recording), "time"_a, "left"_a, "right"_a, "diabolo"_a, "rate"_a, py::kw_only(),
           "diabolo_orientation"_a = py::none(), "left_orientation"_a = py::none(),
           "right_orientation"_a = py::none(), "name"_a = "recording", "properties"_a = kRedDiabolo,
           "string_length"_a = kPublishedStringLength);

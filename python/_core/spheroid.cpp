@@ -15,7 +15,7 @@ namespace {
 using namespace py::literals;
 using Surface = Spheroid<double>;
 
-Surface make(const Array& left, const Array& right, double string_length) {
+Surface make_spheroid(const Array& left, const Array& right, double string_length) {
   if (!(string_length > 0.0) || !std::isfinite(string_length))
     throw std::invalid_argument("string_length: " + std::to_string(string_length) + " m; must be > 0");
   return {to_vector3(left, "left"), to_vector3(right, "right"), string_length};
@@ -55,7 +55,7 @@ void bind_spheroid(py::module_& module) {
 The stick tips are its foci, the string's length is its major axis: every point on it has the path length
 |p - left| + |p - right| == string_length. Methods take points of the shape (..., 3) [m] and give arrays of
 the shape (...) or (..., 3); a point with a NaN (a dropout) gives NaN.)");
-  spheroid.def(py::init(&make), "left"_a, "right"_a, "string_length"_a,
+  spheroid.def(py::init(&make_spheroid), "left"_a, "right"_a, "string_length"_a,
                "Tips, each of the shape (3,) [m], and string length [m].");
 
   const auto vector = [&spheroid](const char* name, const Vector3<double>& (Surface::*member)() const,

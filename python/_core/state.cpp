@@ -26,8 +26,8 @@ Vector3<double> to_axis(const Array& array) {
   return axis;
 }
 
-S make(const Array& position, const Array& velocity, double spin, const py::object& string_state,
-       const Array& axis) {
+S make_state(const Array& position, const Array& velocity, double spin, const py::object& string_state,
+             const Array& axis) {
   if (!std::isfinite(spin))
     throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
   S state;
@@ -39,7 +39,7 @@ S make(const Array& position, const Array& velocity, double spin, const py::obje
   return state;
 }
 
-Array to_array(const S& state) {
+Array state_array(const S& state) {
   Array array(7);
   double* to = std::copy_n(state.position.data(), 3, array.mutable_data());
   to = std::copy_n(state.velocity.data(), 3, to);
@@ -75,7 +75,7 @@ void bind_state(py::module_& module) {
 z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
 string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
 is the axle's direction, which only GyroscopicTilt turns.)")
-      .def(py::init(&make), "position"_a, "velocity"_a = py::make_tuple(0.0, 0.0, 0.0), "spin"_a = 0.0,
+      .def(py::init(&make_state), "position"_a, "velocity"_a = py::make_tuple(0.0, 0.0, 0.0), "spin"_a = 0.0,
            "string_state"_a = "loose", "axis"_a = py::make_tuple(1.0, 0.0, 0.0))
       .def_property(
           "position", [](const S& s) { return from_vector3(s.position); },
@@ -87,8 +87,8 @@ is the axle's direction, which only GyroscopicTilt turns.)")
       .def_property(
           "spin", [](const S& s) { return s.spin; },
           [](S& s, double value) {
-            s = make(from_vector3(s.position), from_vector3(s.velocity), value,
-                     string_state_to_python(s.string_state), from_vector3(s.axis));
+            s = make_state(from_vector3(s.position), from_vector3(s.velocity), value,
+                           string_state_to_python(s.string_state), from_vector3(s.axis));
           },
           "[rad/s]")
       .def_property(
@@ -102,7 +102,7 @@ is the axle's direction, which only GyroscopicTilt turns.)")
       .def_property_readonly(
           "string_acceleration", [](const S& s) { return from_vector3(s.string_acceleration); },
           "Mean acceleration by the string over the last step [m/s^2], shape (3,).")
-      .def("to_array", &to_array, "Position, velocity and spin, shape (7,).")
+      .def("to_array", &state_array, "Position, velocity and spin, shape (7,).")
       .def("__copy__", [](const S& s) { return s; })
       .def(
           "__deepcopy__", [](const S& s, const py::dict&) { return s; }, "memo"_a)
@@ -113,8 +113,8 @@ is the axle's direction, which only GyroscopicTilt turns.)")
                                   from_vector3(s.string_acceleration));
           },
           [](const py::tuple& t) {
-            S state =
-                make(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<double>(), t[3], t[4].cast<Array>());
+            S state = make_state(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<double>(), t[3],
+                                 t[4].cast<Array>());
             state.string_acceleration = to_vector3(t[5].cast<Array>(), "string_acceleration");
             return state;
           }))

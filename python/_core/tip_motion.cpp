@@ -18,8 +18,9 @@ namespace {
 using namespace py::literals;
 using Motion = TipMotion<double>;
 
-Motion make(const Array& times, const Array& left, const Array& right, const std::string& interpolation,
-            const std::optional<Array>& left_directions, const std::optional<Array>& right_directions) {
+Motion make_tip_motion(const Array& times, const Array& left, const Array& right,
+                       const std::string& interpolation, const std::optional<Array>& left_directions,
+                       const std::optional<Array>& right_directions) {
   expect_shape(times, "times", {kAny});
   const py::ssize_t size = times.shape(0);
   Motion motion(std::vector<double>(times.data(), times.data() + size), to_rows(left, "left", size),
@@ -81,7 +82,7 @@ player), y left, z up. Before the first and after the last instant the tips rest
 follow `interpolation`, as in diabolo.Interpolation: 'linear', 'spline' or 'held'. `left_directions` and
 `right_directions` are those of the sticks, unit vectors of the shape (M, 3), zero where not known; StickFlex
 alone looks at them.)")
-      .def(py::init(&make), "times"_a, "left"_a, "right"_a, "interpolation"_a = "linear",
+      .def(py::init(&make_tip_motion), "times"_a, "left"_a, "right"_a, "interpolation"_a = "linear",
            "left_directions"_a = py::none(), "right_directions"_a = py::none())
       .def_property_readonly("times", &instants, "Instants [s], shape (M,).")
       .def_property_readonly(
@@ -142,9 +143,9 @@ alone looks at them.)")
                 of_poses(m, &Tips<double>::left_direction), of_poses(m, &Tips<double>::right_direction));
           },
           [](const py::tuple& t) {
-            return std::make_shared<Motion>(make(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<Array>(),
-                                                 t[3].cast<std::string>(), t[4].cast<Array>(),
-                                                 t[5].cast<Array>()));
+            return std::make_shared<Motion>(make_tip_motion(t[0].cast<Array>(), t[1].cast<Array>(),
+                                                            t[2].cast<Array>(), t[3].cast<std::string>(),
+                                                            t[4].cast<Array>(), t[5].cast<Array>()));
           }));
 }
 

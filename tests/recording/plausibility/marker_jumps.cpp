@@ -94,6 +94,31 @@ TEST_CASE("Jumps of a few samples, and beside dropouts, are found; a body that s
   CHECK(mask_jumps(elsewhere) == 0);
 }
 
+TEST_CASE("A jump, one good sample and another jump do not cost what follows, a dropout near or far") {
+  const Recording swing = test::shipped("swing");
+  Eigen::Index begin = 300;  // ten samples, all tracked
+  while (!swing.left.valid.segment(begin, 10).all()) ++begin;
+  for (const Eigen::Index left_over : {1, 2, 4, 6}) {
+    Recording r = swing;
+    r.left.position.col(begin + 1).z() -= 0.5;
+    r.left.position.col(begin + 3).y() += 0.5;
+    r.left.valid[begin + 4 + left_over] = false;
+    r.left.position.col(begin + 4 + left_over).setConstant(kNaN);
+    CAPTURE(left_over);
+    CHECK(mask_jumps(r) == 2);
+    CHECK(r.left.valid.segment(begin + 4, left_over).all());
+  }
+}
+
+TEST_CASE("Jumps in the same sample as another body's stay jumps, however far apart they are") {
+  Recording r = test::shipped("swing");
+  Eigen::Index made = 0;
+  for (const Eigen::Index i : {300, 500, 700})
+    for (Track* track : {&r.left, &r.right})
+      if (track->valid[i]) track->position.col(i) += Eigen::Vector3d(0.3, 0.4, 0.0), ++made;
+  CHECK(mask_jumps(r) == made);
+}
+
 TEST_CASE("Bodies under each other's names for a few samples are no jumps") {
   Recording r = test::shipped("swing");
   for (Eigen::Index i = 500; i < 504; ++i) {

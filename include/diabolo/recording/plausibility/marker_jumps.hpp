@@ -57,26 +57,30 @@ class JumpFinder {
     const double time = periods * period_;
     return kMostNoise + kHardestAcceleration * time * time / 8.0;
   }
+  /// Whether sample i is where a body can be between the two others.
   bool keeps_on(Index before, Index i, Index after) const {
-    return (0.5 * (at(before) + at(after)) - at(i)).norm() <= sagitta(2.0);
+    const double periods = static_cast<double>(after - before);
+    const double share = static_cast<double>(i - before) / periods;
+    return (at(i) - at(before) - share * (at(after) - at(before))).norm() <= sagitta(periods);
   }
 
   void pass() {
     const Index size = track_.valid.size();
     for (Index i = 1; i + 1 < size; ++i) {
       if (!follows(i - 1) || !follows(i) || !keeps_on(i - 1, i, i + 1)) continue;
-      for (++i; follows(i);) {  // the motion is known at i
-        const Index back = keeps_on(i - 1, i, i + 1) ? i + 1 : mark_jump(i);
-        if (back == i) break;
-        i = back;
+      for (Index before = i++; follows(i);) {  // the motion is known at both
+        const Index next = keeps_on(before, i, i + 1) ? i + 1 : mark_jump(before, i);
+        if (next == i) break;
+        before = std::exchange(i, next);
       }
     }
   }
 
-  /// Marks a jump right after sample i; returns the sample from which the motion is known again, i for none.
-  Index mark_jump(Index i) {
+  /// Marks a jump right after sample i, into which the body came from the one before; returns the sample that
+  /// is back on the motion, i for none.
+  Index mark_jump(Index before, Index i) {
     const Index longest = std::clamp<Index>(std::lround(kLongestJump * recording_.rate), 1, 100);
-    const Eigen::Vector3d step = at(i) - at(i - 1);
+    const Eigen::Vector3d step = (at(i) - at(before)) / static_cast<double>(i - before);
     for (Index k = 1; k <= longest; ++k) {
       if (!follows(i + k)) {
         mark_until_dropout(i, k, step);
@@ -84,16 +88,11 @@ class JumpFinder {
       }
       const Index back = i + k + 1;
       const double periods = static_cast<double>(k + 1);
-      const Eigen::Vector3d way = at(back) - at(i);
-      if ((way - periods * step).norm() > 4.0 * sagitta(periods)) continue;
-      const auto is_off = [&](Index j) {
-        const double share = static_cast<double>(j - i) / periods;
-        return (at(j) - at(i) - share * way).norm() > sagitta(periods);
-      };
-      if (!is_off(i + 1) || !is_off(back - 1)) continue;
+      if ((at(back) - at(i) - periods * step).norm() > 4.0 * sagitta(periods)) continue;
+      if (keeps_on(i, i + 1, back) || keeps_on(i, back - 1, back)) continue;
       for (Index j = i + 1; j < back; ++j)
-        if (is_off(j)) found_.push_back(row(j));
-      return settle(), follows(back) ? back + 1 : back;
+        if (!keeps_on(i, j, back)) found_.push_back(row(j));
+      return settle(), back;
     }
     return i;
   }
@@ -123,16 +122,27 @@ class JumpFinder {
   bool backwards_ = false;
 };
 
-/// Makes dropouts of samples in which a body jumps away and back (JumpFinder), but for those in which bodies
-/// are under each other's names (unswap). Returns how many; a note counts them by body.
-inline Eigen::Index mask_jumps(Recording& r) {
+/// The samples in which each body jumps away and back (JumpFinder).
+inline std::array<Marks, 3> find_jumps(Recording& r) {
   const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(r);
-  std::array<Marks, 3> jumps;
-  for (std::size_t b = 0; b < 3; ++b) jumps[b] = JumpFinder(*tracks[b], r).find();
+  return {JumpFinder(*tracks[0], r).find(), JumpFinder(*tracks[1], r).find(),
+          JumpFinder(*tracks[2], r).find()};
+}
+
+/// Makes dropouts of samples in which a body jumps away and back, but for those that are no jumps once bodies
+/// under each other's names have their own again (unswap). Returns how many; a note counts them by body.
+inline Eigen::Index mask_jumps(Recording& r) {
+  std::array<Marks, 3> jumps = find_jumps(r);
   if (!(jumps[0] || jumps[1] || jumps[2]).any()) return 0;
-  Recording given = r;
-  for (const auto& [first, last] : unswap(given).rows)
-    for (Marks& marks : jumps) marks.segment(first, last - first + 1).setConstant(false);
+  Recording straight = r;
+  if (const auto rows = unswap(straight).rows; !rows.empty()) {
+    const auto [left, right, diabolo] = find_jumps(straight);
+    for (const auto& [first, last] : rows)
+      for (Marks& marks : jumps)
+        marks.segment(first, last - first + 1) = marks.segment(first, last - first + 1) &&
+                                                 (left || right || diabolo).segment(first, last - first + 1);
+  }
+  const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(r);
   constexpr std::array<const char*, 3> kNames{"left tip", "right tip", "diabolo"};
   std::string counts;
   Eigen::Index total = 0;
