@@ -218,11 +218,8 @@ py::dict check(const StickMap& left, const StickMap& right, const TipMotion<doub
   return result;
 }
 
-}  // namespace
-
-void bind_robot(py::module_& module) {
+void bind_arm(py::module_& module) {
   const Mounts mounts;
-  const JointLimits limits = JointLimits::uniform();
   py::class_<StickArm>(module, "StickArm",
                        R"(A UR5e where it stands, with the stick in its flange, as in the paper.
 
@@ -274,12 +271,13 @@ world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for 
         return py::str("<StickArm '{}' at ({:.3f}, {:.3f}, {:.3f}) m>")
             .format(name_of(arm.side), arm.base.position.x(), arm.base.position.y(), arm.base.position.z());
       });
-
   module.def(
       "ur5e_inverse", &nominal_solutions, "flange"_a,
       "Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in "
       "the controller's base frame, shape (4, 4).");
+}
 
+void bind_seed_grid(py::module_& module) {
   py::class_<IkSeedGrid, std::shared_ptr<IkSeedGrid>>(
       module, "SeedGrid", "Joint configurations at the key points of a box, and cubic splines between them.")
       .def_static(
@@ -322,7 +320,9 @@ world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for 
           },
           "points"_a,
           "Interpolated joints [rad], shape (..., 6), at points (..., 3); outside, of the nearest point.");
+}
 
+void bind_stick_map(py::module_& module) {
   py::class_<StickMap, std::shared_ptr<StickMap>>(
       module, "StickMap", "The joints of an arm as a function of its stick's tip, without drift.")
       .def(py::init<StickArm, IkSeedGrid>(), "arm"_a, "grid"_a)
@@ -336,7 +336,10 @@ world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for 
            "the joints are NaN.")
       .def("slopes", &slopes, "points"_a,
            "How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.");
+}
 
+void bind_limits(py::module_& module) {
+  const JointLimits limits = JointLimits::uniform();
   py::class_<RobotLimits>(
       module, "RobotLimits",
       R"(What two arms, each a StickMap, ask of a path: TipLimits(others=RobotLimits(left, right)).
@@ -369,6 +372,15 @@ of the path that each belongs to [s], shape (M,). Raises ValueError where no pla
   module.def("check_plan", &check, "left"_a, "right"_a, "motion"_a, "speed"_a = limits.speed[0],
              "acceleration"_a = limits.acceleration[0], "jerk"_a = limits.jerk[0], "least_clearance"_a = 0.10,
              "Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.");
+}
+
+}  // namespace
+
+void bind_robot(py::module_& module) {
+  bind_arm(module);
+  bind_seed_grid(module);
+  bind_stick_map(module);
+  bind_limits(module);
 }
 
 }  // namespace diabolo::python

@@ -168,7 +168,6 @@ class ControlScript {
   }
 
   std::string execute(std::int32_t command) {
-    const auto near = [this] { return arm_.joints(); };
     switch (command) {
       case kMoveJ:
       case kMoveLJoints:
@@ -177,7 +176,8 @@ class ControlScript {
         break;
       case kMoveJPose:
       case kMoveL:
-        if (const auto goal = backward(input_six(0), tool_, near())) arm_.move(*goal, input(6), input(7));
+        if (const auto goal = backward(input_six(0), tool_, arm_.joints()))
+          arm_.move(*goal, input(6), input(7));
         begin(input_int(1) == 1);
         break;
       case kSpeedJ:
@@ -186,7 +186,7 @@ class ControlScript {
       case kServoJ:
         return servo(input_joints(0));
       case kServoL:
-        if (const auto target = backward(input_six(0), tool_, near())) return servo(*target);
+        if (const auto target = backward(input_six(0), tool_, arm_.joints())) return servo(*target);
         return "C154A1: no joints for a servo target";
       case kSpeedStop:
       case kServoStop:
@@ -198,6 +198,17 @@ class ControlScript {
         arm_.brake(input(0));
         begin(input_int(1) == 1);
         break;
+      case kProtectiveStop:
+        return "a protective stop that the client asked for";
+      default:
+        answer(command);
+    }
+    return {};
+  }
+
+  /// What moves nothing; payload, force, teaching and the like are answered with nothing in it.
+  void answer(std::int32_t command) {
+    switch (command) {
       case kStepTime:
         put_six(ToolPose{diabolo::kTick});
         break;
@@ -214,14 +225,14 @@ class ControlScript {
         put_six(backward(input_six(0), tool_, input_joints(6)).value_or(JointVector::Zero()));
         break;
       case kInverseNow:
-        put_six(backward(input_six(0), tool_, near()).value_or(JointVector::Zero()));
+        put_six(backward(input_six(0), tool_, arm_.joints()).value_or(JointVector::Zero()));
         break;
       case kHasInverse:
         output_int(1) = backward(input_six(0), tool_, input_joints(6)).has_value();
         break;
       case kHasInverseNow:
       case kPoseWithinLimits:
-        output_int(1) = backward(input_six(0), tool_, near()).has_value();
+        output_int(1) = backward(input_six(0), tool_, arm_.joints()).has_value();
         break;
       case kJointsWithinLimits:
         output_int(1) = diabolo::kUr5eWindows.contain(input_joints(0));
@@ -247,12 +258,9 @@ class ControlScript {
       case kSetWatchdog:
         watchdog_ = input(0);
         break;
-      case kProtectiveStop:
-        return "a protective stop that the client asked for";
-      default:  // payload, force, teaching and the like: answered
+      default:
         break;
     }
-    return {};
   }
 
   static constexpr double kLargestJump = 0.1;  // [rad] of a servo target in a tick
