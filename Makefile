@@ -211,7 +211,7 @@ check-format: $(VENV)/.tools
 	@$(our_sources) | xargs -r $(VENV)/bin/clang-format --dry-run --Werror
 	@$(VENV)/bin/ruff format --check
 
-lint: check-tree $(VENV)/.package-with-tests $(VENV)/.tools ## Check floors and file rules, clang-tidy on every header, ruff and mypy
+lint: check-tree $(VENV)/.package-with-tests $(VENV)/.tools ## Check bands and file rules, clang-tidy on every header, ruff and mypy
 	@$(packages) build test lint
 	@$(VENV)/bin/ruff check
 	@$(VENV)/bin/mypy --python-executable $(VENV)/bin/python

@@ -28,8 +28,8 @@ BANDS: tuple[tuple[str, ...], ...] = (
     ("paper", "effects", "recording", "recording/formats", "recording/plausibility"),
     ("verbs", "batch"),
     ("evaluate",),
-    ("diagnose", "plan", "learn", "robot/arm", "robot/motion", "robot/control"),  # uses
-    ("json", "hosts"),
+    ("diagnose", "plan", "robot/arm", "robot/motion", "robot/control"),  # uses
+    ("json",),
     ("umbrella",),
 )
 BAND_OF = {room: band for band, rooms in enumerate(BANDS) for room in rooms}

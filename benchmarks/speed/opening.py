@@ -66,7 +66,9 @@ def opening(results: dict[str, Any]) -> str:
         ],
         [
             "a diagnosis",
-            _of_use(results, "diagnose", "{took} for {length:.0f} s of play, {memory:.0f} MB"),
+            _of_use(
+                results, "diagnose", "{took} of processor time for {length:.0f} s of play, {memory:.0f} MB"
+            ),
             f"{uses} diagnose",
         ],
         [

@@ -207,7 +207,7 @@ def targets(results: dict[str, Any]) -> str:
     )
 
 
-def page(results: dict[str, Any]) -> str:
+def machine_part(results: dict[str, Any]) -> str:
     machine, load = results["machine"], results["load"]
     spreads = [spread(e["cpu"]) for part in ("step", "batch", "loader") for e in results[part].values()]
     noise = (
@@ -215,15 +215,7 @@ def page(results: dict[str, Any]) -> str:
         f"{100 * statistics.median(spreads):.0f} % for half of the figures, "
         f"{100 * max(spreads):.0f} % for the worst of them"
     )
-    headers = sorted(results["compile"]["seconds"].items(), key=lambda item: -item[1])
-    return f"""# Benchmarks
-
-{opening(results)}
-
-Medians of the processor's time, all cores together. A step is 1 ms. `make bench` writes this page.
-[What else there is](../benchmarks/README.md), and how long it runs.
-
-## The machine
+    return f"""## The machine
 
 | machine | |
 |---|---|
@@ -236,8 +228,11 @@ Medians of the processor's time, all cores together. A step is 1 ms. `make bench
 Times are processor time, medians of {results["repetitions"]} repetitions in random order, the worst beside.
 Instructions are those of one run of the job, as callgrind counts them; they do not depend on other work on
 the machine, which makes times longer. With a load average much above one, the machine was shared.
+"""
 
-## Targets
+
+def model_part(results: dict[str, Any]) -> str:
+    return f"""## Targets
 
 {targets(results)}
 
@@ -275,8 +270,12 @@ runs: `{PROGRAMS}/bench_batch`. Valgrind knows no AVX-512, so that nothing is co
 threads, which share the same work.
 
 {batch_table(results)}
+"""
 
-## Cost in the number of steps
+
+def other_part(results: dict[str, Any]) -> str:
+    headers = sorted(results["compile"]["seconds"].items(), key=lambda item: -item[1])
+    return f"""## Cost in the number of steps
 
 The fastest of {results["repetitions"]} repetitions, since a processor that changes its clock between them
 bends medians. In the batch all rollouts begin alike here, so that the work of a step does not change.
@@ -308,8 +307,30 @@ The slowest five:
 
 ## Against MuJoCo
 
-The same job at the same accuracy, 1 mm within 1 s: `python -m benchmarks.speed.mujoco.compare`. Its head
-says what is compared and what is unfair.
+Both do the same job at the same accuracy, 1 mm within 1 s:
+`python -m benchmarks.speed.mujoco.compare`. Its head says what is compared and what is unfair.
 
 {mujoco_table(results)}
+
+The job: a point mass on an inextensible string between two moving tips, simulated for 1 s.
+
+- `beat`: the string stays taut. `hop`: it goes slack and snaps taut.
+- `mocap`: in MuJoCo a free body between two mocap bodies, as one would write it.
+- `driven`: the tips are heavy bodies that get position, velocity and acceleration before each step.
+- `point`: as `driven`, with the diabolo on three slides instead of a free joint.
+- "-" as timestep: there is none at which this and every smaller one stay within 1 mm. The row shows the most
+  accurate timestep.
 """
+
+
+def page(results: dict[str, Any]) -> str:
+    return f"""# Benchmarks
+
+{opening(results)}
+
+Medians of the processor's time, all cores together. A step is 1 ms. `make bench` writes this page.
+[What else there is](../benchmarks/README.md), and how long it runs.
+
+{machine_part(results)}
+{model_part(results)}
+{other_part(results)}"""

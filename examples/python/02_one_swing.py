@@ -26,7 +26,7 @@ parameters = diabolo.Parameters(string_length=1.45)
 durations = np.linspace(0.2, 3.0, 200)
 motions = [sway(duration) for duration in durations]
 
-hanging = diabolo.hanging(parameters, motions[0].left[0], motions[0].right[0])
+hanging = diabolo.hang_at_rest(parameters, motions[0].left[0], motions[0].right[0])
 initial = np.concatenate([hanging.position, [0.0, 0.0, 0.0], [100.0]])  # position, velocity, spin
 
 swings = diabolo.rollout(

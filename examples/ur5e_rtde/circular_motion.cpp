@@ -25,7 +25,7 @@ diabolo::TipPath<double> circular_motion(double seconds, double spin) {
   RecedingHorizon<StringFriction> horizon(model, home, hanging_state(home, length, spin), 0.0);
   while (horizon.path().end() < seconds) {
     const Seam seam = horizon.seam_at(horizon.path().end());
-    const Action action = action_named(kName, seam.tips, seam.state, length, {.spin = 3.0});
+    const Action action = action_named(kName, seam.tips, seam.state, length, {.spin_gain = 3.0});
     const PlanProblem<StringFriction> problem{{model},      seam.state, joined_at(seam, action.seed),
                                               action.goals, {},         action.freedom};
     horizon.join(seam, GradientSearch{}(problem, {}), seam.time, 0.0);

@@ -400,24 +400,24 @@ directions, unit vectors, likewise, zero where not known; StickFlex alone looks 
       "left"_a, "right"_a, "string_length"_a, "spin"_a = 0.0,
       "A diabolo that hangs at rest at the lowest point between the tips.");
   module.def(
-      "hanging",
+      "hang_at_rest",
       [](const Model& model, const Vector& left, const Vector& right, double spin, const Column& sticks) {
         return hang_at_rest(simulator(model), column(left, right), spin, sticks);
       },
       "model"_a, "left"_a, "right"_a, "spin"_a = 0.0, "sticks"_a = Column(Column::Zero()),
-      "See diabolo.hanging.");
+      "See diabolo.hang_at_rest.");
   module.def(
       "action",
       [](const std::string& name, const Vector& left, const Vector& right, const State<double>& start,
          double string_length, double size, double pace, double height, double sideways,
-         std::optional<double> spin, const Column& sticks) {
+         std::optional<double> spin_gain, const Column& sticks) {
         Action action = action_named(name, column(left, right), start, string_length,
-                                     {size, pace, height, sideways, spin});
+                                     {size, pace, height, sideways, spin_gain});
         action.seed.sticks = sticks;
         return action;
       },
       "name"_a, "left"_a, "right"_a, "start"_a, "string_length"_a, "size"_a = 1.0, "pace"_a = 1.0,
-      "height"_a = 0.5, "sideways"_a = 0.3, "spin"_a = py::none(), "sticks"_a = Column(Column::Zero()),
+      "height"_a = 0.5, "sideways"_a = 0.3, "spin_gain"_a = py::none(), "sticks"_a = Column(Column::Zero()),
       "The figure of that name from a pose of the tips and a state of the diabolo.");
 }
 

@@ -361,6 +361,8 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   module.def("load_recording", &load, "path"_a,
              py::arg_v("calibration", published_calibration(), "Calibration.published()"), py::kw_only(),
              "up"_a = py::none(), "columns"_a = py::none(), Unlocked(), "The same as Recording.load.");
+  module.def("largest_spin", &largest_spin, "rate"_a,
+             "Largest spin that a sampling rate [Hz] tells apart [rad/s].");
   module.def("trim_overlaps", &trimmed, "recordings"_a,
              "Recordings without the samples that they share with ones before, and what was trimmed.");
 }

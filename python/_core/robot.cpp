@@ -16,6 +16,7 @@
 #include "diabolo/robot/motion/check_plan.hpp"
 #include "diabolo/robot/motion/plan_limits.hpp"
 #include "diabolo/robot/motion/tip_plan_file.hpp"
+#include "diabolo/robot/motion/tip_speed.hpp"
 
 namespace diabolo::python {
 
@@ -151,6 +152,24 @@ Array slopes(const StickMap& map, const Array& points) {
     matrix = found.slopes;
     if (found.fault != StickFault::kNone) matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
   });
+}
+
+/// Of slopes, for each point that has joints.
+template <class Speed>
+Array tip_speeds(const StickMap& map, const Array& points, const Speed& speed) {
+  return map_rows<3>(points, "points", {}, [&](const Vector3<double>& point, double* to) {
+    const StickMap::Point found = map.at(point);
+    *to = found.fault == StickFault::kNone ? speed(found.slopes) : std::numeric_limits<double>::quiet_NaN();
+  });
+}
+
+Array tip_speed_along(const StickMap& map, const Array& points, const Array& direction) {
+  const Vector3<double> along = to_vector3(direction, "direction");
+  return tip_speeds(map, points, [&](const StickMap::Slopes& slopes) { return tip_speed(slopes, along); });
+}
+
+Array slowest_tip_speeds(const StickMap& map, const Array& points) {
+  return tip_speeds(map, points, [](const StickMap::Slopes& slopes) { return slowest_tip_speed(slopes); });
 }
 
 TipMotion<double> recorded_plan(Recording recording) {
@@ -331,11 +350,17 @@ void bind_stick_map(py::module_& module) {
       .def("solve", &solve, "points"_a,
            "Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for "
            "each, "
-           "shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's window; "
+           "shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's range; "
            "there "
            "the joints are NaN.")
       .def("slopes", &slopes, "points"_a,
-           "How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.");
+           "How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.")
+      .def(
+          "tip_speed", &tip_speed_along, "points"_a, "direction"_a,
+          "How fast the tip may go in a direction of any length, shape (3,), before a joint exceeds pi rad/s "
+          "[m/s], shape (...); NaN where solve() has a code.")
+      .def("slowest_tip_speed", &slowest_tip_speeds, "points"_a,
+           "The same in the slowest direction: there one joint alone sets the pace.");
 }
 
 void bind_limits(py::module_& module) {

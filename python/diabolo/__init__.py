@@ -46,6 +46,7 @@ from ._core import (
     __version__,
     baseline,
     load_recording,
+    played_recording,
     start_state,
     trim_overlaps,
 )
@@ -63,7 +64,7 @@ from .enums import (
     ThinRule,
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
-from .player import best_guess, hanging, model_for, plan, plan_action, success_rate
+from .player import best_guess, hang_at_rest, model_for, plan, plan_action, success_rate
 from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
 from .view import view_html
 
@@ -130,11 +131,12 @@ __all__ = [
     "best_guess",
     "diagnose",
     "evaluate",
-    "hanging",
+    "hang_at_rest",
     "load_recording",
     "model_for",
     "plan",
     "plan_action",
+    "played_recording",
     "position_errors",
     "predict",
     "rollout",

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Air', 'Calibration', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hanging', 'hanging_state', 'home_pose', 'keep_limits', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Air', 'Calibration', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -2259,6 +2259,11 @@ class Thresholds:
         The same of a fault of measurement.
         """
     @property
+    def numerical_share(self) -> float:
+        """
+        Share of what is left over, beyond which the base's numerical rules count.
+        """
+    @property
     def physics(self) -> float:
         """
         Standard deviations beyond which physics counts.
@@ -2977,9 +2982,17 @@ class StickMap:
         """
         How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.
         """
+    def slowest_tip_speed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The same in the slowest direction: there one joint alone sets the pace.
+        """
     def solve(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
         """
-        Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for each, shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's window; there the joints are NaN.
+        Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for each, shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's range; there the joints are NaN.
+        """
+    def tip_speed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        How fast the tip may go in a direction of any length, shape (3,), before a joint exceeds pi rad/s [m/s], shape (...); NaN where solve() has a code.
         """
     @property
     def arm(self) -> StickArm:
@@ -3006,7 +3019,7 @@ class RobotLimits:
         ...
     def __setstate__(self, arg0: tuple) -> None:
         ...
-def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
+def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """
     The figure of that name from a pose of the tips and a state of the diabolo.
     """
@@ -3034,9 +3047,9 @@ def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat 
     """
     What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`.
     """
-def hanging(model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> State:
+def hang_at_rest(model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> State:
     """
-    See diabolo.hanging.
+    See diabolo.hang_at_rest.
     """
 def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: typing.SupportsFloat | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> State:
     """
@@ -3053,6 +3066,10 @@ def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     `joints` [rad] of both arms, left and then right, 2 ms apart, shape (N, 12). Gives setpoints 2 ms apart of the same
     curve, shape (M, 12), whose speed [rad/s], acceleration [rad/s^2] and jerk [rad/s^3] keep the limits, and the time
     of the path that each belongs to [s], shape (M,). Raises ValueError where no play is slow enough.
+    """
+def largest_spin(rate: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    Largest spin that a sampling rate [Hz] tells apart [rad/s].
     """
 def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsFloat | typing.SupportsIndex) -> list[LimitUse]:
     """

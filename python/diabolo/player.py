@@ -112,7 +112,7 @@ def plan_action(
     """Plan a figure of play from its home pose.
 
     name: one of ACTIONS.
-    start: of the diabolo; by default it hangs with the given spin [rad/s], see `hanging`.
+    start: of the diabolo; by default it hangs with the given spin [rad/s], see `hang_at_rest`.
     cycles: so many in a row, each planned from the predicted end of the one before, where position, velocity
         and acceleration of the tips go on; fewer, and `ended` says why, where a throw leaves nothing to catch
         or no motion goes on within the limits.
@@ -146,7 +146,7 @@ def plan_action(
     )
 
 
-def hanging(
+def hang_at_rest(
     model: AnyModel,
     left: ArrayLike,
     right: ArrayLike,
@@ -156,7 +156,7 @@ def hanging(
     """The diabolo at rest below resting tips [m], where the model lets it hang: friction leans it to the
     side, and what gives lowers it. sticks: as for `plan_action`."""
     (one,) = _models(model)
-    return _core.hanging(one, left, right, spin, _directions(sticks))
+    return _core.hang_at_rest(one, left, right, spin, _directions(sticks))
 
 
 def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:

@@ -380,7 +380,7 @@ def _ties(result: dict[str, Any], worthwhile: float) -> list[str]:
     for names in classes:
         listed = _joined(f"{words(name)} ({name})" for name in sorted(names))
         parting = [
-            words(row.get("motion"))
+            _motion(row)
             for row in _rows(result, "next_experiment")
             if len(names & set(row.get("parts") or [])) > 1 and (row.get("odds") or math.inf) >= worthwhile
         ]
@@ -389,10 +389,14 @@ def _ties(result: dict[str, Any], worthwhile: float) -> list[str]:
     return sentences
 
 
+def _motion(row: dict[str, Any]) -> str:
+    return row.get("what") or words(row.get("motion"))
+
+
 def _experiment(row: dict[str, Any]) -> list[Any]:
     parts = row.get("parts") or []
     return [
-        words(row.get("motion")),
+        _motion(row),
         [f"{words(part)} ({part})" for part in parts] or ["not given"],
         quantity(row.get("seconds"), "s"),
         _odds(row.get("odds")),

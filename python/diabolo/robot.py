@@ -13,7 +13,7 @@ from ._core import (
     ur5e_inverse,
 )
 
-FAULTS = ("reached", "outside the box of the seed grid", "out of reach", "a joint leaves its window")
+FAULTS = ("reached", "outside the box of the seed grid", "out of reach", "a joint leaves its range")
 """What the codes of StickMap.solve() mean."""
 
 __all__ = [

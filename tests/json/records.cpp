@@ -42,6 +42,7 @@ TEST_CASE("a diagnosis that is written is read again, and numbers that are none 
   CHECK(again.model == "model.json");
   CHECK_FALSE(again.seconds);
   CHECK(again.thresholds.physics == kSignificance);
+  CHECK(again.thresholds.numerical_share == kNumericalShare);
 }
 
 TEST_CASE("what a diagnosis' file holds in the wrong place is named") {

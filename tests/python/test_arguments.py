@@ -109,7 +109,7 @@ def good_calls(take: Recording) -> dict[str, tuple[Callable[..., Any], dict[str,
         "diagnose": (diabolo.diagnose, {"recordings": take}),
         "plan": (diabolo.plan, {"start": State(at["left"]), "seed": spline, "goals": goals, "seconds": 0.01}),
         "plan_action": (diabolo.plan_action, {"name": "hop", "seconds": 0.01}),
-        "hanging": (diabolo.hanging, {"model": "consistent", **at}),
+        "hang_at_rest": (diabolo.hang_at_rest, {"model": "consistent", **at}),
         "success_rate": (diabolo.success_rate, {"play": play, "models": [diabolo.Model()]}),
         "model_for": (diabolo.model_for, {"model": "consistent", "recording": take}),
         "best_guess": (diabolo.best_guess, {"model": diabolo.Model(), "result": []}),
@@ -263,7 +263,7 @@ def test_goals_of_an_action_keep_their_weights() -> None:
     path = diabolo.StickSpline(
         [0.0, 0.5], np.tile([0.0, 0.3, 1.0], (2, 1)), np.tile([0.0, -0.3, 1.0], (2, 1))
     )
-    start = diabolo.hanging("consistent", [0.0, 0.3, 1.0], [0.0, -0.3, 1.0])
+    start = diabolo.hang_at_rest("consistent", [0.0, 0.3, 1.0], [0.0, -0.3, 1.0])
     copied = pickle.loads(pickle.dumps(goals))
     costs = [
         diabolo._core.plan_cost([diabolo.Model()], start, path, each, diabolo.TipLimits())

@@ -277,13 +277,13 @@ def test_cycles_go_on_from_each_other() -> None:
 def test_hanging_stays_where_it_is() -> None:
     left, right = [0.5, 0.3, 1.2], [0.5, -0.3, 1.2]
     rest = StickSpline([0.0, 0.4], [left, left], [right, right]).path()
-    lowest = diabolo.hanging(Parameters(), left, right).position
+    lowest = diabolo.hang_at_rest(Parameters(), left, right).position
     assert lowest == pytest.approx([0.5, 0.0, 1.2 - np.sqrt(0.725**2 - 0.3**2)], abs=1e-6)
     for model in (
         Model(Parameters(), string_friction=StringFriction(coefficient=0.3)),
         Model(Parameters(), string_elasticity=diabolo.StringElasticity.of_stiffness(300.0, 5.0)),
     ):
-        state = diabolo.hanging(model, left, right, spin=100.0)
+        state = diabolo.hang_at_rest(model, left, right, spin=100.0)
         assert np.linalg.norm(state.position - lowest) > 0.002
         _, states, _, _, _ = diabolo._core.foresee(model, state, rest)
         assert np.linalg.norm(states[:, :3] - state.position, axis=1).max() < 0.003
@@ -339,7 +339,7 @@ def test_ctrl_c_ends_a_plan_whose_limits_are_in_python() -> None:
         "import diabolo, numpy as np, threading, os, signal\n"
         "from diabolo import Goals, StickSpline, TipLimits, Waypoint, Model\n"
         "left, right = [0.0, 0.5, 1.0], [0.0, -0.5, 1.0]\n"
-        "start = diabolo.hanging(Model.consistent(), left, right, 100.0)\n"
+        "start = diabolo.hang_at_rest(Model.consistent(), left, right, 100.0)\n"
         "goals = Goals(final_state=Waypoint([9.0, 0.0, 0.0]))\n"
         "seed = StickSpline(np.linspace(0, 3, 13), [left] * 13, [right] * 13)\n"
         "threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()\n"

@@ -28,6 +28,7 @@ from benchmarks.proof.diagnosis import (
     run,
     score,
     seal,
+    strangers,
     tables,
     tools,
 )
@@ -309,6 +310,34 @@ def test_only_what_is_at_work_is_in_the_key(keys: list[dict[str, Any]]) -> None:
         assert bool(faults) == (key["arm"] in ("faults", "with_fault"))
 
 
+def test_a_stranger_is_alone_at_work_and_says_where_it_acts() -> None:
+    words = {"time", "place", "speed", "spin", "tension", "string", "tips"}
+    for kind, law in strangers.KINDS.items():
+        content = arms.content_of(kind, np.random.default_rng(1))
+        assert content.outside == kind and content.names == [*law.names] and not content.steps
+        assert sum(len(fields) for fields in content.departure.values()) > 0
+        assert {"ON_STRING"} <= {*law.modes} <= {"ON_STRING", "FLYING"}
+        assert {*law.depends.split(", ")} <= words
+
+
+@pytest.mark.parametrize(
+    ("headline", "adequacy", "expected"),
+    [
+        ("NOTHING_MISSING", {"adequate": True}, strangers.SILENT),
+        ("NAMED", {"adequate": True}, strangers.TAKEN_FOR),
+        ("NAMED", {}, strangers.SILENT),
+        ("NAMED", {"adequate": False, "places": [{"left": 0.003}]}, strangers.TOLD),
+        ("UNNAMED_STRUCTURE", {"adequate": False}, strangers.TOLD),
+        ("INSUFFICIENT_DATA", {}, strangers.REFUSED),
+    ],
+)
+def test_silence_is_told_from_a_word(headline: str, adequacy: dict[str, Any], expected: str) -> None:
+    answer = {"headline": headline, "adequacy": adequacy, "effects": [], "sentence": ""}
+    row = {"kind": "gust", **strangers.row(answer)}
+    assert row["verdict"] == expected
+    assert f"{expected}: 1 of 1" in strangers.text_of([row])
+
+
 def recording(rows: int = 400, rate: float = 100.0) -> camera_steps.Tidy:
     time = np.arange(rows) / rate
     columns = {"time": time}
@@ -441,9 +470,9 @@ def test_a_record_that_is_not_what_was_sealed_is_told(
 def test_a_retired_batch_keeps_its_scores(ninth: commands.Places) -> None:
     scores = record.read(ninth.record("ninth")).summary("diagnose")["scores"]
     assert commands.retire_batch(ninth, "ninth") == 0
-    assert [path.name for path in ninth.earlier.parent.iterdir()] == ["earlier.json"]
+    assert [path.name for path in ninth.earlier.parent.iterdir()] == ["earlier.jsonl.xz"]
     batches = earlier.read(ninth.earlier)
-    assert [*batches][-2:] == ["seventh", "ninth"]
+    assert [*batches][-2:] == ["eighth", "ninth"]
     assert batches["ninth"]["seal"] == DIGEST_OF_NINTH
     assert [score["hits"] for score in batches["ninth"]["scores"]] == [score["hits"] for score in scores]
     with pytest.raises(ValueError, match=r"ninth\.jsonl\.xz: there is no such file"):
@@ -512,7 +541,7 @@ def test_page_and_table_hold_scores_and_failures(keys: list[dict[str, Any]], tmp
     )
     text = (tmp_path / "proof.md").read_text()
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(path.name for path in written)
-    assert text.splitlines()[0] == "`python -m benchmarks.proof.diagnosis page one` made this page."
+    assert text.splitlines()[2] == "`python -m benchmarks.proof.diagnosis page one` made this page."
     assert "| false physics on nulls | 100.0 % |" in text
     assert (
         text.count("false physics air_drag_quadratic")

@@ -136,6 +136,7 @@ INVENTED: dict[str, Any] = {
     "next_experiment": [
         {
             "motion": "high_throw",
+            "what": "a throw as high as can be caught",
             "parts": ["air_drag_linear", "air_drag_quadratic"],
             "odds": 23.4,
             "seconds": 12.0,
@@ -215,7 +216,7 @@ def test_the_page_gives_the_answer_first_and_its_parts_in_order() -> None:
         "no claimed effect is tied",
         "Radius of the axle",
         "below 0.011 1/s",
-        "high throw",
+        "a throw as high as can be caught",
         "invented_throw.csv 0123456789abcdef",
         "0.41 mm",
     ]
@@ -376,7 +377,7 @@ def test_a_tie_is_told_once_with_what_would_part_it() -> None:
     effects[0] |= {"name": "air_drag_linear", "tied_with": ["air_drag_quadratic"]}
     effects[1] |= {"name": "air_drag_quadratic", "tied_with": ["air_drag_linear"]}
     text = Page(report_html(invented(headline="TIE", effects=effects))).text
-    assert text.count("this data cannot tell them apart. What would: high throw.") == 1
+    assert text.count("this data cannot tell them apart. What would: a throw as high as can be caught.") == 1
 
 
 def test_an_unnamed_law_is_shown_with_its_curve() -> None:

@@ -104,7 +104,11 @@ def test_the_map_meets_the_tip_and_its_slopes_follow(maps: dict[str, robot.Stick
     inner = 0.9 * points + 0.1 * points.mean(axis=(0, 1))
     step = np.array([1e-6, 0.0, 0.0])
     change = (solver.solve(inner + step)[0] - solver.solve(inner - step)[0]) / 2e-6
-    np.testing.assert_allclose(solver.slopes(inner)[..., 0], change, atol=1e-5)
+    slopes = solver.slopes(inner)
+    np.testing.assert_allclose(slopes[..., 0], change, atol=1e-5)
+    along, slowest = solver.tip_speed(inner, [0.0, 0.0, 2.0]), solver.slowest_tip_speed(inner)
+    np.testing.assert_allclose(along * np.abs(slopes[..., 2]).max(axis=-1), np.pi)
+    np.testing.assert_allclose(slowest * np.linalg.norm(slopes, axis=-1).max(axis=-1), np.pi)
 
 
 def test_points_that_are_not_reached_have_a_code_and_no_joints(maps: dict[str, robot.StickMap]) -> None:
@@ -112,6 +116,7 @@ def test_points_that_are_not_reached_have_a_code_and_no_joints(maps: dict[str, r
     assert list(faults) == [0, 1]
     assert robot.FAULTS[faults[1]] == "outside the box of the seed grid"
     assert np.isfinite(joints[0]).all() and np.isnan(joints[1]).all()
+    assert np.isnan(maps["right"].tip_speed([3.0, 0.0, 1.0], [1.0, 0.0, 0.0]))
     with pytest.raises(ValueError, match=r"points: shape \(2,\); expected \(\.\.\., 3\)"):
         maps["right"].solve([1.0, 2.0])
     with pytest.raises(ValueError, match="points: nan at index 0"):

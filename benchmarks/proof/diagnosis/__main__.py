@@ -19,12 +19,13 @@ from diabolo.cli.files import check_outputs
 
 from ... import command
 from .. import plant
-from . import commands, tools
+from . import commands, strangers, tools
 
 BUILD = Path("build/proof/diagnosis")
 QUICK_CASES, SEALED_CASES = 24, 600
 EXAMPLE = """\
   make plant && python -m benchmarks.proof.diagnosis quick --cases 24
+  python -m benchmarks.proof.diagnosis strangers --cases 9
   python -m benchmarks.proof.diagnosis seal tenth --cases 600      # then commit batches/tenth.json
   python -m benchmarks.proof.diagnosis run tenth --minutes 60      # goes on where it was stopped
   python -m benchmarks.proof.diagnosis score tenth && python -m benchmarks.proof.diagnosis page tenth
@@ -35,6 +36,9 @@ def make_parser() -> argparse.ArgumentParser:
     parser = command.make_parser("benchmarks.proof.diagnosis", __doc__, EXAMPLE)
     actions = parser.add_subparsers(dest="what", metavar="ACTION", required=True)
     _add_quick(actions.add_parser("quick", help="a few cases, not sealed: make, diagnose and score them"))
+    _add_strangers(
+        actions.add_parser("strangers", help="laws that no name stands for: is the answer silent about one?")
+    )
     for name, summary in (
         ("seal", "draw a batch, and publish the hashes of its keys"),
         ("run", "diagnose the recordings of a batch; goes on where it was stopped"),
@@ -52,6 +56,15 @@ def _add_quick(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
     _add_making(parser)
     _add_tool(parser)
+    _add_json(parser)
+
+
+def _add_strangers(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Exit status 1 where an answer is silent about a law that is at work."
+    kinds = len(strangers.KINDS)
+    parser.add_argument("--cases", metavar="N", type=int, default=kinds, help=f"default: {kinds}, one a kind")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
+    _add_making(parser)
     _add_json(parser)
 
 
@@ -111,6 +124,7 @@ def act(given: argparse.Namespace) -> int:
 
 ACTIONS: dict[str, Callable[[commands.Places, argparse.Namespace], int]] = {
     "quick": lambda at, g: commands.quick(at, g.cases, g.seed, g.tool, g.jobs, g.json),
+    "strangers": lambda at, g: commands.meet_strangers(at, g.cases, g.seed, g.jobs, g.json),
     "seal": lambda at, g: commands.seal_batch(at, g.name, g.cases, g.jobs),
     "run": lambda at, g: commands.run_batch(at, g.name, g.tool, g.minutes, g.jobs),
     "score": lambda at, g: commands.score_batch(at, g.name, g.tool, g.jobs, g.json),

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from . import sizes
+from . import sizes, strangers
 
 # Of 600 cases.
 SHARES: dict[str, int] = {
@@ -162,7 +162,11 @@ _MAKERS: dict[str, Callable[[Content, np.random.Generator], None]] = {
 
 
 def content_of(arm: str, generator: np.random.Generator) -> Content:
-    """What is at work in a case of an arm."""
+    """What is at work in a case of an arm, or of a kind of strangers."""
     content = Content()
-    _MAKERS[arm](content, generator)
+    if stranger := strangers.KINDS.get(arm):
+        content.outside = arm
+        content.add(list(stranger.names), stranger.draw(generator))
+    else:
+        _MAKERS[arm](content, generator)
     return content

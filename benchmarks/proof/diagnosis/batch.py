@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -74,12 +74,14 @@ def _apart(folder: Path) -> Iterator[Path]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
+DRAWING = ("arms", "base", "camera_steps", "draw", "motions", "sizes", "strangers")
+"""Sources that the cases depend on."""
+
+
 def stamp(program: Path, seed: int, cases: int) -> dict[str, Any]:
     """What the cases depend on."""
     sources = sorted(Path(__file__).parent.glob("*.py"))
-    drawing = [
-        path for path in sources if path.stem in ("arms", "base", "camera_steps", "draw", "motions", "sizes")
-    ]
+    drawing = [path for path in sources if path.stem in DRAWING]
     return {
         "seed": seed,
         "cases": cases,
@@ -101,7 +103,12 @@ def make(
     """Makes all cases of a batch, `but` some, that are not there yet; returns what was planned."""
     store.fit_for({**stamp(program, seed, cases), "chain": chain})
     planned = draw.plans(seed, cases, chain)
-    wanted = [plan for plan in planned if plan.name not in but]
+    make_planned(store, program, [plan for plan in planned if plan.name not in but], jobs, report)
+    return planned
+
+
+def make_planned(store: Store, program: Path, wanted: Sequence[draw.Plan], jobs: int, report: Report) -> None:
+    """Makes cases that are not there yet."""
     with ThreadPoolExecutor(jobs) as pool:
         running = [pool.submit(store.make, program, plan) for plan in wanted]
         try:
@@ -111,4 +118,3 @@ def make(
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-    return planned

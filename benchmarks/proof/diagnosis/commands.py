@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import files, plant
-from . import answer, batch, earlier, making, page, record, run, seal, tables, tools
+from . import answer, batch, draw, earlier, making, page, record, run, seal, strangers, tables, tools
 from .names import physics_among
 
 ARMS_WITH_ORACLE = ("single", "several", "with_fault", "tie", "outside")
@@ -36,7 +36,7 @@ class Places:
 
     @property
     def earlier(self) -> Path:
-        return self.sources / "batches" / "earlier.json"
+        return self.sources / "batches" / "earlier.jsonl.xz"
 
     def store(self, name: str) -> batch.Store:
         return batch.Store(self.build / name)
@@ -194,7 +194,7 @@ def retire_batch(places: Places, name: str) -> int:
     check_name(name)
     found = record.read(places.record(name))
     entry = earlier.entry(found.sealed, found.summary(DIAGNOSE))
-    files.write_text(places.earlier, earlier.text_of({**earlier.read(places.earlier), name: entry}))
+    earlier.write(places.earlier, {**earlier.read(places.earlier), name: entry})
     places.record(name).unlink()
     print(f"{places.earlier}: holds {name} now; its record is gone")
     return 0
@@ -227,6 +227,25 @@ def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file
     }
     result = record.summary(keys, {tool: found, **told}, tool)
     return _finish({"batch": None, "tool": tool, "seed": seed, **result}, json_file)
+
+
+def meet_strangers(places: Places, cases: int, seed: int, jobs: int, json_file: Path | None) -> int:
+    """Laws that no name stands for, one kind after the other; the exit status is 1 where one is met with
+    silence."""
+    plant.check(places.program)
+    store = places.store(f"strangers_{seed}_{cases}")
+    store.fit_for(batch.stamp(places.program, seed, cases))
+    kinds = [*strangers.KINDS]
+    planned = [draw.Plan(seed, n + 1, kinds[n % len(kinds)], "springs") for n in range(cases)]
+    batch.make_planned(store, places.program, planned, jobs, places.report)
+    rows = []
+    for done, plan in enumerate(planned):
+        places.report(f"{plan.name}: {done} of {cases} done", done / cases)
+        rows.append({"kind": plan.arm, **strangers.row(tools.full(store.recording(plan.name)))})
+    if json_file is not None:
+        files.write_json(json_file, {"seed": seed, "cases": rows})
+    print(strangers.text_of(rows))
+    return 1 if any(row["verdict"] == strangers.SILENT for row in rows) else 0
 
 
 def _drop_if_older(path: Path, than: Path) -> None:

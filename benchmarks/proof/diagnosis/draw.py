@@ -13,8 +13,8 @@ from . import arms, base, sizes
 
 # What the chain of nodes has no law for.
 SPRINGS_ALONE = {
-    "string": ("wraps", "stiffening_stretch", "friction_rise", "stribeck_speed", "lay"),
-    "diabolo": ("bearing_torque", "flank_friction", "flank_radius"),
+    "string": ("wraps", "stiffening_stretch", "friction_rise", "stribeck_speed", "lay", "creep"),
+    "diabolo": ("bearing_torque", "flank_friction", "flank_radius", "tension_drag"),
 }
 LEAST_SPIN, MOST_SPIN = 40.0, 300.0  # at the end and at the start [rad/s]
 TRIES = 8  # of a content before another is drawn

@@ -25,12 +25,12 @@ def entry(sealed: dict[str, Any], result: dict[str, Any]) -> Entry:
     }
 
 
-def text_of(batches: dict[str, Entry]) -> str:
-    """One line a batch."""
-    lines = [f"{files.text_of(name)}: {files.text_of(one)}" for name, one in batches.items()]
-    return "{\n" + ",\n".join(lines) + "\n}\n"
+def write(path: Path, batches: dict[str, Entry]) -> None:
+    """A packed line for each batch."""
+    files.write_packed(path, ({"batch": name, **one} for name, one in batches.items()))
 
 
 def read(path: Path) -> dict[str, Entry]:
     """By name, in their order; empty where there are none."""
-    return dict(files.read_json(path, "the earlier batches")) if path.exists() else {}
+    lines = files.read_packed(path) if path.exists() else []
+    return {line["batch"]: {name: line[name] for name in line if name != "batch"} for line in lines}

@@ -15,9 +15,9 @@ COMMAND = "python -m benchmarks.proof.diagnosis"
 FOLDER = "benchmarks/proof/diagnosis/batches"
 
 INTRODUCTION = """\
-`{command}` made this page.
-
 # The diagnosis on concealed data
+
+`{command}` made this page.
 
 Batch {name}: {cases} recordings of the project's plant. They were drawn and sealed at commit
 `{commit}` before any of them was diagnosed. The commit gives the seed, so
@@ -27,17 +27,33 @@ that no batch can be chosen. Hashes of keys and recordings, the keys and the ans
 
 {arms}
 
-The SNR of an effect is its z-score in the oracle's fit, which is told what is at work. Rates have
-Clopper-Pearson intervals. "missed" means by more than the interval allows.
+| word | meaning |
+|---|---|
+| null | a case in which nothing is at work but small faults, each below the floor of a claim |
+| oracle | the diagnosis that is told which effects are at work |
+| SNR | z-score of an effect in the oracle's fit |
+| z | z-score of a fault in the diagnosis's own fit |
+| mode | where an effect acts: on the taut string, with a loose string, in flight |
+| gap closed | share of the error between base and oracle, held out, that the diagnosis removes |
+| class | a claimed name, with the names that it is tied with |
+| missed | off the bound by more than the interval |
+| missed, within its interval | the value is off the bound, the interval reaches it |
+
+Rates have Clopper-Pearson intervals. [Here](../benchmarks/proof/diagnosis/README.md) the arms are described.
 """
 
 EARLIER = """\
 ## Earlier batches
 
 Each was drawn, scored, and learned from: the tool and some of the scores changed after it. Commits, seeds and
-the hashes of their seals are in [earlier.json](../{folder}/earlier.json). In brackets: cases.
+the hashes of their seals are in [earlier.jsonl.xz](../{folder}/earlier.jsonl.xz). In brackets: cases.
 
 """
+
+
+def _row_of(score: dict[str, Any]) -> list[str]:
+    """With the page's words in place of the files'."""
+    return tables.row_of({**score, "name": score["name"].replace("the bank", "the candidates")})
 
 
 def _rate(row: dict[str, Any]) -> list[str]:
@@ -104,7 +120,7 @@ def _names(rows: list[dict[str, Any]]) -> str:
 def _compared(result: dict[str, Any], others: dict[str, dict[str, Any]]) -> str:
     everyone = {"diagnose": result, **others}
     rows = [
-        [score["name"], *(tables.row_of(one["scores"][place])[1] for one in everyone.values())]
+        [_row_of(score)[0], *(_row_of(one["scores"][place])[1] for one in everyone.values())]
         for place, score in enumerate(result["scores"])
     ]
     return markdown(["score", *everyone], rows)
@@ -114,8 +130,10 @@ def _earlier(result: dict[str, Any], batches: dict[str, Entry]) -> str:
     """The scores that have a bound, of each batch."""
     scores = {name: {score["name"]: score for score in batch["scores"]} for name, batch in batches.items()}
     rows = [
-        [name, *(tables.row_of(one[name])[1] if name in one else "-" for one in scores.values())]
-        for name in (score["name"] for score in result["scores"] if tables.bound_of(score))
+        [_row_of(score)[0], *(_row_of(one[name])[1] if name in one else "-" for one in scores.values())]
+        for score in result["scores"]
+        for name in [score["name"]]
+        if tables.bound_of(score)
     ]
     return markdown(["score", *(f"{name} ({batches[name]['cases']})" for name in scores)], rows)
 
@@ -140,12 +158,11 @@ def text_of(
             commit=sealed["commit"],
             arms=arms,
         ),
-        "## Scores\n\n" + markdown(tables.HEADER, [tables.row_of(score) for score in result["scores"]]),
+        "## Scores\n\n" + markdown(tables.HEADER, [_row_of(score) for score in result["scores"]]),
     ]
     for structure, scores in result["by_plant"].items():
         parts.append(
-            f"### Plant: {structure}\n\n"
-            + markdown(tables.HEADER, [tables.row_of(score) for score in scores])
+            f"### Plant: {structure}\n\n" + markdown(tables.HEADER, [_row_of(score) for score in scores])
         )
     if others:
         parts.append("## Simpler tools on the same recordings\n\n" + _compared(result, others))

@@ -217,7 +217,7 @@ def cycles(
     for number in range(count):
         seam = player.horizon.seam_at(player.path.end)
         gain = GAINS[name] if kind != "consistent" else None  # without friction no motion gains any
-        action = _core.action(name, player.left, player.right, seam.state, plant.length, spin=gain)
+        action = _core.action(name, player.left, player.right, seam.state, plant.length, spin_gain=gain)
         player.add(seam.joined(action.seed), action.goals, action.freedom, seam)
         ends.append(player.path.end)
         if (number + 1) % every != 0 and number + 1 < count:

@@ -68,15 +68,14 @@ void ChainPlant::kick(Moment& moment, double step) const {
   measure_rates(moment, &Spring::rate, springs);
 
   // All that does not come from the string.
-  const Vec3 axis = state.col(kAxis);
-  const double spin = spin_about_axis(diabolo, state);
-  const Vec3 velocity = state.col(kVelocity);
-  state.col(kVelocity) +=
-      step * (parameters_.gravity + air_acceleration(parameters_.air, velocity, axis, spin));
+  const Vec3 tips_velocity = 0.5 * (chain.velocities.front() + chain.velocities.back());
+  const Meeting met = meeting(diabolo, state, moment.time + 0.5 * step, tips_velocity);
+  state.col(kVelocity) += step * (parameters_.gravity + air_acceleration(parameters_.air, met));
   state.col(kAngularMomentum) += step *
-                                 (windage_torque(parameters_.air.windage, spin) +
-                                  axle_torque(diabolo.axle_drag, diabolo.axial_inertia, spin)) *
-                                 axis;
+                                 (windage_torque(parameters_.air, met.spin) +
+                                  axle_torque(diabolo.axle_drag, diabolo.axial_inertia, met.spin) +
+                                  gust_torque(parameters_.air, diabolo.axial_inertia, met.time)) *
+                                 met.axis;
   straighten(moment, step);
   calm(moment, step);
   guide(moment);

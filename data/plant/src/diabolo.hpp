@@ -21,6 +21,7 @@ struct DiaboloParameters {
   std::optional<double>
       bearing_torque;           ///< drag of a one-way bearing in its free sense [N m]; none: fixed axle
   double axle_drag = 0.0;       ///< constant deceleration of the spin [rad/s^2]
+  double tension_drag = 0.0;    ///< deceleration of the centre per mean tension of the string [m/s^2/N]
   double flank_friction = 0.0;  ///< coefficient of the string against a cup's flank
   double flank_radius = 0.012;  ///< radius at which it rubs there [m]
 };
@@ -57,15 +58,24 @@ inline Tensions bearing_limited(const DiaboloParameters& diabolo, const StringPa
   return {mean - 0.5 * kept, mean + 0.5 * kept};
 }
 
+/// How the diabolo meets the air at a time [s], where the tips move at a mean velocity [m/s].
+inline Meeting meeting(const DiaboloParameters& diabolo, const State& state, double time,
+                       const Vec3& tips_velocity) {
+  return {time,
+          state.col(kPosition),
+          state.col(kVelocity),
+          state.col(kAxis),
+          spin_about_axis(diabolo, state),
+          tips_velocity};
+}
+
 /// Adds what air and bearing do, whether on the string or off it, to a rate of state.
-inline void add_drags(const DiaboloParameters& diabolo, const AirParameters& air, const State& state,
+inline void add_drags(const DiaboloParameters& diabolo, const AirParameters& air, const Meeting& met,
                       State& rate) {
-  const Vec3 velocity = state.col(kVelocity);
-  const Vec3 axis = state.col(kAxis);
-  const double spin = spin_about_axis(diabolo, state);
-  rate.col(kVelocity) += air_acceleration(air, velocity, axis, spin);
-  rate.col(kAngularMomentum) += windage_torque(air.windage, spin) * axis;
-  rate.col(kAngularMomentum) += axle_torque(diabolo.axle_drag, diabolo.axial_inertia, spin) * axis;
+  rate.col(kVelocity) += air_acceleration(air, met);
+  rate.col(kAngularMomentum) += windage_torque(air, met.spin) * met.axis;
+  rate.col(kAngularMomentum) += axle_torque(diabolo.axle_drag, diabolo.axial_inertia, met.spin) * met.axis;
+  rate.col(kAngularMomentum) += gust_torque(air, diabolo.axial_inertia, met.time) * met.axis;
 }
 
 /// Adds the string's pull to a rate of state; `twisted` times its friction pushes along `axis` beside.
@@ -76,6 +86,8 @@ inline void add_string_pull(const DiaboloParameters& diabolo, const StringShape&
   const Vec3 right = tensions.right * shape.strands[1].direction;
   const Vec3 force = left + right;
   rate.col(kVelocity) += force / diabolo.mass;
+  const double mean = 0.5 * (tensions.left + tensions.right);
+  rate.col(kVelocity) -= diabolo.tension_drag * mean * heading(state.col(kVelocity));
   rate.col(kAngularMomentum) += shape.strands[0].arm.cross(left) + shape.strands[1].arm.cross(right);
   const Vec3 along = twisted * (tensions.right - tensions.left) * axis;
   rate.col(kVelocity) += along / diabolo.mass;

@@ -19,7 +19,7 @@ void refuse_in_chain(const Fields& fields, Structure structure, std::initializer
 }
 
 DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo, Structure structure) {
-  refuse_in_chain(fields, structure, {"bearing_torque", "flank_friction", "flank_radius"});
+  refuse_in_chain(fields, structure, {"bearing_torque", "tension_drag", "flank_friction", "flank_radius"});
   fields.read("mass", diabolo.mass, {0.01, 5.0});
   fields.read("diameter", diabolo.diameter, {0.02, 0.5});
   fields.read("length", diabolo.length, {0.03, 0.5});
@@ -30,6 +30,7 @@ DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo, Structu
   fields.read("groove_half_width", diabolo.groove.half_width, {0.0, 0.05});
   fields.read("bearing_torque", diabolo.bearing_torque, {0.0, 1.0});
   fields.read("axle_drag", diabolo.axle_drag, {0.0, 1000.0});
+  fields.read("tension_drag", diabolo.tension_drag, {0.0, 100.0});
   fields.read("flank_friction", diabolo.flank_friction, {0.0, 2.0});
   fields.read("flank_radius", diabolo.flank_radius, {0.001, 0.1});
   fields.finish();
@@ -39,8 +40,9 @@ DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo, Structu
 StringParameters read_string(Fields fields, StringParameters string, Structure structure) {
   const bool is_chain = structure == Structure::kChain;
   refuse_in_chain(fields, structure,
-                  {"stiffening_stretch", "friction_rise", "stribeck_speed", "lay", "wraps"});
+                  {"creep", "stiffening_stretch", "friction_rise", "stribeck_speed", "lay", "wraps"});
   fields.read("length", string.length, {0.2, 5.0});
+  fields.read("creep", string.creep, {0.0, 0.1});
   fields.read("radius", string.radius, {0.0, 0.01});
   fields.read("stiffness", string.stiffness, {10.0, 1e6});
   fields.read("stiffening_stretch", string.stiffening_stretch, {1e-4, 1e6});
@@ -72,9 +74,19 @@ StickParameters read_sticks(Fields fields, StickParameters sticks) {
 AirParameters read_air(Fields fields, AirParameters air) {
   fields.read("linear_drag", air.linear_drag, {0.0, 10.0});
   fields.read("drag", air.drag, {0.0, 1.0});
+  fields.read("drag_power", air.drag_power, {1.0, 4.0});
+  fields.read("constant_drag", air.constant_drag, {0.0, 100.0});
   fields.read("magnus", air.magnus, {-0.1, 0.1});
   fields.read("wind", air.wind);
+  fields.read("tip_wake", air.tip_wake, {-100.0, 100.0});
+  fields.read("pull", air.pull, {-100.0, 100.0});
+  fields.read("pull_centre", air.pull_centre);
+  fields.read("gust", air.gust);
+  fields.read("spin_gust", air.spin_gust, {-1000.0, 1000.0});
+  fields.read("gust_frequency", air.gust_frequency, {0.0, 100.0});
+  fields.read("gust_phase", air.gust_phase, {-10.0, 10.0});
   fields.read("windage", air.windage, {0.0, 1e-5});
+  fields.read("windage_power", air.windage_power, {0.5, 4.0});
   fields.finish();
   return air;
 }

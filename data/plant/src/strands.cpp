@@ -20,14 +20,18 @@ StringShape StrandsPlant::shape(const Moment& moment, const State& state, const 
   return string_shape(parameters_.string, parameters_.diabolo.groove, ends);
 }
 
-State StrandsPlant::rate(const Moment& moment, const State& state, const Pair<Stick>& sticks) const {
+/// Rate of a state at a time [s], in the moment's mode.
+State StrandsPlant::rate(const Moment& moment, double time, const State& state,
+                         const Pair<Stick>& sticks) const {
   const DiaboloParameters& diabolo = parameters_.diabolo;
-  const StringParameters& string = parameters_.string;
+  const StringParameters string = parameters_.string.at(time);
   State rate = State::Zero();
   rate.col(kPosition) = state.col(kVelocity);
   rate.col(kVelocity) = parameters_.gravity;
   add_rotation(diabolo, state, rate);
-  add_drags(diabolo, parameters_.air, state, rate);
+  const Vec3 tips_velocity =
+      0.5 * (sticks[0].velocity + state.col(kLeftBendRate) + sticks[1].velocity + state.col(kRightBendRate));
+  add_drags(diabolo, parameters_.air, meeting(diabolo, state, time, tips_velocity), rate);
 
   Pair<Vec3> pulls{Vec3::Zero(), Vec3::Zero()};
   if (moment.mode == Mode::kOnString) {
@@ -52,14 +56,16 @@ State StrandsPlant::rate(const Moment& moment, const State& state, const Pair<St
 }
 
 State StrandsPlant::runge_kutta(const Moment& moment, double step) const {
+  const double middle = moment.time + 0.5 * step;
+  const double end = moment.time + step;
   const Pair<Stick> at_start = motion_.at(moment.time);
-  const Pair<Stick> at_middle = motion_.at(moment.time + 0.5 * step);
-  const Pair<Stick> at_end = motion_.at(moment.time + step);
+  const Pair<Stick> at_middle = motion_.at(middle);
+  const Pair<Stick> at_end = motion_.at(end);
   const State& state = moment.state;
-  const State k1 = rate(moment, state, at_start);
-  const State k2 = rate(moment, state + 0.5 * step * k1, at_middle);
-  const State k3 = rate(moment, state + 0.5 * step * k2, at_middle);
-  const State k4 = rate(moment, state + step * k3, at_end);
+  const State k1 = rate(moment, moment.time, state, at_start);
+  const State k2 = rate(moment, middle, state + 0.5 * step * k1, at_middle);
+  const State k3 = rate(moment, middle, state + 0.5 * step * k2, at_middle);
+  const State k4 = rate(moment, end, state + step * k3, at_end);
   return state + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
 }
 

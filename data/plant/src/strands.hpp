@@ -18,10 +18,10 @@ class StrandsPlant final : public Plant {
  private:
   Pair<Vec3> tips(const State& state, const Pair<Stick>& sticks) const;
   StringShape shape(const Moment& moment, const State& state, const Pair<Stick>& sticks) const;
-  State rate(const Moment& moment, const State& state, const Pair<Stick>& sticks) const;
+  State rate(const Moment& moment, double time, const State& state, const Pair<Stick>& sticks) const;
   State runge_kutta(const Moment& moment, double step) const;
   Moment stepped(const Moment& moment, double step) const;
-  bool is_taut(const StringShape& shape) const;
+  bool is_taut(const StringShape& shape, double time) const;
   double height_above_chord(const Moment& moment) const;
   bool stays(const Moment& moment) const;
   void switch_mode(Moment& moment) const;

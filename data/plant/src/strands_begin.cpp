@@ -25,7 +25,7 @@ void StrandsPlant::hang(Moment& moment) const {
   const Pair<Stick> sticks = motion_.at(moment.time);
   const Eigen::Index size = 3 * static_cast<Eigen::Index>(unknowns.size());
   const auto accelerations = [&](const State& state) {
-    const State change = rate(moment, state, sticks);
+    const State change = rate(moment, moment.time, state, sticks);
     Eigen::VectorXd result(size);
     Eigen::Index row = 0;
     for (const auto& [place, acceleration] : unknowns) {
@@ -86,7 +86,7 @@ Moment StrandsPlant::begin(const Start& start) const {
   } else {
     const StringShape now = shape(moment, moment.state, sticks);
     moment.wrap_reference = now.wrap;
-    moment.mode = is_taut(now) ? Mode::kOnString : Mode::kLoose;
+    moment.mode = is_taut(now, moment.time) ? Mode::kOnString : Mode::kLoose;
   }
   return moment;
 }

@@ -15,9 +15,9 @@ constexpr double kCatchMargin = 0.01;      // of the cups that a catch must leav
 
 }  // namespace
 
-bool StrandsPlant::is_taut(const StringShape& shape) const {
-  return shape.length > parameters_.string.length && shape.wrap > 0.0 &&
-         string_tensions(parameters_.string, shape).left > 0.0;
+bool StrandsPlant::is_taut(const StringShape& shape, double time) const {
+  const StringParameters string = parameters_.string.at(time);
+  return shape.length > string.length && shape.wrap > 0.0 && string_tensions(string, shape).left > 0.0;
 }
 
 double StrandsPlant::height_above_chord(const Moment& moment) const {
@@ -28,7 +28,7 @@ double StrandsPlant::height_above_chord(const Moment& moment) const {
 bool StrandsPlant::stays(const Moment& moment) const {
   if (moment.mode == Mode::kFlying) return height_above_chord(moment) > 0.0;
   const StringShape now = shape(moment, moment.state, motion_.at(moment.time));
-  const bool taut = is_taut(now);
+  const bool taut = is_taut(now, moment.time);
   if (moment.mode == Mode::kOnString) return taut;
   if (taut) return false;
   if (parameters_.string.wraps > 0) return true;
@@ -42,7 +42,7 @@ void StrandsPlant::switch_mode(Moment& moment) const {
       moment.mode = Mode::kLoose;
       break;
     case Mode::kLoose:
-      if (is_taut(shape(moment, moment.state, motion_.at(moment.time)))) {
+      if (is_taut(shape(moment, moment.state, motion_.at(moment.time)), moment.time)) {
         moment.mode = Mode::kOnString;
       } else {
         moment.mode = Mode::kFlying;

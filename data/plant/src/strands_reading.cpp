@@ -25,7 +25,7 @@ double StrandsPlant::energy(const State& state) const {
 }
 
 Reading StrandsPlant::read(const Moment& moment) const {
-  const StringParameters& string = parameters_.string;
+  const StringParameters string = parameters_.string.at(moment.time);
   const Pair<Stick> sticks = motion_.at(moment.time);
   Reading reading;
   reading.tips = tips(moment.state, sticks);

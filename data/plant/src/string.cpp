@@ -74,7 +74,7 @@ Tensions string_tensions(const StringParameters& string, const StringShape& shap
       string.length / shape.length;
   const double stretch = shape.length - string.length;
   const double left = (string.stiffness * stretch * (1.0 + stretch / string.stiffening_stretch) +
-                       string.damping * string.length * shape.rate) /
+                       string.damping * string.length * (shape.rate - string.creep)) /
                       weight;
   return {left, ratio * left};
 }

@@ -11,7 +11,8 @@ namespace plant {
 
 /// An elastic string that rubs around the axle.
 struct StringParameters {
-  double length = 1.45;       ///< unstretched, tip to tip [m]
+  double length = 1.45;       ///< unstretched, tip to tip, at the start [m]
+  double creep = 0.0;         ///< its growth per time [m/s]
   double radius = 0.0008;     ///< [m]
   double stiffness = 2000.0;  ///< EA, force per relative stretch [N]
   double stiffening_stretch =
@@ -27,6 +28,13 @@ struct StringParameters {
   double bending_damping = 4e-7;  ///< of a chain: moment per rate of curvature [N m^2 s]
   double wave_damping = 3.0;      ///< of a chain: rate at which waves across the string die out [1/s]
   int wraps = 0;                  ///< whole turns around the axle beyond the simple pass under it
+
+  /// The string as it is at a time [s]: longer, if it creeps.
+  StringParameters at(double time) const {
+    StringParameters later = *this;
+    later.length += creep * time;
+    return later;
+  }
 };
 
 /// Where the string is asked to lie: the axle, the tips and their motion.
@@ -75,7 +83,8 @@ struct Groove {
 /// Shape of the taut string. Throws std::domain_error when a tip has come within the axle.
 StringShape string_shape(const StringParameters& string, const Groove& groove, const StringEnds& ends);
 
-/// Tensions of the two strands: one stretch, shared out by capstan friction.
+/// Tensions of the two strands: one stretch, shared out by capstan friction. The string is that of the
+/// moment.
 Tensions string_tensions(const StringParameters& string, const StringShape& shape);
 
 }  // namespace plant

@@ -85,6 +85,34 @@ TEST_CASE("a bad scenario is refused in one sentence that names the field") {
         "motion.elements: found [], expected at least one element");
 }
 
+TEST_CASE("laws that no diagnosis names are read within their ranges, and a chain has no string for some") {
+  Fields::Json json = minimal();
+  json["air"] = Fields::Json::parse(R"({"gust": [1, 0, 0.5], "gust_frequency": 0.7, "gust_phase": 1,
+    "spin_gust": 4, "constant_drag": 0.3, "drag_power": 3, "windage_power": 1.2, "tip_wake": 0.4,
+    "pull": 2, "pull_centre": [0.1, 0, 1]})");
+  const AirParameters air = scenario_from_json(json).plant.air;
+  CHECK(air.gust == Vec3(1.0, 0.0, 0.5));
+  CHECK(air.gust_frequency + air.gust_phase + air.spin_gust == Approx(5.7));
+  CHECK(air.constant_drag + air.drag_power + air.windage_power + air.tip_wake + air.pull == Approx(6.9));
+  CHECK(air.pull_centre == Vec3(0.1, 0.0, 1.0));
+  CHECK(message_of("/string/creep", 0.002) == "accepted");
+  CHECK(message_of("/diabolo/tension_drag", 0.1) == "accepted");
+  CHECK(message_of("/air/gusts", 1) == "air.gusts: unknown field");
+  CHECK(message_of("/air/gust", 1) == "air.gust: found 1, expected three numbers");
+  CHECK(message_of("/air/drag_power", 0.5) == "air.drag_power: found 0.5, expected a number from 1 to 4");
+  CHECK(message_of("/air/windage_power", 5) == "air.windage_power: found 5, expected a number from 0.5 to 4");
+  CHECK(message_of("/air/constant_drag", -1) ==
+        "air.constant_drag: found -1, expected a number from 0 to 100");
+  CHECK(message_of("/string/creep", -0.001) == "string.creep: found -0.001, expected a number from 0 to 0.1");
+  json["structure"] = "chain";
+  CHECK(message_of(json) == "accepted");
+  json["string"]["creep"] = 0.002;
+  CHECK(message_of(json) == "string.creep: found 0.002, expected no such field for a chain");
+  json.erase("string");
+  json["diabolo"]["tension_drag"] = 0.1;
+  CHECK(message_of(json) == "diabolo.tension_drag: found 0.1, expected no such field for a chain");
+}
+
 TEST_CASE("a path needs one offset for each rising time") {
   Fields::Json path = Fields::Json::parse(R"({"type": "path", "times": [0.5, 1.0],
     "left": [[0, 0, 0.1], [0, 0, 0]], "right": [[0, 0, 0.1], [0, 0, 0]]})");

@@ -235,7 +235,7 @@ class ControlScript {
         output_int(1) = backward(input_six(0), tool_, arm_.joints()).has_value();
         break;
       case kJointsWithinLimits:
-        output_int(1) = diabolo::kUr5eWindows.contain(input_joints(0));
+        output_int(1) = diabolo::kUr5eRanges.contain(input_joints(0));
         break;
       case kForwardNow:
         put_six(forward(arm_.joints(), tool_));

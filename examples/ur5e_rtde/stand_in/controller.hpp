@@ -118,7 +118,7 @@ class Controller {
     }
     arm_.tick(scaling);
     if (arm_.speed().cwiseAbs().maxCoeff() > kFastest) protective_stop("a joint is too fast");
-    if (!diabolo::kUr5eWindows.contain(arm_.joints())) protective_stop("a joint is beyond its limit");
+    if (!diabolo::kUr5eRanges.contain(arm_.joints())) protective_stop("a joint is beyond its limit");
     if (!frozen) publish();
   }
 

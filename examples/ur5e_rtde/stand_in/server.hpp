@@ -56,10 +56,6 @@ class Server {
     const std::lock_guard lock(mutex_);
     return controller_.uploads();
   }
-  std::size_t connections() const {
-    const std::lock_guard lock(mutex_);
-    return connections_.size();
-  }
   /// Until `seconds` are over.
   void join() {
     if (thread_.joinable()) thread_.join();

@@ -64,7 +64,7 @@ struct BatchResult {
   std::vector<StringState> record_states;   ///< n x records
 };
 
-/// The kernel that any processor runs; `diabolo/batch_kernels.hpp` has faster ones. A template, so that only
+/// The kernel that any processor runs; `batch/kernels.hpp` has faster ones. A template, so that only
 /// who calls it compiles it.
 template <int Lanes = 2>
 BatchKernel portable_batch_kernel() {

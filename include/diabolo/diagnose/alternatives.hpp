@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -162,6 +163,81 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
   return std::ranges::count_if(draft.findings, needed) + (fit.at[index_of(Unknown::kWraps)] > 0.0 ? 1 : 0);
 }
 
+namespace diagnose_detail {
+
+/// A claim, or what it may be exchanged for.
+struct Explanation {
+  std::string_view name;
+  Fit fit;
+  ActiveSet set;
+  std::ptrdiff_t explanations;  ///< that the fit is sure of
+  bool sure;                    ///< else it may be there
+};
+
+/// Whether the bank holds an alternative, or what it is one to.
+inline bool is_known(std::string_view name, const Bank& bank) {
+  return std::ranges::any_of(
+      bank, [&](const Candidate* c) { return c->name == name || c->name == alternative_to(name); });
+}
+
+/// The fit of an alternative. What it does not have stays at its centre.
+template <class D>
+Fit refitted(Fit trial, const Alternative& other, const Model& base, int threads, const FitWatch& watch) {
+  trial.delay = other.delay;
+  trial.at = other.at;
+  trial.centre[index_of(Unknown::kWraps)] = other.at[index_of(Unknown::kWraps)];
+  for (int u = 0; u < kUnknowns; ++u)
+    if (!other.set[u]) trial.at[u] = trial.centre[u];
+  refine<D>(trial, base, other.set, kMostIterations, threads, watch);
+  return trial;
+}
+
+/// Whether a fit is sure of the alternative that it was made for; nothing where it is none.
+inline std::optional<bool> is_sure(const Fit& trial, const Alternative& other) {
+  // A wrap is there to explain why the string is short: with one, its length must be right.
+  if (other.name == "string_wrap" && std::abs(trial.at[index_of(Unknown::kStringLength)]) > kWrappedLength)
+    return std::nullopt;
+  const Candidate& young = candidate_of(other.name);
+  if (!is_in(other.set, young)) return true;
+  const Estimates now = estimates_of(Evidence(trial), other.set);
+  const double z = significance(young, now);
+  if ((young.positive ? z : std::abs(z)) < kMayBe) return std::nullopt;
+  if (other.name != "wind") return speaks_for(young, z);
+  const Candidate& drag = candidate_of("air_drag_quadratic");  // it acts in it
+  return speaks_for(young, z) && speaks_for(drag, significance(drag, now));
+}
+
+/// Adds an explanation; of two of a name, the one that leaves less stays.
+inline void add(std::vector<Explanation>& options, Explanation option) {
+  const auto same = std::ranges::find(options, option.name, &Explanation::name);
+  if (same == options.end())
+    options.push_back(std::move(option));
+  else if (option.fit.cost < same->fit.cost)
+    *same = std::move(option);
+}
+
+/// Leaves those that explain a claim, which `fit` holds, as well as the best one that is sure.
+inline void keep_the_good(std::vector<Explanation>& options, std::string_view claim, const Fit& fit) {
+  double least = fit.cost;
+  for (const Explanation& option : options)
+    if (option.sure) least = std::min(least, option.fit.cost);
+  // What the model does not describe is the same whether the string is wrapped or not.
+  const double imprecision = claim == "string_friction" ? 0.0 : kSameResidual;
+  const double worse = 9.0 * fit.dispersion + imprecision * least;
+  std::erase_if(options, [&](const Explanation& option) { return option.fit.cost - least >= worse; });
+}
+
+/// See exchange_claims().
+inline Explanation best_of(const std::vector<Explanation>& options, const Candidate& claim) {
+  const bool fault = claim.kind == CandidateKind::kMeasurement;
+  return std::ranges::min(options, {}, [&](const Explanation& option) {
+    const bool rarer = fault || option.fit.at[index_of(Unknown::kWraps)] > 0.0;
+    return std::tuple(!option.sure, option.explanations, rarer && option.name != claim.name, option.fit.cost);
+  });
+}
+
+}  // namespace diagnose_detail
+
 /// Refits with each alternative to a claim and keeps the best: of those that are sure and explain it as well
 /// as any (one that may be there and does is a tie), the one that needs the fewest; then a fault stays what
 /// it is, the others being rarer, and physics is what leaves least. `draft` holds what is claimed before;
@@ -169,13 +245,7 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
 template <class D = diagnose_detail::FitDual>
 std::vector<Replacement> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
                                          const Model& base, int threads, const FitWatch& watch) {
-  struct Option {
-    std::string_view name;
-    Fit fit;
-    ActiveSet set;
-    std::ptrdiff_t explanations;
-    bool sure;
-  };
+  using diagnose_detail::Explanation;
   std::vector<Replacement> result;
   const bool any = std::ranges::any_of(draft.findings, [&](const Finding& f) {
     return f.claimed && !alternatives_to(f.candidate->name, fit, set).empty();
@@ -191,59 +261,21 @@ std::vector<Replacement> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, c
     const std::string_view name = finding.candidate->name;
     const std::vector<Alternative> others = alternatives_to(name, fit, set);
     if (others.empty()) continue;
-    std::vector<Option> options{{name, fit, set, explanations_of(fit, set, bank), true}};
+    std::vector<Explanation> options{{name, fit, set, explanations_of(fit, set, bank), true}};
     for (const Alternative& other : others) {
-      const bool known = std::ranges::any_of(bank, [&](const Candidate* c) {
-        return c->name == other.name || c->name == alternative_to(other.name);
-      });
-      if (!known) continue;
-      Fit trial = before;
-      trial.delay = other.delay;
-      trial.at = other.at;
-      trial.centre[index_of(Unknown::kWraps)] = other.at[index_of(Unknown::kWraps)];
-      for (int u = 0; u < kUnknowns; ++u)
-        if (!other.set[u]) trial.at[u] = trial.centre[u];
-      refine<D>(trial, base, other.set, kMostIterations, threads, watch);
+      if (!diagnose_detail::is_known(other.name, bank)) continue;
+      Fit trial = diagnose_detail::refitted<D>(before, other, base, threads, watch);
       if (watch.is_enough()) return result;  // it may not have settled
-      // A wrap is there to explain why the string is short: with one, its length must be right.
-      if (other.name == "string_wrap" &&
-          std::abs(trial.at[index_of(Unknown::kStringLength)]) > kWrappedLength)
-        continue;
-      const Candidate& young = candidate_of(other.name);
-      bool sure = true;
-      if (is_in(other.set, young)) {
-        const Estimates now = estimates_of(Evidence(trial), other.set);
-        const double z = significance(young, now);
-        if ((young.positive ? z : std::abs(z)) < kMayBe) continue;
-        sure = speaks_for(young, z);
-        if (const Candidate& drag = candidate_of("air_drag_quadratic");
-            other.name == "wind")  // it acts in it
-          sure = sure && speaks_for(drag, significance(drag, now));
-      }
+      const std::optional<bool> sure = diagnose_detail::is_sure(trial, other);
+      if (!sure) continue;
       const std::ptrdiff_t explanations =
           explanations_of(trial, other.set, exchanged(bank, name, other.name));
-      Option option{other.name, std::move(trial), other.set, explanations, sure};
-      const auto same = std::ranges::find(options, other.name, &Option::name);
-      if (same == options.end())
-        options.push_back(std::move(option));
-      else if (option.fit.cost < same->fit.cost)
-        *same = std::move(option);
+      diagnose_detail::add(options, {other.name, std::move(trial), other.set, explanations, *sure});
     }
-    double least = fit.cost;
-    for (const Option& option : options)
-      if (option.sure) least = std::min(least, option.fit.cost);
-    // What the model does not describe is the same whether the string is wrapped or not.
-    const double imprecision = name == "string_friction" ? 0.0 : kSameResidual;
-    const double before_cost = fit.cost, worse = 9.0 * fit.dispersion + imprecision * least;
-    std::erase_if(options, [&](const Option& option) { return option.fit.cost - least >= worse; });
-    const bool fault = finding.candidate->kind == CandidateKind::kMeasurement;
-    const Option best = std::ranges::min(options, {}, [&](const Option& option) {
-      const bool rarer = fault || option.fit.at[index_of(Unknown::kWraps)] > 0.0;
-      return std::tuple(!option.sure, option.explanations, rarer && option.name != name, option.fit.cost);
-    });
-    Replacement exchange{
-        best.name, {}, std::sqrt(std::max(0.0, before_cost - best.fit.cost) / fit.dispersion)};
-    for (const Option& option : options)
+    diagnose_detail::keep_the_good(options, name, fit);
+    const Explanation best = diagnose_detail::best_of(options, *finding.candidate);
+    Replacement exchange{best.name, {}, std::sqrt(std::max(0.0, fit.cost - best.fit.cost) / fit.dispersion)};
+    for (const Explanation& option : options)
       if (option.name != best.name) exchange.tied_with.emplace_back(option.name);
     bank = exchanged(std::move(bank), name, best.name);
     if (best.name != name) before = best.fit;

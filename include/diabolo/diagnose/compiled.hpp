@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <iterator>
 #include <vector>
 
 #include "diabolo/diagnose/answer.hpp"
@@ -11,6 +12,10 @@
 namespace diabolo {
 
 namespace diagnose_detail {
+
+// As many as linearize() tells apart, as are declared below, and as diagnose/CMakeLists.txt lists for its
+// units.
+static_assert(std::size(kLengths) == 4);
 
 /// The duals of a diagnosis, by the index of their length.
 template <int Index>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/significance.hpp"
 
 namespace diabolo {
 
@@ -198,7 +199,7 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kMeasurementFault;
     d.sentence = "The measurement is off by " + names(faults) +
                  (has_law ? "; and a" + left_plainly(d) : "; no physics that has a name is missing.");
-  } else if (d.numerical && *d.numerical > 0.1 && !has_law) {
+  } else if (d.numerical && *d.numerical > kNumericalShare && !has_law) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
   } else if (has_law || only_leftover) {

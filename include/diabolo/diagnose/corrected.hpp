@@ -7,6 +7,7 @@
 
 #include "diabolo/diagnose/fit_take.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/effects/unnamed_force.hpp"
 #include "diabolo/model.hpp"
 
 namespace diabolo {
@@ -51,7 +52,8 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   unnamed.flight_lift += x(Unknown::kFlightLift);
   for (double* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
     if (*exponent != 0.0)
-      *exponent = std::clamp(*exponent + x(Unknown::kPower), -kLargestPower, kLargestPower);
+      *exponent = std::clamp(*exponent + x(Unknown::kPower), -UnnamedForce<double>::kLargestPower,
+                             UnnamedForce<double>::kLargestPower);
   auto& loss = model.effects.get<SpinLoss>();
   loss.air += std::max(0.0, x(Unknown::kSpinAir));
   loss.axle += std::max(0.0, x(Unknown::kSpinAxle));

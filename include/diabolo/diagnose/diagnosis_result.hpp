@@ -21,13 +21,16 @@ struct Thresholds {
   static constexpr const char* kName = "Thresholds";
   static constexpr const char* kDoc = "What decided the claims, so that nobody has to copy it.";
 
-  double physics = kSignificance, measurement = kSignificanceOfFault, worthwhile_odds = kWorthwhileOdds;
+  double physics = kSignificance, measurement = kSignificanceOfFault, worthwhile_odds = kWorthwhileOdds,
+         numerical_share = kNumericalShare;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
     visit("physics", &Thresholds::physics, "Standard deviations beyond which physics counts.");
     visit("measurement", &Thresholds::measurement, "The same of a fault of measurement.");
     visit("worthwhile_odds", &Thresholds::worthwhile_odds, "Below these a proposed motion parts nothing.");
+    visit("numerical_share", &Thresholds::numerical_share,
+          "Share of what is left over, beyond which the base's numerical rules count.");
   }
 };
 

@@ -14,6 +14,7 @@
 #include "diabolo/diagnose/diagnosis_result.hpp"
 #include "diabolo/diagnose/finding_parameters.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/significance.hpp"
 
 namespace diabolo {
 
@@ -226,7 +227,7 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
   result.headline = text_of(d.headline);
   result.sentence = d.sentence;
   result.base = d.base;
-  if (d.numerical && *d.numerical > 0.1)
+  if (d.numerical && *d.numerical > kNumericalShare)
     result.effects.push_back(diagnose_detail::solver_artefact(*d.numerical));
   for (const Finding& f : d.findings) {
     result.ladder.push_back(diagnose_detail::row_of(f));

@@ -8,4 +8,7 @@ namespace diabolo {
 /// the nuisances.
 inline constexpr double kSignificance = 4.0, kSignificanceOfFault = 5.0;
 
+/// The base's numerical rules count beyond this share of what is left over.
+inline constexpr double kNumericalShare = 0.1;
+
 }  // namespace diabolo

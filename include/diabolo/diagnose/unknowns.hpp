@@ -89,9 +89,6 @@ struct UnknownInfo {
   double minimum, maximum;  ///< search bounds
 };
 
-/// Of the power by which a force without a name grows, as UnnamedForce takes it.
-inline constexpr double kLargestPower = 4.0;
-
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{

@@ -13,6 +13,7 @@
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/refine.hpp"
+#include "diabolo/effects/unnamed_force.hpp"
 
 namespace diabolo {
 
@@ -84,7 +85,8 @@ inline UnexplainedForce as_fitted(UnexplainedForce leftover, double first, const
   const int u = index_of(leftover.unknown), power = index_of(Unknown::kPower);
   const Estimates now = estimates_of(Evidence(fit), set);
   if (set[power]) {
-    law.exponent = std::clamp(first + fit.at[power], -kLargestPower, kLargestPower);
+    law.exponent = std::clamp(first + fit.at[power], -UnnamedForce<double>::kLargestPower,
+                              UnnamedForce<double>::kLargestPower);
     law.deviation = now.deviation(power);
   }
   const std::vector<WindowSays> windows = windows_by(law.scalar, fit, leftover.unknown);
@@ -145,7 +147,7 @@ UnnamedTrial try_unnamed(const UnexplainedForce& leftover, const Fit& fit, const
     worse = worse || (interval && interval->high < 0.0);
   }
   const double exponent = law.exponent + trial.fit.at[power];
-  trial.helps = better && !worse && std::abs(exponent) <= kLargestPower;
+  trial.helps = better && !worse && std::abs(exponent) <= UnnamedForce<double>::kLargestPower;
   return trial;
 }
 

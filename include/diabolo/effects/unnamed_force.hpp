@@ -15,6 +15,7 @@ struct UnnamedForce : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "unnamed_force";
   static constexpr double kLeastSpeed = 0.05, kMostSpeed = 20.0;           ///< [m/s]
   static constexpr double kLeastSpin = 1.0, kMostSpin = 1e3, kSpin = 1e2;  ///< [rad/s]
+  static constexpr double kLargestPower = 4.0;                             ///< of either, and of its inverse
   Scalar string_tangent{0};   ///< ON_STRING, in the string's plane, towards the right tip [m/s^2]
   Scalar string_binormal{0};  ///< ON_STRING, square to the string's plane [m/s^2]
   Scalar flight_against{0};   ///< off the string, against the velocity [m/s^2]
@@ -62,9 +63,11 @@ struct UnnamedForce : NeutralEffect<Scalar> {
           self.flight_vertical);
     visit(ParameterInfo{"flight_lift", kAmplitude, -100.0, 100.0, "off the string, along omega x v"},
           self.flight_lift);
-    visit(ParameterInfo{"speed_exponent", kNumber, -4.0, 4.0, "power of the speed over 1 m/s"},
+    visit(ParameterInfo{"speed_exponent", kNumber, -kLargestPower, kLargestPower,
+                        "power of the speed over 1 m/s"},
           self.speed_exponent);
-    visit(ParameterInfo{"spin_exponent", kNumber, -4.0, 4.0, "power of the spin over 100 rad/s"},
+    visit(ParameterInfo{"spin_exponent", kNumber, -kLargestPower, kLargestPower,
+                        "power of the spin over 100 rad/s"},
           self.spin_exponent);
   }
 

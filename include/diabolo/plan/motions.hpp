@@ -42,11 +42,11 @@ inline void check_option(const char* name, double value, double low, double high
 
 /// What can be asked of an action.
 struct ActionOptions {
-  double size = 1.0;             ///< of the hands' motion, as a share of the usual one
-  double pace = 1.0;             ///< its speed, likewise
-  double height = 0.5;           ///< of hops over the start, of throws above the tips [m]
-  double sideways = 0.3;         ///< of swings and throws to the side, to the left [m]
-  std::optional<double> spin{};  ///< to be gained in a cycle of acceleration [rad/s]
+  double size = 1.0;                  ///< of the hands' motion, as a share of the usual one
+  double pace = 1.0;                  ///< its speed, likewise
+  double height = 0.5;                ///< of hops over the start, of throws above the tips [m]
+  double sideways = 0.3;              ///< of swings and throws to the side, to the left [m]
+  std::optional<double> spin_gain{};  ///< to be gained in a cycle of acceleration [rad/s]
 
   /// Throws std::invalid_argument where one is out of its range.
   void validate() const {
@@ -54,7 +54,7 @@ struct ActionOptions {
     plan_detail::check_option("pace", pace, 0.2, 5.0);
     plan_detail::check_option("height", height, 0.01, 5.0);
     plan_detail::check_option("sideways", sideways, -2.0, 2.0);
-    if (spin) plan_detail::check_option("spin", *spin, 0.0, 500.0);
+    if (spin_gain) plan_detail::check_option("spin_gain", *spin_gain, 0.0, 500.0);
   }
 };
 
@@ -152,8 +152,9 @@ inline Action action_named(std::string_view name, const TipColumn<double>& tips,
   action.freedom.last_point = false;
   action.goals.final_state = Waypoint{rest, Vector3<double>::Zero(), 1.0, 0.3, 0.0};
   const auto spin_up = [&] {
-    if (options.spin)
-      action.goals.spin = Target{start.spin + (start.spin < 0.0 ? -*options.spin : *options.spin), 0.02};
+    if (options.spin_gain)
+      action.goals.spin =
+          Target{start.spin + (start.spin < 0.0 ? -*options.spin_gain : *options.spin_gain), 0.02};
     action.goals.taut = 0.1;
   };
   if (name == "linear_acceleration") {

@@ -35,8 +35,10 @@ PlannedCycle plan_cycle(const ActionRequest& wanted, const std::vector<Predictor
                         const std::vector<State<double>>& states, const TipPath<double>& before) {
   const std::string figure = wanted.figure();
   const double length = models.front().parameters().string_length;
-  const ActionOptions options{wanted.size, wanted.pace, wanted.height.value_or(figure == "hop" ? 0.15 : 0.5),
-                              wanted.sideways.value_or(0.3), wanted.spin_gain};
+  const ActionOptions usual;
+  const ActionOptions options{wanted.size, wanted.pace,
+                              wanted.height.value_or(figure == "hop" ? 0.15 : usual.height),
+                              wanted.sideways.value_or(usual.sideways), wanted.spin_gain};
   Action action = action_named(figure, home_pose(figure, length), states.front(), length, options);
   action.seed.sticks = wanted.sticks;
   if (!before.empty()) {

@@ -95,12 +95,6 @@ def reading_of(arguments: argparse.Namespace) -> Reading:
     return Reading(calibration, arguments.up, arguments.columns)
 
 
-def reading_options(arguments: argparse.Namespace) -> list[str]:
-    """The options that it came from, for another command."""
-    names = ("calibration", "up", "columns")
-    return [f"--{name}={value}" for name in names if (value := getattr(arguments, name)) is not None]
-
-
 def read_excerpt(text: str, reading: Reading) -> Excerpt:
     """The recording that an argument names, and its rows."""
     path, rows = split_excerpt(text)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 import json
 import os
 import sys
@@ -21,7 +20,7 @@ from ..report import quantity, report_html, words
 from ..view import predict_anew, view_html
 from . import files
 from .arguments import add_command, output_name, progress_steps
-from .diagnose import MODEL_FILE, REPORT_FILE, RESULT_FILE
+from .diagnose import MODEL_FILE, REPORT_FILE, RESULT_FILE, input_file
 
 REPLAY_FILE = "replay.html"
 BASE = "consistent"
@@ -90,17 +89,13 @@ def run(arguments: argparse.Namespace) -> None:
     quiet = arguments.json == files.STDOUT
     if not quiet:
         print(introduction(takes), flush=True)
+    hashes = [input_file(path) for path in paths]
     begin = time.monotonic()
     with progress_steps() as progress:
         diagnosis = diagnose(takes, BASE, progress=progress)
-    answer = {
-        **diagnosis.to_dict(),
-        "seconds": time.monotonic() - begin,
-        "inputs": [
-            {"file": path.name, "sha256": hashlib.sha256(path.read_bytes()).hexdigest()} for path in paths
-        ],
-        "model": MODEL_FILE,
-    }
+    answer = diagnosis.result.completed(
+        seconds=time.monotonic() - begin, inputs=hashes, model=MODEL_FILE
+    ).to_dict()
     concealed = concealed_in(paths[0])  # only now: nothing that was diagnosed has seen it
     texts = [
         report_html(answer),

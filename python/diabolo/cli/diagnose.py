@@ -100,7 +100,7 @@ def run(arguments: argparse.Namespace) -> None:
         [_cut(read_excerpt(text, reading)) for text in given]
         for given in (arguments.recordings, arguments.holdout)
     )
-    hashes = [_input(path) for path in inputs]
+    hashes = [input_file(path) for path in inputs]
     begin = time.monotonic()
     with progress_steps() as report:
         diagnosis = run_diagnosis(
@@ -161,7 +161,7 @@ def _value(parameter: Estimate) -> str:
     return text if parameter.unit == "1" else f"{text} {parameter.unit}"
 
 
-def _input(path: str) -> InputFile:
+def input_file(path: str | Path) -> InputFile:
     return InputFile(file=Path(path).name, sha256=hashlib.sha256(Path(path).read_bytes()).hexdigest())
 
 

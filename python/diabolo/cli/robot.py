@@ -150,9 +150,8 @@ def run_grid(arguments: argparse.Namespace) -> None:
     lower, upper = grid.lower, grid.upper
     axes = [np.linspace(lower[k], upper[k], SAMPLES) for k in range(3)]
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    slopes = solver.slopes(points)  # (x, y, z, 6, 3)
-    slowest = math.pi / np.linalg.norm(slopes, axis=-1).max(axis=-1)
-    along = math.pi / np.abs(slopes).max(axis=-2)
+    slowest = solver.slowest_tip_speed(points)  # (x, y, z)
+    along = [solver.tip_speed(points, direction) for direction in np.eye(3)]
     misses = np.linalg.norm(solver.arm.tip_position(grid.seed(points)) - points, axis=-1)
     print(
         f"{arguments.side} arm: {' x '.join(map(str, grid.knots))} key points from "
@@ -164,7 +163,7 @@ def run_grid(arguments: argparse.Namespace) -> None:
     rows = []
     for k in range(0, SAMPLES, 3):
         cells = [f"{axes[2][k]:.3f}"]
-        for speed in (slowest[:, :, k], *(along[:, :, k, axis] for axis in range(3))):
+        for speed in (level[:, :, k] for level in (slowest, *along)):
             cells += [f"{speed.min():.2f}", f"{np.median(speed):.2f}"]
         rows.append(cells)
     print(format_table(["z [m]", "slowest", "", "along x", "", "along y", "", "along z", ""], rows))

@@ -4,14 +4,21 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import DiaboloProperties, Model, Recording, TipMotion, hanging_state, played_recording
+from .._core import (
+    DiaboloProperties,
+    Model,
+    Recording,
+    TipMotion,
+    hanging_state,
+    largest_spin,
+    played_recording,
+)
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS, predict
 from ..motions import MOTIONS
@@ -138,9 +145,9 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
 
 def check_spin(spin: float, rate: float) -> None:
     """Raise ValueError where samples at this rate [Hz] could not show the spin [rad/s]."""
-    if not abs(spin) < math.pi * rate:
+    if not abs(spin) < largest_spin(rate):
         raise ValueError(
-            f"--spin {spin:g}: expected less than {math.pi * rate:.0f} rad/s; "
+            f"--spin {spin:g}: expected less than {largest_spin(rate):.0f} rad/s; "
             f"at {rate:g} samples a second a faster one looks like a slower one"
         )
 

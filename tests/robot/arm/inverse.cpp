@@ -154,7 +154,7 @@ TEST_CASE("through q5 = pi with q6 held the nearest solution is one smooth motio
   }
 }
 
-TEST_CASE("the nearest solution stays on the seed's turn and inside the windows") {
+TEST_CASE("the nearest solution stays on the seed's turn and inside the ranges") {
   const Chain<double> chain = ur5e_nominal<double>();
   Joints<double> q;
   q << 5.0, -4.0, 1.2, 5.5, -3.6, 6.0;  // none but the elbow within half a turn
@@ -163,7 +163,7 @@ TEST_CASE("the nearest solution stays on the seed's turn and inside the windows"
   REQUIRE(near);
   CHECK((near->joints - q).cwiseAbs().maxCoeff() <= 1e-9);
 
-  // Joint 6 turns round twice: the angle goes on, up to the window, and is then wound back.
+  // Joint 6 turns round twice: the angle goes on, up to the end of its range, and is then wound back.
   Joints<double> seed = q;
   double last = -2 * kPi;
   for (double angle = -2 * kPi; angle <= 2 * kPi; angle += 0.05) {
@@ -175,24 +175,24 @@ TEST_CASE("the nearest solution stays on the seed's turn and inside the windows"
   }
   Joints<double> beyond = q;
   beyond[5] = 2 * kPi + 0.3;
-  REQUIRE(unwrap(beyond, beyond, kUr5eWindows));
+  REQUIRE(unwrap(beyond, beyond, kUr5eRanges));
   CHECK(beyond[5] == Approx(0.3));
 
-  // A narrow window on the shoulder leaves the other branches, a window that holds none leaves nothing.
-  JointRanges windows = kUr5eWindows;
-  windows.lower[4] = 0.1;
-  windows.upper[4] = 3.0;
-  const auto inside = nearest_solution(solutions, q, windows);
+  // A narrow range on the shoulder leaves the other branches, a range that holds none leaves nothing.
+  JointRanges ranges = kUr5eRanges;
+  ranges.lower[4] = 0.1;
+  ranges.upper[4] = 3.0;
+  const auto inside = nearest_solution(solutions, q, ranges);
   REQUIRE(inside);
-  CHECK(windows.contain(inside->joints));
+  CHECK(ranges.contain(inside->joints));
   CHECK(apart(chain.forward(inside->joints), chain.forward([&] {
           Joints<double> original = q;
           original[5] = 6.0;
           return original;
         }())) <= 1e-12);
-  windows.lower[0] = 0.101;
-  windows.upper[0] = 0.102;
-  CHECK_FALSE(nearest_solution(solutions, q, windows));
+  ranges.lower[0] = 0.101;
+  ranges.upper[0] = 0.102;
+  CHECK_FALSE(nearest_solution(solutions, q, ranges));
 }
 
 TEST_CASE("single precision and derivatives go through") {

@@ -61,7 +61,7 @@ Vector3<double> loop(int number, double t, const GridBox& box) {
 
 }  // namespace
 
-TEST_CASE("every point of the box is reached, within the windows") {
+TEST_CASE("every point of the box is reached, within the ranges") {
   Random random(62);
   for (const StickMap& map : maps()) {
     const GridBox& box = map.grid().box();
@@ -74,7 +74,7 @@ TEST_CASE("every point of the box is reached, within the windows") {
       const StickMap::Point point = map.at(p);
       REQUIRE(point.fault == StickFault::kNone);
       REQUIRE((map.arm().tip_at(point.joints) - p).norm() <= 1e-9);
-      REQUIRE(map.arm().windows.contain(point.joints));
+      REQUIRE(map.arm().ranges.contain(point.joints));
       REQUIRE((right ? -point.joints[2] : point.joints[2]) > 0.3);  // the elbow never turns over
     }
   }
@@ -93,15 +93,15 @@ TEST_CASE("a point outside the box, or none, has no joints") {
     }
     CHECK(map.at(middle).fault == StickFault::kNone);
   }
-  // A grid that promises what the arm cannot reach, and windows that are too narrow.
+  // A grid that promises what the arm cannot reach, and ranges that are too narrow.
   StickArm far = paper_arm(Side::kRight);
   const IkSeedGrid grid = build_seed_grid(far, paper_box(far));
   const Vector3<double> p = grid.box().upper;
   far.base.position.x() -= 0.5;
   CHECK(StickMap(far, grid).at(p).fault == StickFault::kOutOfReach);
   StickArm narrow = paper_arm(Side::kRight);
-  narrow.windows.upper[4] = 3.0;
-  CHECK(StickMap(narrow, grid).at(p).fault == StickFault::kWindow);
+  narrow.ranges.upper[4] = 3.0;
+  CHECK(StickMap(narrow, grid).at(p).fault == StickFault::kRange);
 }
 
 TEST_CASE("the map's slopes are its derivative") {

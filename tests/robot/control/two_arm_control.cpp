@@ -261,7 +261,7 @@ TEST_CASE("a setpoint that is not sound never leaves") {
   };
   const std::vector<Case> cases{
       {ControlFaultKind::kStep, [](PairJoints& q, double) { q[8] += 0.05; }},
-      {ControlFaultKind::kWindow, [](PairJoints& q, double share) { q[11] += 0.2 * share; }},
+      {ControlFaultKind::kRange, [](PairJoints& q, double share) { q[11] += 0.2 * share; }},
       {ControlFaultKind::kBox, [](PairJoints& q, double share) { q[6] += 0.5 * share; }},
   };
   for (const Case& wrong : cases) {
@@ -424,7 +424,7 @@ TEST_CASE("a way home through the other arm is refused") {
   REQUIRE(cell.control.connect(cell.now).empty());
   REQUIRE(cell.until(ControlState::kIdle, 1));
   PairJoints goal = plan().setpoints.front();
-  goal[0] += 5;  // out of its window
+  goal[0] += 5;  // out of its range
   CHECK(cell.control.home(goal, cell.now).starts_with("home: the left arm's way"));
   CHECK(cell.left.moves.empty());
 }

@@ -76,24 +76,24 @@ class SeedGridBuilder {
                                 ") m: " + why);
   }
 
-  /// From the joints of a neighbour, or from the closed form in the arm's windows.
+  /// From the joints of a neighbour, or from the closed form in the arm's ranges.
   Joints<double> eased(const Vector3<double>& point, std::optional<Joints<double>> seed) const {
     const Vector3<double> target = arm_.to_base(point);
     if (!seed) {
       Joints<double> middle;
       for (int i = 0; i < kJointCount; ++i) {
         const std::size_t k = static_cast<std::size_t>(i);
-        middle[i] = 0.5 * (arm_.windows.lower[k] + arm_.windows.upper[k]);
+        middle[i] = 0.5 * (arm_.ranges.lower[k] + arm_.ranges.upper[k]);
       }
       for (StickSolution<double> solution : stick_inverse(target, arm_.tip, arm_.goal(point), arm_.lengths))
-        if (!seed && unwrap(solution.joints, middle, arm_.windows)) seed = solution.joints;
-      if (!seed) fail(point, "the posture does not reach it within the joint windows");
+        if (!seed && unwrap(solution.joints, middle, arm_.ranges)) seed = solution.joints;
+      if (!seed) fail(point, "the posture does not reach it within the joint ranges");
       // The pitch must be the goal's own turn, not one a whole turn off.
       (*seed)[3] = arm_.goal(point).pitch - (*seed)[1] - (*seed)[2];
     }
     const Refined<double> eased = ease_posture(arm_.chain, target, arm_.tip, arm_.goal(point), *seed, cost_);
     if (!eased.converged) fail(point, "out of reach");
-    if (!arm_.windows.contain(eased.joints)) fail(point, "a joint leaves its window");
+    if (!arm_.ranges.contain(eased.joints)) fail(point, "a joint leaves its range");
     return eased.joints;
   }
 

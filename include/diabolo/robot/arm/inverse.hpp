@@ -100,16 +100,16 @@ InverseSolutions<Scalar> inverse(const Pose<Scalar>& flange, const Scalar& q6_wh
   return result;
 }
 
-/// Of the solutions, each turned into the windows, the one whose largest joint difference from the seed is
+/// Of the solutions, each turned into the ranges, the one whose largest joint difference from the seed is
 /// smallest; nothing where none lies within.
 template <class Scalar>
 std::optional<InverseSolution<Scalar>> nearest_solution(const InverseSolutions<Scalar>& solutions,
                                                         const Joints<Scalar>& seed,
-                                                        const JointRanges& windows = kUr5eWindows) {
+                                                        const JointRanges& ranges = kUr5eRanges) {
   std::optional<InverseSolution<Scalar>> best;
   double smallest = std::numeric_limits<double>::infinity();
   for (InverseSolution<Scalar> solution : solutions) {
-    if (!unwrap(solution.joints, seed, windows)) continue;
+    if (!unwrap(solution.joints, seed, ranges)) continue;
     double largest = 0;
     for (int i = 0; i < kJointCount; ++i)
       largest = std::max(largest, std::abs(plain(solution.joints[i]) - plain(seed[i])));

@@ -46,18 +46,18 @@ struct JointRanges {
   }
 };
 
-/// Adds whole turns to each angle so that it lies in its window and, of what lies there, nearest to `seed`;
-/// false, with `joints` in no certain state, where a window holds no such angle.
+/// Adds whole turns to each angle so that it lies in its range and, of what lies there, nearest to `seed`;
+/// false, with `joints` in no certain state, where a range holds no such angle.
 template <class Scalar>
-bool unwrap(Joints<Scalar>& joints, const Joints<Scalar>& seed, const JointRanges& windows) {
+bool unwrap(Joints<Scalar>& joints, const Joints<Scalar>& seed, const JointRanges& ranges) {
   for (std::size_t k = 0; k < kJointCount; ++k) {
     const Eigen::Index i = static_cast<Eigen::Index>(k);
     Scalar angle = nearest_turn(joints[i], plain(seed[i]));
-    if (plain(angle) > windows.upper[k])
-      angle -= Scalar(2.0 * kPi * std::ceil((plain(angle) - windows.upper[k]) / (2.0 * kPi)));
-    if (plain(angle) < windows.lower[k])
-      angle += Scalar(2.0 * kPi * std::ceil((windows.lower[k] - plain(angle)) / (2.0 * kPi)));
-    if (!(plain(angle) >= windows.lower[k] && plain(angle) <= windows.upper[k])) return false;
+    if (plain(angle) > ranges.upper[k])
+      angle -= Scalar(2.0 * kPi * std::ceil((plain(angle) - ranges.upper[k]) / (2.0 * kPi)));
+    if (plain(angle) < ranges.lower[k])
+      angle += Scalar(2.0 * kPi * std::ceil((ranges.lower[k] - plain(angle)) / (2.0 * kPi)));
+    if (!(plain(angle) >= ranges.lower[k] && plain(angle) <= ranges.upper[k])) return false;
     joints[i] = angle;
   }
   return true;

@@ -21,7 +21,7 @@ struct StickArm {
   Chain<double> chain = ur5e_nominal<double>();  ///< nominal or calibrated
   Ur5eLengths lengths;                           ///< of the nominal arm nearest to it
   Vector3<double> tip;                           ///< of the stick, in the flange's frame [m]
-  JointRanges windows;                           ///< that the arm keeps to [rad]
+  JointRanges ranges;                            ///< that the arm keeps to [rad]
   double pitch = 0;          ///< goal of q2 + q3 + q4 [rad]: the first wrist link horizontal
   double level = 0;          ///< height at which the stick's goal is level, q5 = pi [m, world]
   double wrist_2_slope = 0;  ///< of q5's goal over the height [rad/m]: the stick points where the tip goes
@@ -42,7 +42,7 @@ struct Mounts {
   double forward = 0.0;   ///< x of the bases [m]
 };
 
-/// One of the paper's arms. The stick's place in the flange, the joint windows and the goals of the posture
+/// One of the paper's arms. The stick's place in the flange, the joint ranges and the goals of the posture
 /// are those of the authors' program; the level height is theirs over the base. Throws
 /// std::invalid_argument that names the field where a mount is not finite, or the spacing not above zero.
 inline StickArm paper_arm(Side side, const Mounts& mounts = {}) {
@@ -64,10 +64,10 @@ inline StickArm paper_arm(Side side, const Mounts& mounts = {}) {
   arm.pitch = right ? -3 * quarter : -quarter;
   arm.level = mounts.height + 0.55;
   arm.wrist_2_slope = right ? half : -half;
-  arm.windows = right ? JointRanges{{quarter, -half, -half, -half, quarter - eased, -0.1},
-                                    {3 * quarter, -quarter / 2, 0, 0, 3 * quarter + eased, 0.1}}
-                      : JointRanges{{quarter, -half, 0, -half, quarter - eased, -0.1},
-                                    {3 * quarter, 0, half, 0, 3 * quarter + eased, 0.1}};
+  arm.ranges = right ? JointRanges{{quarter, -half, -half, -half, quarter - eased, -0.1},
+                                   {3 * quarter, -quarter / 2, 0, 0, 3 * quarter + eased, 0.1}}
+                     : JointRanges{{quarter, -half, 0, -half, quarter - eased, -0.1},
+                                   {3 * quarter, 0, half, 0, 3 * quarter + eased, 0.1}};
   return arm;
 }
 

@@ -13,7 +13,7 @@ enum class StickFault {
   kNone,
   kOutside,     ///< of the grid's box, or not finite
   kOutOfReach,  ///< the arm does not reach the point in the grid's posture
-  kWindow,      ///< a joint would leave its window
+  kRange,       ///< a joint would leave its range
 };
 
 inline const char* text_of(StickFault fault) {
@@ -24,8 +24,8 @@ inline const char* text_of(StickFault fault) {
       return "outside the box of the seed grid";
     case StickFault::kOutOfReach:
       return "out of reach";
-    case StickFault::kWindow:
-      return "a joint leaves its window";
+    case StickFault::kRange:
+      return "a joint leaves its range";
   }
   return "";
 }
@@ -60,7 +60,7 @@ class StickMap {
     const Refined<double> refined = refine_tip(arm_.chain, target, arm_.tip, nominal->joints);
     if (!refined.converged || !set_slopes(refined.joints, seed.slopes, result.slopes)) return result;
     result.joints = refined.joints;
-    result.fault = arm_.windows.contain(result.joints) ? StickFault::kNone : StickFault::kWindow;
+    result.fault = arm_.ranges.contain(result.joints) ? StickFault::kNone : StickFault::kRange;
     return result;
   }
 

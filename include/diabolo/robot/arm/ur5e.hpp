@@ -19,8 +19,8 @@ struct Ur5eLengths {
 /// What a UR5e's joints can do, by its data sheet; it names no limit of the acceleration.
 inline constexpr double kUr5eJointSpeed = kPi;  ///< [rad/s]
 /// The elbow turns no further than half a turn before the arm meets itself.
-inline constexpr JointRanges kUr5eWindows{{-2 * kPi, -2 * kPi, -kPi, -2 * kPi, -2 * kPi, -2 * kPi},
-                                          {2 * kPi, 2 * kPi, kPi, 2 * kPi, 2 * kPi, 2 * kPi}};
+inline constexpr JointRanges kUr5eRanges{{-2 * kPi, -2 * kPi, -kPi, -2 * kPi, -2 * kPi, -2 * kPi},
+                                         {2 * kPi, 2 * kPi, kPi, 2 * kPi, 2 * kPi, 2 * kPi}};
 
 /// The UR5e of the data sheet.
 template <class Scalar>

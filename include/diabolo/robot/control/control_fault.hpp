@@ -40,7 +40,7 @@ enum class ControlFaultKind {
   kLate,     ///< the control loop itself missed its ticks
   kHome,     ///< an arm did not arrive in time
   kNotFinite,
-  kWindow,     ///< a joint would leave its window
+  kRange,      ///< a joint would leave its range
   kStep,       ///< a setpoint would break speed, acceleration or jerk
   kTracking,   ///< an arm is not where it was sent
   kBox,        ///< a tip would leave its box
@@ -84,8 +84,8 @@ inline std::string text_of(const ControlFault& fault) {
       return arm + "it did not arrive at the start in time";
     case ControlFaultKind::kNotFinite:
       return arm + "a setpoint is not finite";
-    case ControlFaultKind::kWindow:
-      return arm + "a joint would leave its window";
+    case ControlFaultKind::kRange:
+      return arm + "a joint would leave its range";
     case ControlFaultKind::kStep:
       return arm + "a setpoint would break the limits of speed, acceleration or jerk";
     case ControlFaultKind::kTracking:

@@ -46,7 +46,7 @@ class SetpointGuard {
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const StickArm& arm = arms_[index(side)];
       const Joints<double> joints = half(setpoint, side);
-      if (!arm.windows.contain(joints)) return {ControlFaultKind::kWindow, side};
+      if (!arm.ranges.contain(joints)) return {ControlFaultKind::kRange, side};
       const Vector3<double> tip = arm.tip_at(joints), margin = Vector3<double>::Constant(options_.beyond_box);
       const GridBox& box = boxes_[index(side)];
       if (((tip + margin) - box.lower).minCoeff() < 0 || ((box.upper + margin) - tip).minCoeff() < 0)
@@ -77,7 +77,7 @@ class SetpointGuard {
     const Joints<double> from = half(joints, side), step = half(goal, side) - from;
     const int steps = static_cast<int>(std::ceil(step.cwiseAbs().maxCoeff() / 0.02)) + 1;
     PairJoints at = joints;
-    if (!arms_[index(side)].windows.contain<double>(half(goal, side))) return false;
+    if (!arms_[index(side)].ranges.contain<double>(half(goal, side))) return false;
     for (int i = 0; i <= steps; ++i) {
       const Joints<double> way = from + step * (static_cast<double>(i) / steps);
       if (side == Side::kLeft)

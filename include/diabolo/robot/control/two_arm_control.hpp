@@ -62,7 +62,8 @@ class TwoArmControl {
     for (const Side side : {Side::kLeft, Side::kRight}) {
       if (!guard_.way_is_clear(joints, goal, side))
         return std::string("home: the ") + name_of(side) +
-               " arm's way comes too close to the other arm, or leaves its windows; move it by hand first";
+               " arm's way comes too close to the other arm, or leaves its joint ranges; move it by hand "
+               "first";
       set_half(joints, goal, side);
     }
     goal_ = goal;

@@ -151,7 +151,7 @@ class RobotLimits {
       }
       case Kind::kReach: {
         const StickFault fault = left ? at->left : at->right;
-        const bool out = fault == StickFault::kOutOfReach || fault == StickFault::kWindow;
+        const bool out = fault == StickFault::kOutOfReach || fault == StickFault::kRange;
         return out ? Value{0.0, 0.0, 1.0} : Value{};
       }
       case Kind::kClearance: {
