@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/judge_adequacy.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
@@ -80,6 +82,24 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
   return true;
 }
 
+/// Nothing is claimed that leaves the gap more than half open where the middle window still misses by far:
+/// the motion is none that these laws make. Returns whether that was so. (Bodies under each other's names are
+/// seen without a fit.)
+inline bool withdraw_what_explains_too_little(Diagnosis& d) {
+  const Adequacy& a = d.adequacy;
+  if (a.overall.empty() || a.overall.front().quantity != "position" || !a.explained) return false;
+  const std::optional<double> half =
+      d.heldout.augmented_median.size() > 2 ? d.heldout.augmented_median[2] : std::nullopt;
+  const bool far = a.overall.front().times_noise > kFarOff || half.value_or(0.0) > kFarOffAnyway;
+  if (!far || *a.explained >= kHalfOpen || a.adequate.value_or(true)) return false;
+  for (Finding& f : d.findings) {
+    if (!f.claimed) continue;
+    f.claimed = false;
+    f.reason = "leaves more than half of the gap: the motion is none that the known laws make";
+  }
+  return true;
+}
+
 /// No physics is claimed without which what was left out is predicted better, nor tips somewhere else unless
 /// it is predicted worse without, where that can be said: six numbers explain much that nobody knows. (Of
 /// other faults this is not asked: what one of them does, tips elsewhere could do as well; nor of what acts
@@ -146,6 +166,49 @@ inline std::string left_plainly(const Diagnosis& d) {
               : "; no law of it was found that helps on data that were left out.");
 }
 
+/// A size with its unit, in two digits.
+inline std::string size_in_words(double value, const std::string& unit) {
+  const bool length = unit == "m";
+  const double shown_value = length ? 1e3 * value : value;
+  const double step = std::pow(10.0, std::floor(std::log10(std::max(shown_value, 1e-3))) - 1.0);
+  return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) + (length ? " mm" : " " + unit);
+}
+
+/// Where most is left over, after a comma.
+inline std::string place_in_words(const LeftOver& left) {
+  std::string text;
+  if (left.mode == "ON_STRING") text += ", mostly on the string";
+  if (left.mode == "LOOSE") text += ", mostly on the slack string";
+  if (left.mode == "FLYING") text += ", mostly in flight";
+  if (left.quantity == "spin") text += ", in the spin";
+  if (left.direction == "forward") text += ", forward or back";
+  if (left.direction == "left") text += ", sideways";
+  if (left.direction == "up") text += ", up or down";
+  if (!left.recording.empty())
+    text += ", most from " + shown(std::round(10.0 * left.begin_s) / 10.0) + " to " +
+            shown(std::round(10.0 * left.end_s) / 10.0) + " s of " + left.recording;
+  return text;
+}
+
+/// What is left beyond noise: size and place.
+inline std::string left_in_words(const Adequacy& adequacy) {
+  const LeftOver& worst = adequacy.places.front();
+  return size_in_words(worst.left, worst.unit) + " within half a second, where noise leaves " +
+         size_in_words(worst.noise, worst.unit) + place_in_words(worst);
+}
+
+/// How much of the gap what was found explains, and what it leaves: sentences after the answer's.
+inline std::string explained_in_words(const Adequacy& adequacy) {
+  const bool by_spin = !adequacy.explained;
+  const std::optional<double> share = by_spin ? adequacy.spin_explained : adequacy.explained;
+  std::string text;
+  if (share)
+    text = " This explains " + std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" +
+           (by_spin ? " in the spin." : ".");
+  if (!adequacy.places.empty()) text += " No explanation has been found of " + left_in_words(adequacy) + ".";
+  return text;
+}
+
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
 inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
   const auto friction = std::ranges::find_if(
@@ -174,6 +237,7 @@ inline void conclude(Diagnosis& d) {
   const bool has_law = !d.unexplained_forces.empty() && d.unexplained_forces.front().in_model;
   const bool only_leftover =
       !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
+  const bool beyond_noise = !d.adequacy.places.empty();
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -188,6 +252,7 @@ inline void conclude(Diagnosis& d) {
     d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
                  names(leading) + " would explain it, and so would " + tied_plainly(**tied) +
                  " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
+                 (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + names(faults)) +
                  (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
@@ -198,7 +263,7 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kMeasurementFault;
     d.sentence = "The measurement is off by " + names(faults) +
                  (has_law ? "; and a" + left_plainly(d) : "; no physics that has a name is missing.");
-  } else if (d.numerical && *d.numerical > 0.1 && !has_law) {
+  } else if (d.numerical && *d.numerical > 0.1 && !has_law && !beyond_noise) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
   } else if (has_law || only_leftover) {
@@ -207,6 +272,9 @@ inline void conclude(Diagnosis& d) {
   } else if (d.withdrawn) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something is missing, but no explanation of it helps on data that were left out.";
+  } else if (beyond_noise) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence = "Something is missing that has no name.";
   } else if (d.unexplained > kUnexplainedShare) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something without a name is left: " + std::to_string(std::lround(100.0 * d.unexplained)) +
@@ -215,6 +283,8 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kNothingMissing;
     d.sentence = "Nothing is missing that this recording could show.";
   }
+  if (d.reason.empty() && d.headline != Headline::kNumerical && d.headline != Headline::kNothingMissing)
+    d.sentence += explained_in_words(d.adequacy);
   for (std::size_t i = 0; i < d.not_done.size(); ++i)
     d.sentence += (i == 0 ? " Not done: " : "; ") + d.not_done[i] + (i + 1 == d.not_done.size() ? "." : "");
 }

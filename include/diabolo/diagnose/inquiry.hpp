@@ -15,7 +15,9 @@
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/judge_adequacy.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
+#include "diabolo/diagnose/noise_trial.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/sufficient.hpp"
@@ -53,7 +55,8 @@ class Inquiry {
     } else {
       settle();
       const bool withdrawn = look_for_unnamed(withdraw_what_does_not_help(result_));
-      if (withdrawn) result_.model = options_.base;
+      judge();
+      if (withdrawn || withdraw_what_explains_too_little(result_)) result_.model = options_.base;
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       finish();
     }
@@ -256,13 +259,25 @@ class Inquiry {
     return withdrawn;
   }
 
+  /// Compares what is left with what noise alone would leave.
+  void judge() {
+    const char* const asking = "asking what noise alone would leave";
+    if (!budget_.allows(asking, kRulesShare)) return;
+    const FitWatch watch = step(asking, 0.95, 0.96, kRulesShare);
+    const Fit trial = noise_trial<D>(fit_, physics_, options_.seed, options_.threads, watch);
+    note_noise(result_.windows, fit_, trial);
+    std::vector<std::string> names;
+    for (const FitTake& fit_take : fit_.fit_takes) names.push_back(fit_take.take->recording.name);
+    result_.adequacy = judge_adequacy(result_.windows, names);
+  }
+
   /// The numerical rules' share, the noise, and what to record next.
   void finish() {
     if (numerical_ && budget_.allows("comparing rules", kRulesShare)) {
       Model rules = options_.base;
       rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
       result_.numerical =
-          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.95, 0.97));
+          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.96, 0.97));
     }
     for (std::size_t s = 0; s < fit_.fit_takes.size(); ++s)
       result_.noise.push_back({fit_.fit_takes[s].take->recording.name, fit_.noise[s]});
