@@ -42,6 +42,25 @@ struct LeftOver {
   }
 };
 
+struct ChangeInTime {
+  static constexpr const char* kName = "ChangeInTime";
+  static constexpr const char* kDoc = "Something that is not what it was a moment ago, window by window.";
+
+  std::string quantity, unit;
+  double z = kNaN, size = kNaN;
+  std::optional<double> trend_per_s, frequency_hz;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("quantity", &ChangeInTime::quantity, "Name of the unknown that changes.");
+    visit("unit", &ChangeInTime::unit, "Of its size.");
+    visit("z", &ChangeInTime::z, "Standard deviations by which neighbouring windows agree too well.");
+    visit("size", &ChangeInTime::size, "Root mean square of what neighbouring windows agree on.");
+    visit("trend_per_s", &ChangeInTime::trend_per_s, "Where a steady change explains it best.");
+    visit("frequency_hz", &ChangeInTime::frequency_hz, "Where an oscillation explains it best.");
+  }
+};
+
 struct Adequacy {
   static constexpr const char* kName = "Adequacy";
   static constexpr const char* kDoc = "Whether the answer leaves no more than the camera's noise would.";
@@ -49,6 +68,7 @@ struct Adequacy {
   std::optional<bool> adequate, base_adequate;
   std::optional<double> explained, spin_explained;
   std::vector<LeftOver> overall, places;
+  std::vector<ChangeInTime> changes;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
@@ -59,6 +79,7 @@ struct Adequacy {
     visit("spin_explained", &Adequacy::spin_explained, "The same of the spin.");
     visit("overall", &Adequacy::overall, "Over all windows: position and, where it was seen, spin.");
     visit("places", &Adequacy::places, "Where more is left than noise leaves, the worst first.");
+    visit("changes", &Adequacy::changes, "What is left and changes in time, the surest first.");
   }
 };
 

@@ -98,6 +98,13 @@ struct UnexplainedForce {
   std::vector<std::optional<Interval>> worsening_ci95{};
 };
 
+/// Unknowns of which a diagnosis asks whether they change in time: accelerations in the world (gravity's
+/// direction and size), of the string, in flight, of the spin, and the string's length.
+inline constexpr std::array kMayChange{
+    Unknown::kTiltX,          Unknown::kTiltY,         Unknown::kGravity,        Unknown::kStringTangent,
+    Unknown::kStringBinormal, Unknown::kFlightAgainst, Unknown::kFlightVertical, Unknown::kFlightLift,
+    Unknown::kSpinString,     Unknown::kSpinFree,      Unknown::kStringLength};
+
 /// What was seen in a window before anything was added, and what is left.
 struct WindowFinding {
   std::size_t recording;
@@ -105,8 +112,11 @@ struct WindowFinding {
   StringState mode;
   double residual_before, residual_after;  ///< root mean square, position [m]
   std::array<double, 7> z;                 ///< of the latent accelerations before; NaN where they say nothing
-  bool eventful = false;                   ///< the string's state changes in it
-  double residual_noise = kNaN;            ///< what noise alone would leave [m]
+  /// Of kMayChange with what was found: half the slope and half the curvature of -chi^2, in the scales of
+  /// kUnknownInfos.
+  std::array<double, kMayChange.size()> slope{}, curvature{};
+  bool eventful = false;                                            ///< the string's state changes in it
+  double residual_noise = kNaN;                                     ///< what noise alone would leave [m]
   double spin_before = kNaN, spin_after = kNaN, spin_noise = kNaN;  ///< the three of the spin [rad/s]
   std::array<double, 3> beyond_noise{kNaN, kNaN,
                                      kNaN};  ///< mean square forward, left, up, less noise's [m^2]

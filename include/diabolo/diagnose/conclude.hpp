@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
-#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
@@ -166,49 +166,6 @@ inline std::string left_plainly(const Diagnosis& d) {
               : "; no law of it was found that helps on data that were left out.");
 }
 
-/// A size with its unit, in two digits.
-inline std::string size_in_words(double value, const std::string& unit) {
-  const bool length = unit == "m";
-  const double shown_value = length ? 1e3 * value : value;
-  const double step = std::pow(10.0, std::floor(std::log10(std::max(shown_value, 1e-3))) - 1.0);
-  return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) + (length ? " mm" : " " + unit);
-}
-
-/// Where most is left over, after a comma.
-inline std::string place_in_words(const LeftOver& left) {
-  std::string text;
-  if (left.mode == "ON_STRING") text += ", mostly on the string";
-  if (left.mode == "LOOSE") text += ", mostly on the slack string";
-  if (left.mode == "FLYING") text += ", mostly in flight";
-  if (left.quantity == "spin") text += ", in the spin";
-  if (left.direction == "forward") text += ", forward or back";
-  if (left.direction == "left") text += ", sideways";
-  if (left.direction == "up") text += ", up or down";
-  if (!left.recording.empty())
-    text += ", most from " + shown(std::round(10.0 * left.begin_s) / 10.0) + " to " +
-            shown(std::round(10.0 * left.end_s) / 10.0) + " s of " + left.recording;
-  return text;
-}
-
-/// What is left beyond noise: size and place.
-inline std::string left_in_words(const Adequacy& adequacy) {
-  const LeftOver& worst = adequacy.places.front();
-  return size_in_words(worst.left, worst.unit) + " within half a second, where noise leaves " +
-         size_in_words(worst.noise, worst.unit) + place_in_words(worst);
-}
-
-/// How much of the gap what was found explains, and what it leaves: sentences after the answer's.
-inline std::string explained_in_words(const Adequacy& adequacy) {
-  const bool by_spin = !adequacy.explained;
-  const std::optional<double> share = by_spin ? adequacy.spin_explained : adequacy.explained;
-  std::string text;
-  if (share)
-    text = " This explains " + std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" +
-           (by_spin ? " in the spin." : ".");
-  if (!adequacy.places.empty()) text += " No explanation has been found of " + left_in_words(adequacy) + ".";
-  return text;
-}
-
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
 inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
   const auto friction = std::ranges::find_if(
@@ -237,7 +194,7 @@ inline void conclude(Diagnosis& d) {
   const bool has_law = !d.unexplained_forces.empty() && d.unexplained_forces.front().in_model;
   const bool only_leftover =
       !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
-  const bool beyond_noise = !d.adequacy.places.empty();
+  const bool beyond_noise = !d.adequacy.adequate.value_or(true);
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)

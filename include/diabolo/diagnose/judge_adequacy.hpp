@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/change_in_time.hpp"
 #include "diabolo/math/bootstrap.hpp"
 
 namespace diabolo {
@@ -130,35 +131,31 @@ inline const char* mode_of(const WindowFinding& w) {
   return w.mode == StringState::kOnString ? "ON_STRING" : w.mode == StringState::kLoose ? "LOOSE" : "FLYING";
 }
 
-/// Stretches of a recording, without events, in which more is left than noise leaves; joined where they
-/// touch.
+/// Stretches of time without events in which more is left than noise leaves, joined where they touch.
 inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Channel& channel,
                                               const std::vector<std::string>& names) {
-  std::vector<LeftOver> result;
+  const auto part = [&](std::size_t first, std::size_t end) {
+    return Windows(windows.begin() + static_cast<std::ptrdiff_t>(first),
+                   windows.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (std::size_t first = 0; first + kStretch <= windows.size(); first += kStretch / 2) {
-    const Windows part(windows.begin() + static_cast<std::ptrdiff_t>(first),
-                       windows.begin() + static_cast<std::ptrdiff_t>(first + kStretch));
-    if (part.front()->recording != part.back()->recording) continue;
-    std::optional<LeftOver> left = left_over_in(part, channel);
+    const std::size_t end = first + kStretch;
+    if (windows[first]->recording != windows[end - 1]->recording) continue;
+    const std::optional<LeftOver> left = left_over_in(part(first, end), channel);
     if (!left || !is_beyond_noise(*left)) continue;
-    left->recording = names[part.front()->recording];
-    left->begin_s = part.front()->begin;
-    left->end_s = part.back()->end;
-    if (!result.empty() && result.back().recording == left->recording &&
-        left->begin_s <= result.back().end_s) {
-      left->begin_s = result.back().begin_s;
-      left->windows += result.back().windows;
-      if (left->times_noise < result.back().times_noise) {
-        left->times_noise = result.back().times_noise;
-        left->left = result.back().left;
-        left->noise = result.back().noise;
-        left->base = result.back().base;
-        left->direction = result.back().direction;
-      }
-      result.back() = *left;
-    } else {
-      result.push_back(*left);
-    }
+    if (!ranges.empty() && first <= ranges.back().second &&
+        windows[ranges.back().first]->recording == windows[first]->recording)
+      ranges.back().second = end;
+    else
+      ranges.emplace_back(first, end);
+  }
+  std::vector<LeftOver> result;
+  for (const auto& [first, end] : ranges) {
+    result.push_back(*left_over_in(part(first, end), channel));
+    result.back().recording = names[windows[first]->recording];
+    result.back().begin_s = windows[first]->begin;
+    result.back().end_s = windows[end - 1]->end;
   }
   return result;
 }
@@ -199,7 +196,8 @@ inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
     }
     std::ranges::move(stretches_beyond(calm, channel, names), std::back_inserter(result.places));
   }
-  if (!result.places.empty()) result.adequate = false;
+  result.changes = changes_in_time(windows);
+  if (!result.places.empty() || !result.changes.empty()) result.adequate = false;
   std::ranges::stable_sort(result.places, std::greater(), &LeftOver::times_noise);
   return result;
 }

@@ -105,6 +105,11 @@ inline void note_noise(std::vector<WindowFinding>& windows, const Fit& fit, cons
     for (const FitWindow& window : fit_take.windows) {
       const WindowSystem &system = fit.systems[i], &noise = trial.systems[i];
       WindowFinding& found = windows[i++];
+      for (std::size_t k = 0; k < kMayChange.size(); ++k) {
+        const int u = index_of(kMayChange[k]);
+        found.slope[k] = fit.scores[i - 1].score[u];
+        found.curvature[k] = fit.scores[i - 1].information(u, u);
+      }
       found.eventful = diagnose_detail::changes_state(*fit_take.take, window);
       found.residual_noise = noise.position_residual();
       found.spin_after = size_of_seen(system.spin_residuals);

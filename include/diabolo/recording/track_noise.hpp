@@ -57,7 +57,7 @@ double difference_size(const Marks& valid, Eigen::Index stride, const Value& val
 
 /// The correlation by which the differences over two frames are so many times as large as those over one.
 inline double correlation_of(double ratio) {
-  constexpr double kMost = 0.8;  // more looks like motion
+  constexpr double kMost = 0.5;  // more is not told from motion
   double low = 0.0, high = kMost;
   for (int i = 0; i < 30; ++i) {
     const double middle = 0.5 * (low + high);
