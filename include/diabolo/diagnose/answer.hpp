@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/adequacy.hpp"
 #include "diabolo/diagnose/diagnosis_options.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/math/bootstrap.hpp"
@@ -62,6 +63,7 @@ struct HeldOut {
   /// Of what the augmented model's error grows by where one claim is taken out of it and all else fitted
   /// again: claim by claim, horizon by horizon [m].
   std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
+  std::vector<std::optional<double>> augmented_median;  ///< of the distances [m]
   std::size_t windows = 0;
 };
 
@@ -96,6 +98,13 @@ struct UnexplainedForce {
   std::vector<std::optional<Interval>> worsening_ci95{};
 };
 
+/// Unknowns of which a diagnosis asks whether they change in time: accelerations in the world (gravity's
+/// direction and size), of the string, in flight, of the spin, and the string's length.
+inline constexpr std::array kMayChange{
+    Unknown::kTiltX,          Unknown::kTiltY,         Unknown::kGravity,        Unknown::kStringTangent,
+    Unknown::kStringBinormal, Unknown::kFlightAgainst, Unknown::kFlightVertical, Unknown::kFlightLift,
+    Unknown::kSpinString,     Unknown::kSpinFree,      Unknown::kStringLength};
+
 /// What was seen in a window before anything was added, and what is left.
 struct WindowFinding {
   std::size_t recording;
@@ -103,6 +112,14 @@ struct WindowFinding {
   StringState mode;
   double residual_before, residual_after;  ///< root mean square, position [m]
   std::array<double, 7> z;                 ///< of the latent accelerations before; NaN where they say nothing
+  /// Of kMayChange with what was found: half the slope and half the curvature of -chi^2, in the scales of
+  /// kUnknownInfos.
+  std::array<double, kMayChange.size()> slope{}, curvature{};
+  bool eventful = false;                                            ///< the string's state changes in it
+  double residual_noise = kNaN;                                     ///< what noise alone would leave [m]
+  double spin_before = kNaN, spin_after = kNaN, spin_noise = kNaN;  ///< the three of the spin [rad/s]
+  std::array<double, 3> beyond_noise{kNaN, kNaN,
+                                     kNaN};  ///< mean square forward, left, up, less noise's [m^2]
 };
 
 /// A part of a motion, as for a string of 1.45 m: tips by the time [s], and a start; on the string it hangs
@@ -153,6 +170,7 @@ struct Diagnosis {
   Model model;
   HeldOut heldout;
   std::vector<Proposal> proposals;
+  Adequacy adequacy;                  ///< of what was found
   double unexplained = 0.0;           ///< share of the windows that are far off after all
   bool withdrawn = false;             ///< physics that stands out, but does not help on what was left out
   std::optional<double> numerical;    ///< share of the base's error that its numerical rules make

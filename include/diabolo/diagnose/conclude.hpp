@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/judge_adequacy.hpp"
 #include "diabolo/diagnose/significance.hpp"
 
 namespace diabolo {
@@ -77,6 +79,24 @@ inline bool withdraw_what_does_not_help(Diagnosis& d) {
     f.claimed = false;
     d.withdrawn = d.withdrawn || (f.candidate->kind == CandidateKind::kPhysics && std::abs(f.z) > kStrong);
     f.reason = kDenied;
+  }
+  return true;
+}
+
+/// Nothing is claimed that leaves the gap more than half open where the middle window still misses by far:
+/// the motion is none that these laws make. Returns whether that was so. (Bodies under each other's names are
+/// seen without a fit.)
+inline bool withdraw_what_explains_too_little(Diagnosis& d) {
+  const Adequacy& a = d.adequacy;
+  if (a.overall.empty() || a.overall.front().quantity != "position" || !a.explained) return false;
+  const std::optional<double> half =
+      d.heldout.augmented_median.size() > 2 ? d.heldout.augmented_median[2] : std::nullopt;
+  const bool far = a.overall.front().times_noise > kFarOff || half.value_or(0.0) > kFarOffAnyway;
+  if (!far || *a.explained >= kHalfOpen || a.adequate.value_or(true)) return false;
+  for (Finding& f : d.findings) {
+    if (!f.claimed) continue;
+    f.claimed = false;
+    f.reason = "leaves more than half of the gap: the motion is none that the known laws make";
   }
   return true;
 }
@@ -175,6 +195,7 @@ inline void conclude(Diagnosis& d) {
   const bool has_law = !d.unexplained_forces.empty() && d.unexplained_forces.front().in_model;
   const bool only_leftover =
       !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
+  const bool beyond_noise = !d.adequacy.adequate.value_or(true);
   const auto names = [](const std::vector<const Finding*>& list) {
     std::string text;
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -189,6 +210,7 @@ inline void conclude(Diagnosis& d) {
     d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
                  names(leading) + " would explain it, and so would " + tied_plainly(**tied) +
                  " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
+                 (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + names(faults)) +
                  (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
@@ -199,7 +221,7 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kMeasurementFault;
     d.sentence = "The measurement is off by " + names(faults) +
                  (has_law ? "; and a" + left_plainly(d) : "; no physics that has a name is missing.");
-  } else if (d.numerical && *d.numerical > kNumericalShare && !has_law) {
+  } else if (d.numerical && *d.numerical > kNumericalShare && !has_law && !beyond_noise) {
     d.headline = Headline::kNumerical;
     d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
   } else if (has_law || only_leftover) {
@@ -208,6 +230,9 @@ inline void conclude(Diagnosis& d) {
   } else if (d.withdrawn) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something is missing, but no explanation of it helps on data that were left out.";
+  } else if (beyond_noise) {
+    d.headline = Headline::kUnnamedStructure;
+    d.sentence = "Something is missing that has no name.";
   } else if (d.unexplained > kUnexplainedShare) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something without a name is left: " + std::to_string(std::lround(100.0 * d.unexplained)) +
@@ -216,6 +241,8 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kNothingMissing;
     d.sentence = "Nothing is missing that this recording could show.";
   }
+  if (d.reason.empty() && d.headline != Headline::kNumerical && d.headline != Headline::kNothingMissing)
+    d.sentence += explained_in_words(d.adequacy);
   for (std::size_t i = 0; i < d.not_done.size(); ++i)
     d.sentence += (i == 0 ? " Not done: " : "; ") + d.not_done[i] + (i + 1 == d.not_done.size() ? "." : "");
 }

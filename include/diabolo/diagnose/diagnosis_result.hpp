@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/diagnose/adequacy.hpp"
 #include "diabolo/diagnose/location.hpp"
 #include "diabolo/diagnose/result.hpp"
 #include "diabolo/diagnose/significance.hpp"
@@ -22,12 +23,13 @@ struct Thresholds {
   static constexpr const char* kDoc = "What decided the claims, so that nobody has to copy it.";
 
   double physics = kSignificance, measurement = kSignificanceOfFault, worthwhile_odds = kWorthwhileOdds,
-         numerical_share = kNumericalShare;
+         numerical_share = kNumericalShare, times_noise = kTimesNoise;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
     visit("physics", &Thresholds::physics, "Standard deviations beyond which physics counts.");
     visit("measurement", &Thresholds::measurement, "The same of a fault of measurement.");
+    visit("times_noise", &Thresholds::times_noise, "What is left may be so many times what noise leaves.");
     visit("worthwhile_odds", &Thresholds::worthwhile_odds, "Below these a proposed motion parts nothing.");
     visit("numerical_share", &Thresholds::numerical_share,
           "Share of what is left over, beyond which the base's numerical rules count.");
@@ -54,6 +56,7 @@ struct DiagnosisResult {
 
   std::string schema = kDiagnosisSchema, headline, sentence, base;
   std::vector<ClaimedEffect> effects;
+  Adequacy adequacy;
   std::vector<UnnamedStructure> unnamed;
   std::vector<UpperLimit> upper_limits;
   std::vector<Estimate> nuisances;
@@ -78,6 +81,7 @@ struct DiagnosisResult {
     visit("sentence", &DiagnosisResult::sentence, "The answer in words.");
     visit("base", &DiagnosisResult::base, "Name of the simulator that was asked about.");
     visit("effects", &DiagnosisResult::effects, "What is claimed, the surest first.");
+    visit("adequacy", &DiagnosisResult::adequacy, "Whether it leaves no more than noise would.");
     visit("unnamed", &DiagnosisResult::unnamed, "What is there and has no name.");
     visit("upper_limits", &DiagnosisResult::upper_limits, "What may be there unseen.");
     visit("nuisances", &DiagnosisResult::nuisances, "What was measured on the way.");

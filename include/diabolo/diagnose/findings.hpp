@@ -36,6 +36,7 @@ inline void remember_before(Diagnosis& result, const Fit& fit) {
       found.end = fit.fit_takes[s].take->times[window.last];
       found.mode = window.start.string_state;
       found.residual_before = system.position_residual();
+      if (system.spin_numbers > 0) found.spin_before = std::sqrt(system.spin_square / system.spin_numbers);
       for (int k = 0; k < kLatents; ++k) {
         const double information = score.information(kLatentFirst + k, kLatentFirst + k);
         found.z[static_cast<std::size_t>(k)] =

@@ -77,6 +77,12 @@ struct Fit {
   int iterations = 0;
 };
 
+/// Puts what is not free where it is expected.
+inline void put_at_rest(Fit& fit, const ActiveSet& free) {
+  for (int u = 0; u < kUnknowns; ++u)
+    if (!free[u]) fit.at[u] = fit.centre[u];
+}
+
 /// 1 / prior variance in scaled numbers.
 inline UnknownVector prior_precision() {
   UnknownVector result = UnknownVector::Zero();

@@ -18,6 +18,7 @@
 #include "diabolo/recording/spin.hpp"
 #include "diabolo/recording/stick_frames.hpp"
 #include "diabolo/recording/tip_motion.hpp"
+#include "diabolo/recording/track_noise.hpp"
 
 namespace diabolo {
 
@@ -50,6 +51,8 @@ struct Take {
   std::shared_ptr<const TipMotion<double>> motion;
   std::vector<Eigen::Matrix3d> left_frames, right_frames;  ///< of the sticks in each row, to the world
   int substeps = 4;                                        ///< per row
+  TrackNoise left_noise, right_noise, diabolo_noise;       ///< as the camera gave them
+  double angle_noise = 0.0;                                ///< [rad]
   bool has_spin = false, has_orientation = false;
 };
 
@@ -124,6 +127,9 @@ inline FitTake make_fit_take(const Recording& given) {
   const auto made = std::make_shared<Take>();
   Take& take = *made;
   take.recording = without_dropout_edges(given);
+  take.left_noise = track_noise(take.recording.left);
+  take.right_noise = track_noise(take.recording.right);
+  take.diabolo_noise = track_noise(take.recording.diabolo);
   take.recording.left = smoothed(given.left, given.rate);
   take.recording.right = smoothed(given.right, given.rate);
   const RecordedTips tips(take.recording, Interpolation::kSpline);
@@ -131,6 +137,7 @@ inline FitTake make_fit_take(const Recording& given) {
   take.motion = tips.motion(0, given.size() - 1);
   take.spin = signed_spin(take.recording);
   take.has_spin = take.spin.valid.any();
+  take.angle_noise = angle_noise(take.spin.value, take.spin.valid, given.rate);
   take.has_orientation = !given.diabolo_orientation.empty() && given.diabolo_orientation.valid.any();
   take.axis = axes(take.recording);
   take.left_frames = stick_frames(take.recording.left_orientation, given.size());

@@ -157,6 +157,8 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     result.windows = std::max(result.windows, gains[h].size());
     result.base_error.push_back(any ? std::optional(mean_of(base_errors[h])) : std::nullopt);
     result.augmented_error.push_back(any ? std::optional(mean_of(augmented_errors[h])) : std::nullopt);
+    std::ranges::sort(augmented_errors[h]);
+    result.augmented_median.push_back(any ? std::optional(quantile(augmented_errors[h], 0.5)) : std::nullopt);
     result.start_error.push_back(start_errors[h].empty() ? std::nullopt
                                                          : std::optional(mean_of(start_errors[h])));
     result.improvement_ci95.push_back(interval_of(gains[h], h));

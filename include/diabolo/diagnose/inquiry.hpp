@@ -16,6 +16,7 @@
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
+#include "diabolo/diagnose/noise_trial.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/sufficient.hpp"
@@ -53,7 +54,8 @@ class Inquiry {
     } else {
       settle();
       const bool withdrawn = look_for_unnamed(withdraw_what_does_not_help(result_));
-      if (withdrawn) result_.model = options_.base;
+      judge();
+      if (withdrawn || withdraw_what_explains_too_little(result_)) result_.model = options_.base;
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       finish();
     }
@@ -132,7 +134,7 @@ class Inquiry {
     set_ = eliminate(Evidence(fit_), bank_, set_);
     for (int round = 0;; ++round) {
       const double begin = (again ? 0.7 : 0.4) + 0.03 * round;
-      leave_at_rest();
+      put_at_rest(fit_, set_);
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads,
                 step("refitting what is sure", begin, begin + 0.03, kFitsShare));
       const Evidence evidence(fit_);
@@ -176,7 +178,7 @@ class Inquiry {
       if (denied == nullptr) return;
       denied_.push_back(denied);
       set_ = with(set_, *denied, false);
-      leave_at_rest();
+      put_at_rest(fit_, set_);
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads,
                 step("refitting what is left", 0.85, 0.9, kTrialsShare));
     }
@@ -256,13 +258,21 @@ class Inquiry {
     return withdrawn;
   }
 
+  /// Compares what is left with what noise alone would leave.
+  void judge() {
+    const char* const asking = "asking what noise alone would leave";
+    if (!budget_.allows(asking, kRulesShare)) return;
+    result_.adequacy = adequacy_of<D>(result_.windows, fit_, physics_, options_.seed, options_.threads,
+                                      step(asking, 0.95, 0.96, kRulesShare));
+  }
+
   /// The numerical rules' share, the noise, and what to record next.
   void finish() {
     if (numerical_ && budget_.allows("comparing rules", kRulesShare)) {
       Model rules = options_.base;
       rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
       result_.numerical =
-          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.95, 0.97));
+          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.96, 0.97));
     }
     for (std::size_t s = 0; s < fit_.fit_takes.size(); ++s)
       result_.noise.push_back({fit_.fit_takes[s].take->recording.name, fit_.noise[s]});
@@ -271,12 +281,6 @@ class Inquiry {
     const FitWatch looking = step("looking for what to record next", 0.97, 1.0);
     result_.proposals = next_experiments<D>(result_, fit_, physics_, set_, options_.threads, looking);
     if (looking.is_enough()) budget_.leave(proposing);
-  }
-
-  /// Puts what is not free where it is expected.
-  void leave_at_rest() {
-    for (int u = 0; u < kUnknowns; ++u)
-      if (!set_[u]) fit_.at[u] = fit_.centre[u];
   }
 
   const std::vector<Recording>& recordings_;

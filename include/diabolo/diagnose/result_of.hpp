@@ -203,14 +203,21 @@ inline Location located(const Diagnosis& d, const std::vector<Recording>& record
         {std::string(info.name), on_string ? "ON_STRING" : "FLYING", std::string(info.unit)});
   }
   for (const WindowFinding& w : d.windows) {
+    const auto where_seen = [](double value) {
+      return std::isfinite(value) ? std::optional(value) : std::nullopt;
+    };
     LocatedWindow window{recordings[w.recording].name,
                          w.begin,
                          w.end,
                          text_of(w.mode),
                          w.residual_before,
                          w.residual_after,
-                         {}};
-    for (const double z : w.z) window.z.push_back(std::isfinite(z) ? std::optional(z) : std::nullopt);
+                         {},
+                         where_seen(w.residual_noise),
+                         where_seen(w.spin_before),
+                         where_seen(w.spin_after),
+                         where_seen(w.spin_noise)};
+    for (const double z : w.z) window.z.push_back(where_seen(z));
     location.windows.push_back(std::move(window));
   }
   return location;
@@ -255,6 +262,7 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
   for (const Proposal& p : d.proposals)
     result.next_experiment.push_back({std::string(p.experiment->motion), std::string(p.experiment->plain),
                                       p.parts, p.odds, p.experiment->seconds});
+  result.adequacy = d.adequacy;
   result.not_done = d.not_done;
   result.locate = diagnose_detail::located(d, recordings);
   for (const auto& [name, noise] : d.noise) result.noise.push_back({name, noise.position, noise.spin});

@@ -63,6 +63,10 @@ struct WindowSystem {
   int lost = 0;                                     ///< residuals after a catch that the prediction missed
   double position_square = 0.0, spin_square = 0.0;  ///< sums of squared residuals [m^2], [rad^2/s^2]
   int position_numbers = 0, spin_numbers = 0;
+  /// Recorded less predicted, row by row of the window: position [m], and spin before the row [rad/s]. NaN
+  /// where nothing is compared.
+  Eigen::Matrix3Xd residuals;
+  Eigen::VectorXd spin_residuals;
   UnknownVector reach = UnknownVector::Zero();       ///< displacement at the window's end per unknown [m]
   UnknownVector spin_reach = UnknownVector::Zero();  ///< the same of the spin [rad/s]
   double spin = 0.0;                                 ///< size of the spin [rad/s]
@@ -82,6 +86,8 @@ WindowSystem window_system(const Take& take, const FitWindow& window,
   const Eigen::Index n = static_cast<Eigen::Index>(x.columns.size());
   const Recording& r = take.recording;
   WindowSystem system;
+  system.residuals.setConstant(3, window.last - window.first + 1, kNaN);
+  system.spin_residuals.setConstant(window.last - window.first + 1, kNaN);
   const double usual = diagnose_detail::usual_pull(r, window);
   const D stretch =
       diagnose_detail::dynamic_spring(x.at)
@@ -146,6 +152,7 @@ WindowSystem window_system(const Take& take, const FitWindow& window,
         line[n] = residual;
         positions.selfadjointView<Eigen::Lower>().rankUpdate(line);
         system.position_square += residual * residual;
+        system.residuals(c, row - window.first) = residual;
         ++system.position_numbers;
       }
     }
@@ -156,6 +163,7 @@ WindowSystem window_system(const Take& take, const FitWindow& window,
       line[n] = residual;
       spins.selfadjointView<Eigen::Lower>().rankUpdate(line);
       system.spin_square += residual * residual;
+      system.spin_residuals[row - window.first] = residual;
       ++system.spin_numbers;
     }
     if (!measured_reach && (row == window.last || take.times[row] >= half)) {

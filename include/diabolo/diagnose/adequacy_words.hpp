@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "diabolo/diagnose/adequacy.hpp"
+#include "diabolo/parameters.hpp"
+#include "diabolo/text/shown.hpp"
+
+namespace diabolo {
+
+/// A size with its unit, in two digits.
+inline std::string size_in_words(double value, const std::string& unit) {
+  const bool length = unit == "m";
+  const double shown_value = length ? 1e3 * value : value;
+  const double step = std::pow(10.0, std::floor(std::log10(std::max(shown_value, 1e-3))) - 1.0);
+  return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) + (length ? " mm" : " " + unit);
+}
+
+/// Where most is left over, after a comma.
+inline std::string place_in_words(const LeftOver& left) {
+  std::string text;
+  if (left.mode == "ON_STRING") text += ", mostly on the string";
+  if (left.mode == "LOOSE") text += ", mostly on the slack string";
+  if (left.mode == "FLYING") text += ", mostly in flight";
+  if (left.quantity == "spin") text += ", in the spin";
+  if (left.direction == "forward") text += ", forward or back";
+  if (left.direction == "left") text += ", sideways";
+  if (left.direction == "up") text += ", up or down";
+  if (!left.recording.empty())
+    text += ", most from " + shown(std::round(10.0 * left.begin_s) / 10.0) + " to " +
+            shown(std::round(10.0 * left.end_s) / 10.0) + " s of " + left.recording;
+  return text;
+}
+
+/// What is left beyond noise: size and place.
+inline std::string left_in_words(const Adequacy& adequacy) {
+  const LeftOver& worst = adequacy.places.front();
+  return size_in_words(worst.left, worst.unit) + " within half a second, where noise leaves " +
+         size_in_words(worst.noise, worst.unit) + place_in_words(worst);
+}
+
+/// What changes, in plain words: how much of what, and how.
+inline std::string change_in_words(const ChangeInTime& change) {
+  const std::string& name = change.quantity;
+  const bool by_gravity = name == "tilt_x" || name == "tilt_y";
+  const double size = by_gravity ? kStandardGravity * change.size : change.size,
+               per_second = change.trend_per_s.value_or(0.0) * (by_gravity ? kStandardGravity : 1.0);
+  const std::string unit = by_gravity ? "m/s^2" : change.unit;
+  const std::string what = name == "tilt_x"             ? "an acceleration forward or back"
+                           : name == "tilt_y"           ? "an acceleration sideways"
+                           : name == "gravity"          ? "an acceleration up or down"
+                           : name == "string_length"    ? "the string's length"
+                           : name.starts_with("spin")   ? "a torque on the spin"
+                           : name.starts_with("flight") ? "a force in flight"
+                                                        : "a force on the string";
+  if (change.trend_per_s)
+    return what + " that changes steadily, by " + size_in_words(std::abs(per_second), unit) + " each second";
+  return what + " that comes and goes, " + size_in_words(size, unit) +
+         (change.frequency_hz ? " at " + shown(std::round(100.0 * *change.frequency_hz) / 100.0) + " Hz"
+                              : "");
+}
+
+/// How much of the gap what was found explains, and what it leaves: sentences after the answer's.
+inline std::string explained_in_words(const Adequacy& adequacy) {
+  const bool by_spin = !adequacy.explained;
+  const std::optional<double> share = by_spin ? adequacy.spin_explained : adequacy.explained;
+  std::string text;
+  if (share)
+    text = " This explains " + std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" +
+           (by_spin ? " in the spin." : ".");
+  if (!adequacy.places.empty()) text += " No explanation has been found of " + left_in_words(adequacy) + ".";
+  if (!adequacy.changes.empty())
+    text += " Something changes in time: " + change_in_words(adequacy.changes.front()) + ".";
+  return text;
+}
+
+}  // namespace diabolo

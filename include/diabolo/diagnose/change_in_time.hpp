@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diabolo/diagnose/answer.hpp"
+#include "diabolo/math/bootstrap.hpp"
+
+namespace diabolo {
+
+/// Neighbouring windows that agree so much better than chance [standard deviations] see something that lasts.
+/// Of eleven unknowns, noise makes one seem so in a recording of two thousand.
+inline constexpr double kAgreement = 4.0;
+
+/// The longest time between the begins of neighbours [s].
+inline constexpr double kNeighbours = 0.9;
+
+namespace diagnose_detail {
+
+/// What the windows say of one unknown beside its mean: in SI units, with its weight [1 / variance].
+struct WindowSeries {
+  std::vector<double> time, value, weight;
+  std::vector<std::size_t> recording;
+
+  std::size_t size() const { return time.size(); }
+  bool neighbours(std::size_t i) const {
+    return i + 1 < size() && recording[i] == recording[i + 1] && time[i + 1] - time[i] < kNeighbours;
+  }
+};
+
+/// Of kMayChange[k], from windows without events. (A mistimed catch says nothing of what lasts.)
+inline WindowSeries series_of(const std::vector<WindowFinding>& windows, std::size_t k) {
+  const double scale = info_of(kMayChange[k]).scale;
+  WindowSeries series;
+  double slopes = 0.0, curvatures = 0.0;
+  for (const WindowFinding& w : windows) {
+    if (w.eventful || !(w.curvature[k] > 1e-6)) continue;
+    series.time.push_back(w.begin);
+    series.value.push_back(scale * w.slope[k] / w.curvature[k]);
+    series.weight.push_back(w.curvature[k] / (scale * scale));
+    series.recording.push_back(w.recording);
+    slopes += scale * w.slope[k] * series.weight.back() / w.curvature[k];
+    curvatures += series.weight.back();
+  }
+  for (double& value : series.value) value -= slopes / curvatures;
+  return series;
+}
+
+/// Products of neighbours in standard deviations, each deviation held to six times the middle one.
+struct Agreement {
+  double z = 0.0, size = 0.0;
+};
+
+inline Agreement agreement_of(const WindowSeries& series) {
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < series.size(); ++i)
+    sizes.push_back(std::abs(series.value[i]) * std::sqrt(series.weight[i]));
+  if (sizes.empty()) return {};
+  std::vector<double> sorted = sizes;
+  std::ranges::sort(sorted);
+  const double most = 6.0 * quantile(sorted, 0.5);
+  std::vector<double> products;
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (!series.neighbours(i)) continue;
+    const double product = std::copysign(std::min(sizes[i], most), series.value[i]) *
+                           std::copysign(std::min(sizes[i + 1], most), series.value[i + 1]);
+    sum += product;
+    squares += product * product;
+    products.push_back(series.value[i] * series.value[i + 1]);
+  }
+  if (products.size() < 12) return {};
+  std::ranges::sort(products);
+  return {sum / std::sqrt(std::max(squares, 1e-300)), std::sqrt(std::max(0.0, quantile(products, 0.5)))};
+}
+
+/// What is left of a series [weighted sum of squares] beside some functions of time, by least squares.
+inline double left_beside(const WindowSeries& series,
+                          const std::vector<std::function<double(double)>>& functions,
+                          double* first = nullptr) {
+  const Eigen::Index n = static_cast<Eigen::Index>(series.size());
+  Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(functions.size()) + 1);
+  Eigen::VectorXd values(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    const double root = std::sqrt(series.weight[k]);
+    for (std::size_t j = 0; j < functions.size(); ++j)
+      columns(i, static_cast<Eigen::Index>(j)) = root * functions[j](series.time[k]);
+    columns(i, columns.cols() - 1) = root;
+    values[i] = root * series.value[k];
+  }
+  const Eigen::VectorXd best = columns.colPivHouseholderQr().solve(values);
+  if (first != nullptr) *first = best[0];
+  return (values - columns * best).squaredNorm();
+}
+
+/// Names the shape of a change: steady, or an oscillation that leaves clearly less; neither where both leave
+/// most of it. Only where all windows are of one recording, whose clock they share.
+inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
+  if (series.recording.front() != series.recording.back()) return;
+  double slope = 0.0;
+  const double all = left_beside(series, {}),
+               steady = left_beside(series, {[](double t) { return t; }}, &slope);
+  const double span = series.time.back() - series.time.front();
+  double best = all, frequency = 0.0;
+  for (double f = 1.0 / span; f <= 0.9; f += 0.1 / span) {
+    const double omega = 2.0 * std::numbers::pi * f;
+    const double left = left_beside(series, {[omega](double t) { return std::sin(omega * t); },
+                                             [omega](double t) { return std::cos(omega * t); }});
+    if (left < best) best = left, frequency = f;
+  }
+  if (steady < 0.7 * all && steady < 1.2 * best)
+    change.trend_per_s = slope;
+  else if (best < 0.7 * all)
+    change.frequency_hz = frequency;
+}
+
+}  // namespace diagnose_detail
+
+/// Unknowns of which neighbouring windows say the same, and others something else: the surest first. What no
+/// name explains shows here long before it shows in the size of what is left.
+inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding>& windows) {
+  using namespace diagnose_detail;
+  std::vector<ChangeInTime> result;
+  for (std::size_t k = 0; k < kMayChange.size(); ++k) {
+    const WindowSeries series = series_of(windows, k);
+    const Agreement agreement = agreement_of(series);
+    if (!(agreement.z > kAgreement)) continue;
+    const UnknownInfo& info = info_of(kMayChange[k]);
+    ChangeInTime change;
+    change.quantity = info.name;
+    change.unit = info.unit;
+    change.z = agreement.z;
+    change.size = agreement.size;
+    name_shape(series, change);
+    result.push_back(change);
+  }
+  std::ranges::stable_sort(result, std::greater(), &ChangeInTime::z);
+  return result;
+}
+
+}  // namespace diabolo

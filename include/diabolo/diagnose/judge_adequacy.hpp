@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/change_in_time.hpp"
+#include "diabolo/math/bootstrap.hpp"
+
+namespace diabolo {
+
+/// More is left than noise leaves where noise alone would do so with no greater chance.
+inline constexpr double kNoiseMayDoIt = 0.01;
+
+/// What matters to nobody, root mean square over half a second: an acceleration that moves a free diabolo by
+/// 1 mm leaves 0.04 mm beside the best start.
+inline constexpr double kImmaterialPosition = 4e-5, kImmaterialSpin = 0.1;
+
+/// Windows in a stretch of time: some four seconds.
+inline constexpr std::size_t kStretch = 8;
+
+/// A name is a wrong one where the gap stays open by more than half, and the middle window still misses by so
+/// many times the noise, or by so much after half a second [m].
+inline constexpr double kHalfOpen = 0.5, kFarOff = 10.0, kFarOffAnyway = 0.1;
+
+namespace diagnose_detail {
+
+/// A number of a window: left by the base, with what was found, and by noise alone.
+struct Channel {
+  const char *quantity, *unit;
+  double immaterial;
+  double WindowFinding::*base;
+  double WindowFinding::*left;
+  double WindowFinding::*noise;
+};
+
+inline constexpr Channel kPositionChannel{"position",
+                                          "m",
+                                          kImmaterialPosition,
+                                          &WindowFinding::residual_before,
+                                          &WindowFinding::residual_after,
+                                          &WindowFinding::residual_noise};
+inline constexpr Channel kSpinChannel{"spin",
+                                      "rad/s",
+                                      kImmaterialSpin,
+                                      &WindowFinding::spin_before,
+                                      &WindowFinding::spin_after,
+                                      &WindowFinding::spin_noise};
+
+using Windows = std::vector<const WindowFinding*>;
+
+inline double middle_of(std::vector<double> values) {
+  std::ranges::sort(values);
+  return quantile(values, 0.5);
+}
+
+/// The chance that at least `heads` of `throws` fair coins show heads.
+inline double chance_of(std::size_t heads, std::size_t throws) {
+  double sum = 0.0;
+  for (std::size_t k = heads; k <= throws; ++k) {
+    const double n = static_cast<double>(throws), m = static_cast<double>(k);
+    sum +=
+        std::exp(std::lgamma(n + 1.0) - std::lgamma(m + 1.0) - std::lgamma(n - m + 1.0) - n * std::log(2.0));
+  }
+  return std::min(1.0, sum);
+}
+
+/// The direction in which most of what noise does not explain lies, where one leads.
+inline std::string leading_direction(const Windows& windows) {
+  std::array<double, 3> beyond{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const WindowFinding* w : windows) values.push_back(w->beyond_noise[axis]);
+    beyond[axis] = std::max(0.0, middle_of(values));
+  }
+  constexpr std::array<const char*, 3> kNames{"forward", "left", "up"};
+  const std::size_t most = static_cast<std::size_t>(std::ranges::max_element(beyond) - beyond.begin());
+  return beyond[most] > 0.7 * (beyond[0] + beyond[1] + beyond[2]) ? kNames[most] : "";
+}
+
+/// What the middle one of some windows leaves; nothing where fewer than kStretch say anything.
+inline std::optional<LeftOver> left_over_in(const Windows& windows, const Channel& channel) {
+  std::vector<double> base, left, noise, times;
+  std::size_t above = 0;
+  Windows seen;
+  for (const WindowFinding* w : windows) {
+    if (!std::isfinite(w->*channel.left) || !std::isfinite(w->*channel.noise)) continue;
+    seen.push_back(w);
+    base.push_back(w->*channel.base);
+    left.push_back(w->*channel.left);
+    noise.push_back(w->*channel.noise);
+    times.push_back(left.back() / std::max(noise.back(), channel.immaterial));
+    above += left.back() > noise.back();
+  }
+  if (seen.size() < kStretch) return std::nullopt;
+  LeftOver result;
+  result.quantity = channel.quantity;
+  result.unit = channel.unit;
+  result.mode = "ANY";
+  if (channel.quantity == kPositionChannel.quantity) result.direction = leading_direction(seen);
+  result.windows = seen.size();
+  result.base = middle_of(base);
+  result.left = middle_of(left);
+  result.noise = middle_of(noise);
+  result.times_noise = middle_of(times);
+  result.p_value = chance_of(above, seen.size());
+  return result;
+}
+
+inline bool is_beyond_noise(const LeftOver& left) {
+  return left.times_noise > kTimesNoise && left.p_value < kNoiseMayDoIt;
+}
+
+/// The share of the gap beyond noise that was closed; nothing where there is none.
+inline std::optional<double> explained_of(const LeftOver& left) {
+  if (!(left.base > kTimesNoise * left.noise)) return std::nullopt;
+  return std::min(1.0, (left.base - left.left) / (left.base - left.noise));
+}
+
+inline const char* mode_of(const WindowFinding& w) {
+  if (w.eventful) return "EVENT";
+  return w.mode == StringState::kOnString ? "ON_STRING" : w.mode == StringState::kLoose ? "LOOSE" : "FLYING";
+}
+
+/// Stretches of time without events in which more is left than noise leaves, joined where they touch.
+inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Channel& channel,
+                                              const std::vector<std::string>& names) {
+  const auto part = [&](std::size_t first, std::size_t end) {
+    return Windows(windows.begin() + static_cast<std::ptrdiff_t>(first),
+                   windows.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;
+  for (std::size_t first = 0; first + kStretch <= windows.size(); first += kStretch / 2) {
+    const std::size_t end = first + kStretch;
+    if (windows[first]->recording != windows[end - 1]->recording) continue;
+    const std::optional<LeftOver> left = left_over_in(part(first, end), channel);
+    if (!left || !is_beyond_noise(*left)) continue;
+    if (!ranges.empty() && first <= ranges.back().second &&
+        windows[ranges.back().first]->recording == windows[first]->recording)
+      ranges.back().second = end;
+    else
+      ranges.emplace_back(first, end);
+  }
+  std::vector<LeftOver> result;
+  for (const auto& [first, end] : ranges) {
+    result.push_back(*left_over_in(part(first, end), channel));
+    result.back().recording = names[windows[first]->recording];
+    result.back().begin_s = windows[first]->begin;
+    result.back().end_s = windows[end - 1]->end;
+  }
+  return result;
+}
+
+}  // namespace diagnose_detail
+
+/// What windows leave against what noise alone leaves: over all, in each state of the string, and in each
+/// stretch of time. `names` are the recordings'.
+inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
+                               const std::vector<std::string>& names) {
+  using namespace diagnose_detail;
+  Adequacy result;
+  Windows all, calm;
+  for (const WindowFinding& w : windows) {
+    all.push_back(&w);
+    if (!w.eventful) calm.push_back(&w);
+  }
+  for (const Channel& channel : {kPositionChannel, kSpinChannel}) {
+    const std::optional<LeftOver> overall = left_over_in(all, channel);
+    if (!overall) continue;
+    Channel of_base = channel;
+    of_base.left = channel.base;
+    const std::optional<LeftOver> before = left_over_in(all, of_base);
+    result.adequate = result.adequate.value_or(true);
+    result.base_adequate = result.base_adequate.value_or(true) && !(before && is_beyond_noise(*before));
+    (channel.quantity == kPositionChannel.quantity ? result.explained : result.spin_explained) =
+        explained_of(*overall);
+    result.overall.push_back(*overall);
+    if (is_beyond_noise(*overall)) result.places.push_back(*overall);
+    for (const char* mode : {"ON_STRING", "LOOSE", "FLYING"}) {
+      Windows part;
+      for (const WindowFinding* w : all)
+        if (std::string(mode_of(*w)) == mode) part.push_back(w);
+      std::optional<LeftOver> left = left_over_in(part, channel);
+      if (!left || !is_beyond_noise(*left)) continue;
+      left->mode = mode;
+      result.places.push_back(*left);
+    }
+    std::ranges::move(stretches_beyond(calm, channel, names), std::back_inserter(result.places));
+  }
+  result.changes = changes_in_time(windows);
+  if (!result.places.empty() || !result.changes.empty()) result.adequate = false;
+  std::ranges::stable_sort(result.places, std::greater(), &LeftOver::times_noise);
+  return result;
+}
+
+}  // namespace diabolo
