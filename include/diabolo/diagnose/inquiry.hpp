@@ -68,8 +68,7 @@ class Inquiry {
   bool backwards() const { return backwards_; }
 
  private:
-  /// Tells of a step that takes the work from a fraction done to another one, and how it is watched until a
-  /// share of the budget is spent.
+  /// Tells of a step between two fractions of the work; it is watched until a share of the budget is spent.
   FitWatch step(const std::string& name, double begin, double end, double share = 1.0) const {
     const auto enough = [this, share] { return budget_.spent(share); };
     if (!watch_.progress) return {{{}, watch_.cancelled}, enough};
@@ -224,8 +223,7 @@ class Inquiry {
     return withdraw_what_left_out_data_deny(result_);
   }
 
-  /// Takes a law without a name into the model where it helps. Returns whether what was found, `withdrawn`
-  /// before, is withdrawn since it does not.
+  /// Takes a law without a name into the model where it helps. Returns whether what was found is withdrawn.
   bool look_for_unnamed(bool withdrawn) {
     if (!physics_.effects.template get<UnnamedForce>().neutral()) {
       result_.not_done.push_back("looking for forces without a name beside the base's own");
@@ -278,7 +276,7 @@ class Inquiry {
       result_.noise.push_back({fit_.fit_takes[s].take->recording.name, fit_.noise[s]});
     const char* const proposing = "proposing what to record next";
     if (!budget_.allows(proposing, 1.0)) return;
-    const FitWatch looking = step("looking for what to record next", 0.97, 1.0);
+    const FitWatch looking = step(proposing, 0.97, 1.0);
     result_.proposals = next_experiments<D>(result_, fit_, physics_, set_, options_.threads, looking);
     if (looking.is_enough()) budget_.leave(proposing);
   }
@@ -299,5 +297,4 @@ class Inquiry {
 };
 
 }  // namespace diagnose_detail
-
 }  // namespace diabolo
