@@ -65,12 +65,13 @@ inline std::string change_in_words(const ChangeInTime& change) {
 }
 
 /// How much of the gap what was found explains, and what it leaves: sentences after the answer's.
-inline std::string explained_in_words(const Adequacy& adequacy) {
+inline std::string explained_in_words(const Adequacy& adequacy, bool named) {
   const bool by_spin = !adequacy.explained;
   const std::optional<double> share = by_spin ? adequacy.spin_explained : adequacy.explained;
   std::string text;
   if (share)
-    text = " This explains " + std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" +
+    text = (named ? " This explains " : " All that may be off in the measurement explains ") +
+           std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" +
            (by_spin ? " in the spin." : ".");
   if (!adequacy.places.empty()) text += " No explanation has been found of " + left_in_words(adequacy) + ".";
   if (!adequacy.changes.empty())

@@ -112,7 +112,7 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
                steady = left_beside(series, {[](double t) { return t; }}, &slope);
   const double span = series.time.back() - series.time.front();
   double best = all, frequency = 0.0;
-  for (double f = 1.0 / span; f <= 0.9; f += 0.1 / span) {
+  for (double f = 1.5 / span; f <= 0.9; f += 0.1 / span) {  // what bends but once is no oscillation
     const double omega = 2.0 * std::numbers::pi * f;
     const double left = left_beside(series, {[omega](double t) { return std::sin(omega * t); },
                                              [omega](double t) { return std::cos(omega * t); }});

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/change_in_time.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "catch.hpp"
+#include "recording/support.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+constexpr std::size_t kSideways = 1, kLength = 10;  // of kMayChange
+
+/// Windows of half a second that see an unknown (SI units) with a deviation of one scale.
+std::vector<WindowFinding> seen(std::size_t k, int count, const std::function<double(double)>& value,
+                                std::uint32_t seed) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  std::vector<WindowFinding> windows;
+  for (int i = 0; i < count; ++i) {
+    WindowFinding w{};
+    w.begin = 0.5 * i;
+    w.end = w.begin + 0.5;
+    w.curvature[k] = 1.0;
+    w.slope[k] = value(w.begin) / info_of(kMayChange[k]).scale + normal(generator);
+    windows.push_back(w);
+  }
+  return windows;
+}
+
+double wave(double t) { return 0.02 * std::sin(2.0 * std::numbers::pi * 0.21 * t + 0.4); }
+
+}  // namespace
+
+TEST_CASE("an acceleration that comes and goes is found with its frequency and size") {
+  const std::vector<ChangeInTime> changes = changes_in_time(seen(kSideways, 120, wave, test::fresh_seed()));
+  REQUIRE(changes.size() == 1);
+  CHECK(changes.front().quantity == "tilt_y");
+  REQUIRE(changes.front().frequency_hz.has_value());
+  CHECK(*changes.front().frequency_hz == Approx(0.21).margin(0.01));
+  CHECK(changes.front().size > 0.005);
+  CHECK(changes.front().size < 0.02);
+}
+
+TEST_CASE("a string that creeps is told by how much a second") {
+  const std::vector<ChangeInTime> changes = changes_in_time(seen(
+      kLength, 120, [](double t) { return 2e-3 * (t - 30.0); }, test::fresh_seed()));
+  REQUIRE(changes.size() == 1);
+  CHECK(changes.front().quantity == "string_length");
+  REQUIRE(changes.front().trend_per_s.has_value());
+  CHECK(*changes.front().trend_per_s == Approx(2e-3).epsilon(0.15));
+}
+
+TEST_CASE("noise changes in less than one of a hundred recordings, however large; so does a constant") {
+  std::mt19937 generator(test::fresh_seed());
+  int found = 0;
+  for (int i = 0; i < 400; ++i)
+    found += static_cast<int>(changes_in_time(seen(
+                                                  kSideways, 60, [](double) { return 0.05; }, generator()))
+                                  .size());
+  CHECK(found <= 4);
+}
+
+TEST_CASE("what lies in events, across a gap or in another recording is no neighbour") {
+  const std::uint32_t seed = test::fresh_seed();
+  std::vector<WindowFinding> windows = seen(kSideways, 120, wave, seed), gaps = windows, takes = windows;
+  for (WindowFinding& w : windows) w.eventful = true;
+  CHECK(changes_in_time(windows).empty());
+  for (WindowFinding& w : gaps) w.begin *= 3.0, w.end *= 3.0;
+  CHECK(changes_in_time(gaps).empty());
+  for (std::size_t i = 0; i < takes.size(); ++i) takes[i].recording = i;
+  CHECK(changes_in_time(takes).empty());
+}
