@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Air', 'Calibration', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LeftOver', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -1673,6 +1673,173 @@ class HorizonScore:
         """
         Starts that could be compared.
         """
+class LeftOver:
+    """
+    What windows of half a second leave over, and what noise would leave.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def base(self) -> float:
+        """
+        Left by the base in the middle window, root mean square.
+        """
+    @property
+    def begin_s(self) -> float:
+        """
+        Of the stretch of time.
+        """
+    @property
+    def direction(self) -> str:
+        """
+        forward, left or up where one leads; else empty.
+        """
+    @property
+    def end_s(self) -> float:
+        ...
+    @property
+    def left(self) -> float:
+        """
+        The same with what was found.
+        """
+    @property
+    def mode(self) -> str:
+        """
+        State of the string; EVENT where it changes, ANY for all.
+        """
+    @property
+    def noise(self) -> float:
+        """
+        The same of noise alone.
+        """
+    @property
+    def p_value(self) -> float:
+        """
+        Chance that noise leaves more than noise in so many windows.
+        """
+    @property
+    def quantity(self) -> str:
+        """
+        position or spin.
+        """
+    @property
+    def recording(self) -> str:
+        """
+        By its name; empty for all.
+        """
+    @property
+    def times_noise(self) -> float:
+        """
+        How many times the noise the middle window leaves.
+        """
+    @property
+    def unit(self) -> str:
+        """
+        m or rad/s.
+        """
+    @property
+    def windows(self) -> int:
+        """
+        Of half a second, that were looked at.
+        """
+class ChangeInTime:
+    """
+    Something that is not what it was a moment ago, window by window.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def frequency_hz(self) -> float | None:
+        """
+        Where an oscillation explains it best.
+        """
+    @property
+    def quantity(self) -> str:
+        """
+        Name of the unknown that changes.
+        """
+    @property
+    def size(self) -> float:
+        """
+        Root mean square of what neighbouring windows agree on.
+        """
+    @property
+    def trend_per_s(self) -> float | None:
+        """
+        Where a steady change explains it best.
+        """
+    @property
+    def unit(self) -> str:
+        """
+        Of its size.
+        """
+    @property
+    def z(self) -> float:
+        """
+        Standard deviations by which neighbouring windows agree too well.
+        """
+class Adequacy:
+    """
+    Whether the answer leaves no more than the camera's noise would.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def adequate(self) -> bool | None:
+        """
+        Null where it was not asked.
+        """
+    @property
+    def base_adequate(self) -> bool | None:
+        """
+        The same of the base alone.
+        """
+    @property
+    def changes(self) -> list[ChangeInTime]:
+        """
+        What is left and changes in time, the surest first.
+        """
+    @property
+    def explained(self) -> float | None:
+        """
+        Share of the base's gap of position, beyond noise, that the answer closes; null without a gap.
+        """
+    @property
+    def overall(self) -> list[LeftOver]:
+        """
+        Over all windows: position and, where it was seen, spin.
+        """
+    @property
+    def places(self) -> list[LeftOver]:
+        """
+        Where more is left than noise leaves, the worst first.
+        """
+    @property
+    def spin_explained(self) -> float | None:
+        """
+        The same of the spin.
+        """
 class Estimate:
     """
     A number that was estimated.
@@ -2187,6 +2354,26 @@ class LocatedWindow:
         Root mean square of the base.
         """
     @property
+    def residual_noise_m(self) -> float | None:
+        """
+        What noise alone would leave.
+        """
+    @property
+    def spin_after_rad_s(self) -> float | None:
+        """
+        The same with what was found.
+        """
+    @property
+    def spin_before_rad_s(self) -> float | None:
+        """
+        Root mean square of the base's spin.
+        """
+    @property
+    def spin_noise_rad_s(self) -> float | None:
+        """
+        What noise alone would leave.
+        """
+    @property
     def z(self) -> list[float | None]:
         """
         Of what is missing, direction by direction.
@@ -2269,6 +2456,11 @@ class Thresholds:
         Standard deviations beyond which physics counts.
         """
     @property
+    def times_noise(self) -> float:
+        """
+        What is left may be so many times what noise leaves.
+        """
+    @property
     def worthwhile_odds(self) -> float:
         """
         Below these a proposed motion parts nothing.
@@ -2326,6 +2518,11 @@ class DiagnosisResult:
     def to_json(self) -> str:
         """
         The text of its file, schema diabolo.diagnosis/1.
+        """
+    @property
+    def adequacy(self) -> Adequacy:
+        """
+        Whether it leaves no more than noise would.
         """
     @property
     def base(self) -> str:
