@@ -59,6 +59,7 @@ def report_html(result: dict[str, Any]) -> str:
             result=result,
             fit=_fit(result.get("fit") or {}),
             effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
+            adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
             unnamed=[_unnamed(item, horizons) for item in _rows(result, "unnamed")],
             strips=_strips(result.get("locate") or {}, thresholds["physics"]),
             first_strips=FIRST_RECORDINGS,
@@ -264,6 +265,50 @@ def _improvement(gain: float, interval: Any) -> str:
         return f"{shown}, which excludes zero."
     verdict = "it predicts worse" if interval[1] < 0.0 else "zero is inside, so no improvement is shown"
     return f"{shown}: {verdict}."
+
+
+def _adequacy(adequacy: dict[str, Any], times_noise: float) -> dict[str, Any]:
+    """What is left beside what noise alone would leave: in words, over all, by place, and in time."""
+    if adequacy.get("adequate") is None:
+        said = "It was not asked how much noise alone would leave."
+    elif adequacy["adequate"]:
+        said = f"No more is left than {times_noise:g} times what the camera's noise alone would leave."
+    else:
+        said = "More is left than the camera's noise would leave: something has no explanation yet."
+    return {
+        "said": said,
+        "overall": [_left_over(row) for row in _rows(adequacy, "overall")],
+        "places": [[_place(row), *_left_over(row)] for row in _rows(adequacy, "places")],
+        "changes": [_change(row) for row in _rows(adequacy, "changes")],
+    }
+
+
+def _left_over(row: dict[str, Any]) -> list[Any]:
+    unit = row.get("unit")
+    sizes = [quantity(row.get(name), unit) for name in ("base", "left", "noise")]
+    times = row.get("times_noise")
+    return [row.get("quantity"), *sizes, "-" if times is None else f"{times:.1f}", row.get("windows")]
+
+
+def _place(row: dict[str, Any]) -> str:
+    """State of the string, direction and stretch of time, as far as they are known."""
+    parts = [] if row.get("mode") in (None, "ANY") else [words(row["mode"])]
+    parts += [words(row["direction"])] if row.get("direction") else []
+    if row.get("recording"):
+        parts.append(f"{row['recording']}, {row['begin_s']:.1f} to {row['end_s']:.1f} s")
+    return "; ".join(parts) or "everywhere"
+
+
+def _change(row: dict[str, Any]) -> list[Any]:
+    trend, frequency = row.get("trend_per_s"), row.get("frequency_hz")
+    how = (
+        f"steadily, by {quantity(trend, row.get('unit'))} each second"
+        if trend is not None
+        else "comes and goes"
+        if frequency is None
+        else f"comes and goes, {frequency:.2f} Hz"
+    )
+    return [words(row.get("quantity")), quantity(row.get("size"), row.get("unit")), how, f"{row['z']:.1f}"]
 
 
 def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:
@@ -544,10 +589,12 @@ def _residuals(axes: Axes, spans: list[tuple[float, float]], windows: list[dict[
     """What is left in each window, in millimetres, before and after the correction."""
     x = [time for begin, end in spans for time in (begin, end, end)]
     levels = {}
-    for key in ("residual_before_m", "residual_after_m"):
+    for key in ("residual_before_m", "residual_after_m", "residual_noise_m"):
         values = [math.nan if window.get(key) is None else 1e3 * window[key] for window in windows]
         levels[key] = [level for value in values for level in (value, value, math.nan)]
-    axes.fill_between(x, levels["residual_before_m"], color=BEFORE, alpha=0.45, lw=0, label="base")
+    axes.plot(x, levels["residual_before_m"], color=BEFORE, lw=2.0, label="base")
     axes.plot(x, levels["residual_after_m"], color=AFTER, lw=2.0, label="corrected")
-    axes.set(xlabel="time [s]", ylabel="left over [mm]", ylim=(0, None))
+    axes.plot(x, levels["residual_noise_m"], color=BEFORE, lw=1.0, ls=":", label="noise alone")
+    axes.set(xlabel="time [s]", ylabel="left over [mm]", yscale="log")
+    axes.yaxis.set_major_formatter("{x:g}")
     axes.grid(alpha=0.25)

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kSideways = 1, kLength = 10;  // of kMayChange
 
-/// Windows of half a second that see an unknown (SI units) with a deviation of one scale.
+/// Windows of half a second that see an unknown (SI units) with a deviation of a usual size.
 std::vector<WindowFinding> seen(std::size_t k, int count, const std::function<double(double)>& value,
                                 std::uint32_t seed) {
   std::mt19937_64 generator(seed);
@@ -27,24 +27,25 @@ std::vector<WindowFinding> seen(std::size_t k, int count, const std::function<do
     w.begin = 0.5 * i;
     w.end = w.begin + 0.5;
     w.curvature[k] = 1.0;
-    w.slope[k] = value(w.begin) / info_of(kMayChange[k]).scale + normal(generator);
+    w.slope[k] =
+        value(w.begin) / (kMayChange[k].factor * info_of(kMayChange[k].unknown).scale) + normal(generator);
     windows.push_back(w);
   }
   return windows;
 }
 
-double wave(double t) { return 0.02 * std::sin(2.0 * std::numbers::pi * 0.21 * t + 0.4); }
+double wave(double t) { return 0.2 * std::sin(2.0 * std::numbers::pi * 0.21 * t + 0.4); }
 
 }  // namespace
 
 TEST_CASE("an acceleration that comes and goes is found with its frequency and size") {
   const std::vector<ChangeInTime> changes = changes_in_time(seen(kSideways, 120, wave, test::fresh_seed()));
   REQUIRE(changes.size() == 1);
-  CHECK(changes.front().quantity == "tilt_y");
+  CHECK(changes.front().quantity == "acceleration_left");
   REQUIRE(changes.front().frequency_hz.has_value());
   CHECK(*changes.front().frequency_hz == Approx(0.21).margin(0.01));
-  CHECK(changes.front().size > 0.005);
-  CHECK(changes.front().size < 0.02);
+  CHECK(changes.front().size > 0.05);
+  CHECK(changes.front().size < 0.2);
 }
 
 TEST_CASE("a string that creeps is told by how much a second") {
@@ -61,7 +62,7 @@ TEST_CASE("noise changes in less than one of a hundred recordings, however large
   int found = 0;
   for (int i = 0; i < 400; ++i)
     found += static_cast<int>(changes_in_time(seen(
-                                                  kSideways, 60, [](double) { return 0.05; }, generator()))
+                                                  kSideways, 60, [](double) { return 0.5; }, generator()))
                                   .size());
   CHECK(found <= 4);
 }

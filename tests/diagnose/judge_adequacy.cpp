@@ -62,7 +62,7 @@ TEST_CASE("what noise does not leave is told, with its size, direction and share
   REQUIRE_FALSE(a.places.empty());
   CHECK(a.places.front().direction == "left");
   CHECK(a.places.front().left == Approx(3e-3).epsilon(0.1));
-  CHECK(a.places.front().p_value < 1e-6);
+  CHECK(a.overall.front().p_value < 1e-6);
 }
 
 TEST_CASE("the spin is judged by the spin") {
@@ -121,7 +121,7 @@ TEST_CASE("a name says how much it explains and what it leaves") {
   f.candidate = &candidate_of("string_friction");
   f.claimed = true;
   d.findings = {f};
-  d.adequacy = judge_adequacy(windows_of(2e-3, 0.5, test::fresh_seed()), kNames);
+  d.adequacy = judge_adequacy(windows_of(2.2e-3, 0.5, test::fresh_seed()), kNames);
   CHECK_FALSE(withdraw_what_explains_too_little(d));
   conclude(d);
   CHECK(d.headline == Headline::kNamed);

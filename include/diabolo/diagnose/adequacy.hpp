@@ -52,7 +52,7 @@ struct ChangeInTime {
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
-    visit("quantity", &ChangeInTime::quantity, "Name of the unknown that changes.");
+    visit("quantity", &ChangeInTime::quantity, "What changes.");
     visit("unit", &ChangeInTime::unit, "Of its size.");
     visit("z", &ChangeInTime::z, "Standard deviations by which neighbouring windows agree too well.");
     visit("size", &ChangeInTime::size, "Root mean square of what neighbouring windows agree on.");

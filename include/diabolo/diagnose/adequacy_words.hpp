@@ -46,20 +46,17 @@ inline std::string left_in_words(const Adequacy& adequacy) {
 /// What changes, in plain words: how much of what, and how.
 inline std::string change_in_words(const ChangeInTime& change) {
   const std::string& name = change.quantity;
-  const bool by_gravity = name == "tilt_x" || name == "tilt_y";
-  const double size = by_gravity ? kStandardGravity * change.size : change.size,
-               per_second = change.trend_per_s.value_or(0.0) * (by_gravity ? kStandardGravity : 1.0);
-  const std::string unit = by_gravity ? "m/s^2" : change.unit;
-  const std::string what = name == "tilt_x"             ? "an acceleration forward or back"
-                           : name == "tilt_y"           ? "an acceleration sideways"
-                           : name == "gravity"          ? "an acceleration up or down"
-                           : name == "string_length"    ? "the string's length"
-                           : name.starts_with("spin")   ? "a torque on the spin"
-                           : name.starts_with("flight") ? "a force in flight"
-                                                        : "a force on the string";
+  const std::string what = name == "acceleration_forward" ? "an acceleration forward or back"
+                           : name == "acceleration_left"  ? "an acceleration sideways"
+                           : name == "acceleration_up"    ? "an acceleration up or down"
+                           : name == "string_length"      ? "the string's length"
+                           : name.starts_with("spin")     ? "a torque on the spin"
+                           : name.starts_with("flight")   ? "a force in flight"
+                                                          : "a force on the string";
   if (change.trend_per_s)
-    return what + " that changes steadily, by " + size_in_words(std::abs(per_second), unit) + " each second";
-  return what + " that comes and goes, " + size_in_words(size, unit) +
+    return what + " that changes steadily, by " + size_in_words(std::abs(*change.trend_per_s), change.unit) +
+           " each second";
+  return what + " that comes and goes, " + size_in_words(change.size, change.unit) +
          (change.frequency_hz ? " at " + shown(std::round(100.0 * *change.frequency_hz) / 100.0) + " Hz"
                               : "");
 }

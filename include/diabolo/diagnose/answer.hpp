@@ -98,12 +98,26 @@ struct UnexplainedForce {
   std::vector<std::optional<Interval>> worsening_ci95{};
 };
 
-/// Unknowns of which a diagnosis asks whether they change in time: accelerations in the world (gravity's
-/// direction and size), of the string, in flight, of the spin, and the string's length.
+/// An unknown of which a diagnosis asks whether it changes in time, as what it is told, and in which unit.
+struct MayChange {
+  Unknown unknown;
+  const char *name, *unit;
+  double factor = 1.0;  ///< of the unit in that of the unknown
+};
+
+/// Accelerations in the world by gravity's direction and size, forces, torques, and the string's length.
 inline constexpr std::array kMayChange{
-    Unknown::kTiltX,          Unknown::kTiltY,         Unknown::kGravity,        Unknown::kStringTangent,
-    Unknown::kStringBinormal, Unknown::kFlightAgainst, Unknown::kFlightVertical, Unknown::kFlightLift,
-    Unknown::kSpinString,     Unknown::kSpinFree,      Unknown::kStringLength};
+    MayChange{Unknown::kTiltX, "acceleration_forward", "m/s^2", kStandardGravity},
+    MayChange{Unknown::kTiltY, "acceleration_left", "m/s^2", kStandardGravity},
+    MayChange{Unknown::kGravity, "acceleration_up", "m/s^2"},
+    MayChange{Unknown::kStringTangent, "string_tangent", "m/s^2"},
+    MayChange{Unknown::kStringBinormal, "string_binormal", "m/s^2"},
+    MayChange{Unknown::kFlightAgainst, "flight_against_v", "m/s^2"},
+    MayChange{Unknown::kFlightVertical, "flight_vertical", "m/s^2"},
+    MayChange{Unknown::kFlightLift, "flight_axis_x_v", "m/s^2"},
+    MayChange{Unknown::kSpinString, "spin_on_string", "rad/s^2"},
+    MayChange{Unknown::kSpinFree, "spin_off_string", "rad/s^2"},
+    MayChange{Unknown::kStringLength, "string_length", "m"}};
 
 /// What was seen in a window before anything was added, and what is left.
 struct WindowFinding {

@@ -26,7 +26,7 @@ inline constexpr double kNeighbours = 0.9;
 
 namespace diagnose_detail {
 
-/// What the windows say of one unknown beside its mean: in SI units, with its weight [1 / variance].
+/// What the windows say of one unknown beside its mean, in its unit, with its weight [1 / variance].
 struct WindowSeries {
   std::vector<double> time, value, weight;
   std::vector<std::size_t> recording;
@@ -39,7 +39,7 @@ struct WindowSeries {
 
 /// Of kMayChange[k], from windows without events. (A mistimed catch says nothing of what lasts.)
 inline WindowSeries series_of(const std::vector<WindowFinding>& windows, std::size_t k) {
-  const double scale = info_of(kMayChange[k]).scale;
+  const double scale = kMayChange[k].factor * info_of(kMayChange[k].unknown).scale;
   WindowSeries series;
   double slopes = 0.0, curvatures = 0.0;
   for (const WindowFinding& w : windows) {
@@ -135,10 +135,9 @@ inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding
     const WindowSeries series = series_of(windows, k);
     const Agreement agreement = agreement_of(series);
     if (!(agreement.z > kAgreement)) continue;
-    const UnknownInfo& info = info_of(kMayChange[k]);
     ChangeInTime change;
-    change.quantity = info.name;
-    change.unit = info.unit;
+    change.quantity = kMayChange[k].name;
+    change.unit = kMayChange[k].unit;
     change.z = agreement.z;
     change.size = agreement.size;
     name_shape(series, change);

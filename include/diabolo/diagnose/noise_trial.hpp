@@ -107,7 +107,7 @@ inline void note_noise(std::vector<WindowFinding>& windows, const Fit& fit, cons
       const WindowSystem &system = fit.systems[i], &noise = trial.systems[i];
       WindowFinding& found = windows[i++];
       for (std::size_t k = 0; k < kMayChange.size(); ++k) {
-        const int u = index_of(kMayChange[k]);
+        const int u = index_of(kMayChange[k].unknown);
         found.slope[k] = fit.scores[i - 1].score[u];
         found.curvature[k] = fit.scores[i - 1].information(u, u);
       }
