@@ -1770,7 +1770,7 @@ class ChangeInTime:
     @property
     def quantity(self) -> str:
         """
-        Name of the unknown that changes.
+        What changes.
         """
     @property
     def size(self) -> float:
