@@ -287,7 +287,7 @@ def _left_over(row: dict[str, Any]) -> list[Any]:
     unit = row.get("unit")
     sizes = [quantity(row.get(name), unit) for name in ("base", "left", "noise")]
     times = row.get("times_noise")
-    return [row.get("quantity"), *sizes, "-" if times is None else f"{times:.1f}", row.get("windows")]
+    return [row.get("quantity"), *sizes, "-" if times is None else f"{times:.1f}", str(row.get("windows"))]
 
 
 def _place(row: dict[str, Any]) -> str:
