@@ -284,10 +284,12 @@ def _adequacy(adequacy: dict[str, Any], times_noise: float) -> dict[str, Any]:
 
 
 def _left_over(row: dict[str, Any]) -> list[Any]:
-    unit = row.get("unit")
-    sizes = [quantity(row.get(name), unit) for name in ("base", "left", "noise")]
-    times = row.get("times_noise")
-    return [row.get("quantity"), *sizes, "-" if times is None else f"{times:.1f}", str(row.get("windows"))]
+    sizes = [quantity(row.get(name), row.get("unit")) for name in ("base", "left", "noise")]
+    return [row.get("quantity"), *sizes, _number(row.get("times_noise"), 1), _number(row.get("windows"), 0)]
+
+
+def _number(value: Any, digits: int) -> str:
+    return f"{value:.{digits}f}" if isinstance(value, int | float) else "-"
 
 
 def _place(row: dict[str, Any]) -> str:
@@ -295,7 +297,9 @@ def _place(row: dict[str, Any]) -> str:
     parts = [] if row.get("mode") in (None, "ANY") else [words(row["mode"])]
     parts += [words(row["direction"])] if row.get("direction") else []
     if row.get("recording"):
-        parts.append(f"{row['recording']}, {row['begin_s']:.1f} to {row['end_s']:.1f} s")
+        parts.append(
+            f"{row['recording']}, {_number(row.get('begin_s'), 1)} to {_number(row.get('end_s'), 1)} s"
+        )
     return "; ".join(parts) or "everywhere"
 
 
@@ -306,9 +310,10 @@ def _change(row: dict[str, Any]) -> list[Any]:
         if trend is not None
         else "comes and goes"
         if frequency is None
-        else f"comes and goes, {frequency:.2f} Hz"
+        else f"comes and goes, {_number(frequency, 2)} Hz"
     )
-    return [words(row.get("quantity")), quantity(row.get("size"), row.get("unit")), how, f"{row['z']:.1f}"]
+    size = quantity(row.get("size"), row.get("unit"))
+    return [words(row.get("quantity")), size, how, _number(row.get("z"), 1)]
 
 
 def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:

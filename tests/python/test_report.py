@@ -73,12 +73,57 @@ def candidate(
     }
 
 
+def left_over(quantity: str, base: float, left: float, noise: float, **where: str) -> dict[str, Any]:
+    return {
+        "quantity": quantity,
+        "unit": "m" if quantity == "position" else "rad/s",
+        "mode": "ANY",
+        "direction": "",
+        "recording": "",
+        "begin_s": None,
+        "end_s": None,
+        "windows": 40,
+        "base": base,
+        "left": left,
+        "noise": noise,
+        "times_noise": left / noise,
+        "p_value": 1e-9,
+        **where,
+    }
+
+
 INVENTED: dict[str, Any] = {
     "schema": "diabolo.diagnosis/1",
     "headline": "NAMED",
     "sentence": "The simulator leaves out the sideways lift of the spinning diabolo in flight, and the "
     "recording's frame is tilted by 1.2 deg.",
     "base": "consistent",
+    "adequacy": {
+        "adequate": False,
+        "base_adequate": False,
+        "explained": 0.91,
+        "spin_explained": None,
+        "overall": [left_over("position", 0.012, 0.0014, 0.0006)],
+        "places": [left_over("position", 0.015, 0.003, 0.0006, mode="FLYING", direction="left")],
+        "changes": [
+            {
+                "quantity": "acceleration_left",
+                "unit": "m/s^2",
+                "z": 5.2,
+                "size": 0.4,
+                "trend_per_s": None,
+                "frequency_hz": 0.31,
+            },
+            {
+                "quantity": "string_length",
+                "unit": "m",
+                "z": 4.4,
+                "size": 0.004,
+                "trend_per_s": 0.0021,
+                "frequency_hz": None,
+            },
+        ],
+    },
     "effects": [
         {
             "name": "magnus_lift",
@@ -211,6 +256,11 @@ def test_the_page_gives_the_answer_first_and_its_parts_in_order() -> None:
         "error after 1 s, data not fitted",
         "On whole recordings that the fit did not see",
         "Sideways lift by the spin (Magnus) magnus_lift",
+        "More is left than the camera's noise would leave",
+        "position 12 mm 1.4 mm 0.6 mm 2.3 40",
+        "in flight; sideways position 15 mm 3 mm 0.6 mm 5.0 40",
+        "Acceleration sideways 0.4 m/s² comes and goes, 0.31 Hz 5.2",
+        "True length of the string 4 mm steadily, by 2.1 mm each second 4.4",
         "Strongest: in flight: axle × velocity",
         "Rejected: its sign is against physics",
         "no claimed effect is tied",
