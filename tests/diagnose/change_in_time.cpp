@@ -62,7 +62,8 @@ TEST_CASE("noise changes in less than one of a hundred recordings, however large
   int found = 0;
   for (int i = 0; i < 400; ++i)
     found += static_cast<int>(changes_in_time(seen(
-                                                  kSideways, 60, [](double) { return 0.5; }, generator()))
+                                                  kSideways, 60, [](double) { return 0.5; },
+                                                  static_cast<std::uint32_t>(generator())))
                                   .size());
   CHECK(found <= 4);
 }

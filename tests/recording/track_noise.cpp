@@ -56,7 +56,7 @@ TEST_CASE("what lives on from frame to frame is told from what does not") {
   Eigen::Array3d deviation = Eigen::Array3d::Zero(), correlation = deviation;
   for (int i = 0; i < 10; ++i) {
     Track track = swung(6000);
-    shake(track, 1e-3, 0.3, seeds());
+    shake(track, 1e-3, 0.3, static_cast<std::uint32_t>(seeds()));
     deviation += 0.1 * track_noise(track).deviation;
     correlation += 0.1 * track_noise(track).correlation;
   }
