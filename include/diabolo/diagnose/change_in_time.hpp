@@ -21,6 +21,9 @@ namespace diabolo {
 /// Of eleven unknowns, noise makes one seem so in a recording of two thousand.
 inline constexpr double kAgreement = 4.0;
 
+/// The fastest oscillation that windows of half a second tell [Hz].
+inline constexpr double kFastest = 0.9;
+
 /// The longest time between the begins of neighbours [s].
 inline constexpr double kNeighbours = 0.9;
 
@@ -112,8 +115,8 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
                steady = left_beside(series, {[](double t) { return t; }}, &slope);
   const double span = series.time.back() - series.time.front();
   double best = all, frequency = 0.0;
-  for (double f = 1.5 / span; f <= 0.9; f += 0.1 / span) {  // what bends but once is no oscillation
-    const double omega = 2.0 * std::numbers::pi * f;
+  for (int k = 15; 0.1 * k / span <= kFastest; ++k) {  // what bends but once is no oscillation
+    const double f = 0.1 * k / span, omega = 2.0 * std::numbers::pi * f;
     const double left = left_beside(series, {[omega](double t) { return std::sin(omega * t); },
                                              [omega](double t) { return std::cos(omega * t); }});
     if (left < best) best = left, frequency = f;
@@ -129,18 +132,17 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
 /// Unknowns of which neighbouring windows say the same, and others something else: the surest first. What no
 /// name explains shows here long before it shows in the size of what is left.
 inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding>& windows) {
-  using namespace diagnose_detail;
   std::vector<ChangeInTime> result;
   for (std::size_t k = 0; k < kMayChange.size(); ++k) {
-    const WindowSeries series = series_of(windows, k);
-    const Agreement agreement = agreement_of(series);
+    const diagnose_detail::WindowSeries series = diagnose_detail::series_of(windows, k);
+    const diagnose_detail::Agreement agreement = diagnose_detail::agreement_of(series);
     if (!(agreement.z > kAgreement)) continue;
     ChangeInTime change;
     change.quantity = kMayChange[k].name;
     change.unit = kMayChange[k].unit;
     change.z = agreement.z;
     change.size = agreement.size;
-    name_shape(series, change);
+    diagnose_detail::name_shape(series, change);
     result.push_back(change);
   }
   std::ranges::stable_sort(result, std::greater(), &ChangeInTime::z);

@@ -166,35 +166,35 @@ inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Chan
 /// stretch of time. `names` are the recordings'.
 inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
                                const std::vector<std::string>& names) {
-  using namespace diagnose_detail;
+  namespace in = diagnose_detail;
   Adequacy result;
-  Windows all, calm;
+  in::Windows all, calm;
   for (const WindowFinding& w : windows) {
     all.push_back(&w);
     if (!w.eventful) calm.push_back(&w);
   }
-  for (const Channel& channel : {kPositionChannel, kSpinChannel}) {
-    const std::optional<LeftOver> overall = left_over_in(all, channel);
+  for (const in::Channel& channel : {in::kPositionChannel, in::kSpinChannel}) {
+    const std::optional<LeftOver> overall = in::left_over_in(all, channel);
     if (!overall) continue;
-    Channel of_base = channel;
+    in::Channel of_base = channel;
     of_base.left = channel.base;
-    const std::optional<LeftOver> before = left_over_in(all, of_base);
+    const std::optional<LeftOver> before = in::left_over_in(all, of_base);
     result.adequate = result.adequate.value_or(true);
-    result.base_adequate = result.base_adequate.value_or(true) && !(before && is_beyond_noise(*before));
-    (channel.quantity == kPositionChannel.quantity ? result.explained : result.spin_explained) =
-        explained_of(*overall);
+    result.base_adequate = result.base_adequate.value_or(true) && !(before && in::is_beyond_noise(*before));
+    (channel.quantity == in::kPositionChannel.quantity ? result.explained : result.spin_explained) =
+        in::explained_of(*overall);
     result.overall.push_back(*overall);
-    if (is_beyond_noise(*overall)) result.places.push_back(*overall);
+    if (in::is_beyond_noise(*overall)) result.places.push_back(*overall);
     for (const char* mode : {"ON_STRING", "LOOSE", "FLYING"}) {
-      Windows part;
+      in::Windows part;
       for (const WindowFinding* w : all)
-        if (std::string(mode_of(*w)) == mode) part.push_back(w);
-      std::optional<LeftOver> left = left_over_in(part, channel);
-      if (!left || !is_beyond_noise(*left)) continue;
+        if (std::string(in::mode_of(*w)) == mode) part.push_back(w);
+      std::optional<LeftOver> left = in::left_over_in(part, channel);
+      if (!left || !in::is_beyond_noise(*left)) continue;
       left->mode = mode;
       result.places.push_back(*left);
     }
-    std::ranges::move(stretches_beyond(calm, channel, names), std::back_inserter(result.places));
+    std::ranges::move(in::stretches_beyond(calm, channel, names), std::back_inserter(result.places));
   }
   result.changes = changes_in_time(windows);
   if (!result.places.empty() || !result.changes.empty()) result.adequate = false;
