@@ -22,7 +22,7 @@ namespace diabolo {
 inline constexpr double kAgreement = 4.0;
 
 /// The fastest oscillation that windows of half a second tell [Hz].
-inline constexpr double kFastest = 0.9;
+inline constexpr double kFastestChange = 0.9;
 
 /// The longest time between the begins of neighbours [s].
 inline constexpr double kNeighbours = 0.9;
@@ -115,7 +115,7 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
                steady = left_beside(series, {[](double t) { return t; }}, &slope);
   const double span = series.time.back() - series.time.front();
   double best = all, frequency = 0.0;
-  for (int k = 15; 0.1 * k / span <= kFastest; ++k) {  // what bends but once is no oscillation
+  for (int k = 15; 0.1 * k / span <= kFastestChange; ++k) {  // what bends but once is no oscillation
     const double f = 0.1 * k / span, omega = 2.0 * std::numbers::pi * f;
     const double left = left_beside(series, {[omega](double t) { return std::sin(omega * t); },
                                              [omega](double t) { return std::cos(omega * t); }});
