@@ -18,7 +18,7 @@
 namespace diabolo {
 
 /// Neighbouring windows that agree so much better than chance [standard deviations] see something that lasts.
-/// Of eleven unknowns, noise makes one seem so in a recording of two thousand.
+/// By a normal distribution noise makes one of eleven unknowns seem so in a recording of three thousand.
 inline constexpr double kAgreement = 4.0;
 
 /// The fastest oscillation that windows of half a second tell [Hz].
@@ -58,7 +58,8 @@ inline WindowSeries series_of(const std::vector<WindowFinding>& windows, std::si
   return series;
 }
 
-/// Products of neighbours in standard deviations, each deviation held to six times the middle one.
+/// How well neighbours agree [standard deviations], no window counting more than six times the middle one,
+/// and the root of what they agree on.
 struct Agreement {
   double z = 0.0, size = 0.0;
 };

@@ -73,7 +73,7 @@ double size_of_seen(const Series& series) {
   return count > 0.0 ? std::sqrt(sum / count) : kNaN;
 }
 
-/// Whether the string is in one state throughout.
+/// Whether the string goes from one state to another in a window.
 inline bool changes_state(const Take& take, const FitWindow& window) {
   const auto begin = take.states.begin() + window.first, end = take.states.begin() + window.last + 1;
   return std::any_of(begin, end, [&](StringState state) { return state != *begin; });
