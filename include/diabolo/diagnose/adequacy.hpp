@@ -17,10 +17,12 @@ inline constexpr double kTimesNoise = 2.0;
 
 struct LeftOver {
   static constexpr const char* kName = "LeftOver";
-  static constexpr const char* kDoc = "What windows of half a second leave over, and what noise would leave.";
+  static constexpr const char* kDoc =
+      "What windows of half a second, or predictions of data left out, leave over, and noise.";
 
   std::string quantity, unit, mode, direction, recording;
   double begin_s = kNaN, end_s = kNaN;
+  std::optional<double> ahead_s;
   std::size_t windows = 0;
   double base = kNaN, left = kNaN, noise = kNaN, times_noise = kNaN, p_value = kNaN;
 
@@ -33,6 +35,8 @@ struct LeftOver {
     visit("recording", &LeftOver::recording, "By its name; empty for all.");
     visit("begin_s", &LeftOver::begin_s, "Of the stretch of time.");
     visit("end_s", &LeftOver::end_s, "");
+    visit("ahead_s", &LeftOver::ahead_s,
+          "Of a prediction of data left out; null for windows that are fitted.");
     visit("windows", &LeftOver::windows, "Of half a second, that were looked at.");
     visit("base", &LeftOver::base, "Left by the base in the middle window, root mean square.");
     visit("left", &LeftOver::left, "The same with what was found.");

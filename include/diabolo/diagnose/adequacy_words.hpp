@@ -39,8 +39,10 @@ inline std::string place_in_words(const LeftOver& left) {
 /// What is left beyond noise: size and place.
 inline std::string left_in_words(const Adequacy& adequacy) {
   const LeftOver& worst = adequacy.places.front();
-  return size_in_words(worst.left, worst.unit) + " within half a second, where noise leaves " +
-         size_in_words(worst.noise, worst.unit) + place_in_words(worst);
+  const std::string when = worst.ahead_s ? shown(*worst.ahead_s) + " s ahead, where the start's noise makes "
+                                         : "within half a second, where noise leaves ";
+  return size_in_words(worst.left, worst.unit) + " " + when + size_in_words(worst.noise, worst.unit) +
+         place_in_words(worst);
 }
 
 /// What changes, in plain words: how much of what, and how.

@@ -12,6 +12,7 @@
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/evidence.hpp"
+#include "diabolo/diagnose/left_over.hpp"
 #include "diabolo/evaluate/horizon_score.hpp"
 
 namespace diabolo {
@@ -95,6 +96,16 @@ inline double starts_every(const std::vector<HeldOutRecording>& recordings, std:
   return std::max(kStartsEvery, seconds / (kStartsPerWindow * static_cast<double>(most_windows)));
 }
 
+/// Predictions over less than so long say little of a slight force [s].
+inline constexpr double kAhead = 0.5;
+
+/// An error that matters to nobody at any horizon [m].
+inline constexpr double kImmaterialAhead = 1e-3;
+
+/// So many neighbouring starts count as one where noise alone is asked about: it is that of the start, which
+/// is made from a tenth of a second, and of the tips, which neighbours share.
+inline constexpr std::size_t kStartsAlike = 2;
+
 /// Predicts each recording from fair starts, by the base and by `physics` with its unknowns.
 inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings, const Model& base,
                                 const Model& physics, std::uint64_t seed, std::size_t most_windows,
@@ -107,6 +118,7 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
   const std::size_t horizons = options.horizons.size();
   std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons),
       start_errors(horizons);
+  std::vector<diagnose_detail::Compared> compared(horizons);
   const std::size_t claims = recordings.empty() ? 0 : recordings.front().without.size();
   std::vector<std::vector<std::vector<double>>> losses(claims, std::vector<std::vector<double>>(horizons));
   for (const HeldOutRecording& held : recordings) {
@@ -142,7 +154,9 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
         base_errors[h].push_back(a.model);
         augmented_errors[h].push_back(b.model);
         gains[h].push_back(a.model - b.model);
-        if (std::isfinite(scatter[i][h])) start_errors[h].push_back(scatter[i][h]);
+        if (!std::isfinite(scatter[i][h])) continue;
+        start_errors[h].push_back(scatter[i][h]);
+        compared[h].add(a.model, b.model, scatter[i][h]);
       }
   }
   std::mt19937_64 generator(seed);
@@ -162,6 +176,13 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     result.start_error.push_back(start_errors[h].empty() ? std::nullopt
                                                          : std::optional(mean_of(start_errors[h])));
     result.improvement_ci95.push_back(interval_of(gains[h], h));
+    if (options.horizons[h] < kAhead) continue;
+    std::optional<LeftOver> left = diagnose_detail::left_over_of(compared[h], kImmaterialAhead, kStartsAlike);
+    if (!left) continue;
+    left->quantity = "position";
+    left->unit = "m";
+    left->ahead_s = options.horizons[h];
+    result.ahead.push_back(*left);
   }
   for (const auto& claim : losses) {
     result.worsening_ci95.emplace_back();

@@ -90,9 +90,8 @@ class Inquiry {
     remember_before(result_, fit_);
   }
 
-  /// Fits everything, keeps what is sure and exchanges it for what explains more. Another delay than was
-  /// thought at first changes what all else looks like, and so do springs so soft that the diabolo's bounce
-  /// on them is seen: then everything is asked again.
+  /// Fits everything, keeps what is sure and exchanges it for what explains more. Another delay than thought
+  /// at first changes what all else looks like, as do springs so soft that it bounces: all is asked again.
   void fit_all() {
     set_ = asked_at_first(bank_);
     if (std::ranges::none_of(fit_.fit_takes, has_spin)) without_spin(bank_, set_);
@@ -246,6 +245,7 @@ class Inquiry {
       physics_ = std::move(trial.physics);
       fit_ = std::move(trial.fit);
       set_ = trial.set;
+      result_.heldout.ahead = std::move(trial.ahead);
       settle();
       withdrawn = withdraw_what_does_not_help(result_);
       result_.unexplained_forces.insert(result_.unexplained_forces.begin(),
@@ -260,8 +260,8 @@ class Inquiry {
   void judge() {
     const char* const asking = "asking what noise alone would leave";
     if (!budget_.allows(asking, kRulesShare)) return;
-    result_.adequacy = adequacy_of<D>(result_.windows, fit_, physics_, options_.seed, options_.threads,
-                                      step(asking, 0.95, 0.96, kRulesShare));
+    result_.adequacy = adequacy_of<D>(result_.windows, fit_, physics_, result_.heldout.ahead, options_.seed,
+                                      options_.threads, step(asking, 0.95, 0.96, kRulesShare));
   }
 
   /// The numerical rules' share, the noise, and what to record next.

@@ -14,19 +14,14 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/change_in_time.hpp"
+#include "diabolo/diagnose/left_over.hpp"
 #include "diabolo/math/bootstrap.hpp"
 
 namespace diabolo {
 
-/// More is left than noise leaves where noise alone would do so with no greater chance.
-inline constexpr double kNoiseMayDoIt = 0.01;
-
 /// What matters to nobody, root mean square over half a second: an acceleration that moves a free diabolo by
 /// 1 mm leaves 0.04 mm beside the best start.
 inline constexpr double kImmaterialPosition = 4e-5, kImmaterialSpin = 0.1;
-
-/// Windows in a stretch of time: some four seconds.
-inline constexpr std::size_t kStretch = 8;
 
 /// A name is a wrong one where the gap stays open by more than half, and the middle window still misses by so
 /// many times the noise, or by so much after half a second [m].
@@ -58,22 +53,6 @@ inline constexpr Channel kSpinChannel{"spin",
 
 using Windows = std::vector<const WindowFinding*>;
 
-inline double middle_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return quantile(values, 0.5);
-}
-
-/// The chance that at least `heads` of `throws` fair coins show heads.
-inline double chance_of(std::size_t heads, std::size_t throws) {
-  double sum = 0.0;
-  for (std::size_t k = heads; k <= throws; ++k) {
-    const double n = static_cast<double>(throws), m = static_cast<double>(k);
-    sum +=
-        std::exp(std::lgamma(n + 1.0) - std::lgamma(m + 1.0) - std::lgamma(n - m + 1.0) - n * std::log(2.0));
-  }
-  return std::min(1.0, sum);
-}
-
 /// The direction in which most of what noise does not explain lies, where one leads.
 inline std::string leading_direction(const Windows& windows) {
   std::array<double, 3> beyond{};
@@ -89,35 +68,19 @@ inline std::string leading_direction(const Windows& windows) {
 
 /// What the middle one of some windows leaves; nothing where fewer than kStretch say anything.
 inline std::optional<LeftOver> left_over_in(const Windows& windows, const Channel& channel) {
-  std::vector<double> base, left, noise, times;
-  std::size_t above = 0;
+  Compared compared;
   Windows seen;
   for (const WindowFinding* w : windows) {
     if (!std::isfinite(w->*channel.left) || !std::isfinite(w->*channel.noise)) continue;
     seen.push_back(w);
-    base.push_back(w->*channel.base);
-    left.push_back(w->*channel.left);
-    noise.push_back(w->*channel.noise);
-    times.push_back(left.back() / std::max(noise.back(), channel.immaterial));
-    above += left.back() > noise.back();
+    compared.add(w->*channel.base, w->*channel.left, w->*channel.noise);
   }
-  if (seen.size() < kStretch) return std::nullopt;
-  LeftOver result;
-  result.quantity = channel.quantity;
-  result.unit = channel.unit;
-  result.mode = "ANY";
-  if (channel.quantity == kPositionChannel.quantity) result.direction = leading_direction(seen);
-  result.windows = seen.size();
-  result.base = middle_of(base);
-  result.left = middle_of(left);
-  result.noise = middle_of(noise);
-  result.times_noise = middle_of(times);
-  result.p_value = chance_of(above, seen.size());
+  std::optional<LeftOver> result = left_over_of(compared, channel.immaterial, 1);
+  if (!result) return std::nullopt;
+  result->quantity = channel.quantity;
+  result->unit = channel.unit;
+  if (channel.quantity == kPositionChannel.quantity) result->direction = leading_direction(seen);
   return result;
-}
-
-inline bool is_beyond_noise(const LeftOver& left) {
-  return left.times_noise > kTimesNoise && left.p_value < kNoiseMayDoIt;
 }
 
 /// The share of the gap beyond noise that was closed; nothing where there is none.
@@ -163,9 +126,11 @@ inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Chan
 }  // namespace diagnose_detail
 
 /// What windows leave against what noise alone leaves: over all, in each state of the string, and in each
-/// stretch of time. `names` are the recordings'.
+/// stretch of time; and `ahead`, the same of predictions of data that were left out, which see a slight force
+/// that a window with a start of its own does not. `names` are the recordings'.
 inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
-                               const std::vector<std::string>& names) {
+                               const std::vector<std::string>& names,
+                               const std::vector<LeftOver>& ahead = {}) {
   namespace in = diagnose_detail;
   Adequacy result;
   in::Windows all, calm;
@@ -196,9 +161,14 @@ inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
     }
     std::ranges::move(in::stretches_beyond(calm, channel, names), std::back_inserter(result.places));
   }
-  result.changes = changes_in_time(windows);
-  if (!result.places.empty() || !result.changes.empty()) result.adequate = false;
   std::ranges::stable_sort(result.places, std::greater(), &LeftOver::times_noise);
+  result.changes = changes_in_time(windows);
+  for (const LeftOver& left : ahead) {
+    if (!result.adequate) break;
+    result.overall.push_back(left);
+    if (in::is_beyond_noise(left)) result.places.push_back(left);
+  }
+  if (!result.places.empty() || !result.changes.empty()) result.adequate = false;
   return result;
 }
 

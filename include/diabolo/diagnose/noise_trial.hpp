@@ -122,14 +122,16 @@ inline void note_noise(std::vector<WindowFinding>& windows, const Fit& fit, cons
     }
 }
 
-/// What is left of a fit against what noise alone would leave; notes both in the windows.
+/// What is left of a fit against what noise alone would leave; notes both in the windows. `ahead` is of
+/// data left out.
 template <class D>
 Adequacy adequacy_of(std::vector<WindowFinding>& windows, const Fit& fit, const Model& physics,
-                     std::uint64_t seed, int threads, const FitWatch& watch) {
+                     const std::vector<LeftOver>& ahead, std::uint64_t seed, int threads,
+                     const FitWatch& watch) {
   note_noise(windows, fit, noise_trial<D>(fit, physics, seed, threads, watch));
   std::vector<std::string> names;
   for (const FitTake& fit_take : fit.fit_takes) names.push_back(fit_take.take->recording.name);
-  return judge_adequacy(windows, names);
+  return judge_adequacy(windows, names, ahead);
 }
 
 }  // namespace diabolo

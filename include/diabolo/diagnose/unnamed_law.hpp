@@ -112,6 +112,7 @@ struct UnnamedTrial {
   Fit fit;
   ActiveSet set;
   std::vector<std::optional<Interval>> worsening_ci95;  ///< see UnexplainedForce
+  std::vector<LeftOver> ahead = {};                     ///< see HeldOut
   bool helps = false;
 };
 
@@ -141,6 +142,7 @@ UnnamedTrial try_unnamed(const UnexplainedForce& leftover, const Fit& fit, const
       compare_held_out(leave_out(trial.fit, Evidence(trial.fit), trial.set, {without}, holdout), base,
                        trial.physics, seed, trial.fit.most_windows, threads, watch);
   trial.worsening_ci95 = heldout.worsening_ci95.front();
+  trial.ahead = heldout.ahead;
   bool better = false, worse = false;
   for (const std::optional<Interval>& interval : trial.worsening_ci95) {
     better = better || (interval && interval->low > 0.0);
