@@ -1675,7 +1675,7 @@ class HorizonScore:
         """
 class LeftOver:
     """
-    What windows of half a second leave over, and what noise would leave.
+    What windows of half a second, or predictions of data left out, leave over, and noise.
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
@@ -1685,6 +1685,11 @@ class LeftOver:
     def to_dict(self) -> dict:
         """
         The same as its file has it.
+        """
+    @property
+    def ahead_s(self) -> float | None:
+        """
+        Of a prediction of data left out; null for windows that are fitted.
         """
     @property
     def base(self) -> float:

@@ -285,7 +285,9 @@ def _adequacy(adequacy: dict[str, Any], times_noise: float) -> dict[str, Any]:
 
 def _left_over(row: dict[str, Any]) -> list[Any]:
     sizes = [quantity(row.get(name), row.get("unit")) for name in ("base", "left", "noise")]
-    return [row.get("quantity"), *sizes, _number(row.get("times_noise"), 1), _number(row.get("windows"), 0)]
+    ahead = row.get("ahead_s")
+    what = row.get("quantity") if ahead is None else f"{row.get('quantity')} {ahead:g} s ahead, left out"
+    return [what, *sizes, _number(row.get("times_noise"), 1), _number(row.get("windows"), 0)]
 
 
 def _number(value: Any, digits: int) -> str:

@@ -51,6 +51,25 @@ TEST_CASE("what is as small as noise is adequate, and all of the gap is explaine
   CHECK(a.overall.size() == 2);
 }
 
+TEST_CASE("a slight force that windows do not show is told by predictions of data left out") {
+  const auto ahead_of = [](double left) {
+    diagnose_detail::Compared compared;
+    for (int i = 0; i < 60; ++i) compared.add(0.02, left, 0.004);
+    LeftOver result = *diagnose_detail::left_over_of(compared, 1e-3, 2);
+    result.quantity = "position";
+    result.unit = "m";
+    result.ahead_s = 1.0;
+    return result;
+  };
+  const auto windows = windows_of(4e-4, 0.5, test::fresh_seed());
+  CHECK(judge_adequacy(windows, kNames, {ahead_of(0.0041)}).adequate == true);
+  const Adequacy told = judge_adequacy(windows, kNames, {ahead_of(0.012)});
+  CHECK(told.adequate == false);
+  CHECK(told.places.front().times_noise == Approx(3.0));
+  CHECK(left_in_words(told) == "12 mm 1 s ahead, where the start's noise makes 4 mm");
+  CHECK_FALSE(judge_adequacy({}, kNames, {ahead_of(0.012)}).adequate.has_value());
+}
+
 TEST_CASE("a camera that wanders as much as it flickers is no stranger") {
   CHECK(judge_adequacy(windows_of(1.41 * 4e-4, 0.5, test::fresh_seed()), kNames).adequate == true);
 }

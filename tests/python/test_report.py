@@ -82,6 +82,7 @@ def left_over(quantity: str, base: float, left: float, noise: float, **where: st
         "recording": "",
         "begin_s": None,
         "end_s": None,
+        "ahead_s": None,
         "windows": 40,
         "base": base,
         "left": left,
