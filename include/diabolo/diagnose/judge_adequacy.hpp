@@ -15,7 +15,6 @@
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/change_in_time.hpp"
 #include "diabolo/diagnose/left_over.hpp"
-#include "diabolo/math/bootstrap.hpp"
 
 namespace diabolo {
 
