@@ -18,7 +18,7 @@ inline constexpr double kTimesNoise = 2.0;
 struct LeftOver {
   static constexpr const char* kName = "LeftOver";
   static constexpr const char* kDoc =
-      "What windows of half a second, or predictions of data left out, leave over, and noise.";
+      "What windows of half a second, or predictions of data left out, leave over, and what noise would.";
 
   std::string quantity, unit, mode, direction, recording;
   double begin_s = kNaN, end_s = kNaN;
@@ -37,8 +37,9 @@ struct LeftOver {
     visit("end_s", &LeftOver::end_s, "");
     visit("ahead_s", &LeftOver::ahead_s,
           "Of a prediction of data left out; null for windows that are fitted.");
-    visit("windows", &LeftOver::windows, "Of half a second, that were looked at.");
-    visit("base", &LeftOver::base, "Left by the base in the middle window, root mean square.");
+    visit("windows", &LeftOver::windows, "How many were looked at, of half a second each; or predictions.");
+    visit("base", &LeftOver::base,
+          "Left by the base in the middle window, root mean square; ahead, the middle distance.");
     visit("left", &LeftOver::left, "The same with what was found.");
     visit("noise", &LeftOver::noise, "The same of noise alone.");
     visit("times_noise", &LeftOver::times_noise, "How many times the noise the middle window leaves.");
@@ -81,8 +82,10 @@ struct Adequacy {
     visit("explained", &Adequacy::explained,
           "Share of the base's gap of position, beyond noise, that the answer closes; null without a gap.");
     visit("spin_explained", &Adequacy::spin_explained, "The same of the spin.");
-    visit("overall", &Adequacy::overall, "Over all windows: position and, where it was seen, spin.");
-    visit("places", &Adequacy::places, "Where more is left than noise leaves, the worst first.");
+    visit("overall", &Adequacy::overall,
+          "Over all windows: position and, where it was seen, spin; then predictions.");
+    visit("places", &Adequacy::places,
+          "Where more is left than noise leaves, the worst first; then predictions.");
     visit("changes", &Adequacy::changes, "What is left and changes in time, the surest first.");
   }
 };
