@@ -1675,7 +1675,7 @@ class HorizonScore:
         """
 class LeftOver:
     """
-    What windows of half a second, or predictions of data left out, leave over, and noise.
+    What windows of half a second, or predictions of data left out, leave over, and what noise would.
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
@@ -1694,7 +1694,7 @@ class LeftOver:
     @property
     def base(self) -> float:
         """
-        Left by the base in the middle window, root mean square.
+        Left by the base in the middle window, root mean square; ahead, the middle distance.
         """
     @property
     def begin_s(self) -> float:
@@ -1752,7 +1752,7 @@ class LeftOver:
     @property
     def windows(self) -> int:
         """
-        Of half a second, that were looked at.
+        How many were looked at, of half a second each; or predictions.
         """
 class ChangeInTime:
     """
@@ -1833,12 +1833,12 @@ class Adequacy:
     @property
     def overall(self) -> list[LeftOver]:
         """
-        Over all windows: position and, where it was seen, spin.
+        Over all windows: position and, where it was seen, spin; then predictions.
         """
     @property
     def places(self) -> list[LeftOver]:
         """
-        Where more is left than noise leaves, the worst first.
+        Where more is left than noise leaves, the worst first; then predictions.
         """
     @property
     def spin_explained(self) -> float | None:
