@@ -29,7 +29,10 @@ using FullPredictor = typename face_detail::PredictorWith<AllEffects<Scalar>>::T
 template <class From, class To>
 void copy_effects(const From& from, To& to) {
   const auto copy = []<class One, class Other>(const One& one, Other& other) {
-    if constexpr (One::kName == Other::kName) copy_fields(one, other);
+    if constexpr (One::kName == Other::kName) {
+      if constexpr (One::kHasText) other.laws = one.laws;
+      copy_fields(one, other);
+    }
   };
   const auto to_all = [&](const auto& one) {
     std::apply([&](auto&... other) { (copy(one, other), ...); }, to.members);

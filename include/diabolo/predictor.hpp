@@ -121,7 +121,7 @@ class Predictor {
     const Scalar& dt = step.dt;
     const Scalar slipped =
         spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(parameters_, dt), parameters_);
-    Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, dt, parameters_);
+    Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, step.begin, dt, parameters_);
     Vector3<Scalar> velocity = result.velocity;
     Vector3<Scalar> position = result.position;
     const Mask<Scalar> pulled = result.taut || result.snapped_taut;
@@ -161,7 +161,7 @@ class Predictor {
         norm<Scalar>(result.position - end.right) - norm<Scalar>(state.position - begin.right);
     const Scalar driven = spin_after_passing(state.spin, change, dt, parameters_);
     state.spin = select(was_on_string && passes, driven, state.spin);
-    Scalar spin = effects_.after_torques(state.spin, state, dt, parameters_);
+    Scalar spin = effects_.after_torques(state.spin, state, begin, dt, parameters_);
     Vector3<Scalar> rubbed = result.velocity;
     const Scalar pull_difference = effects_.touch(rubbed, spin, state, end, result, dt, parameters_);
     if constexpr (Set::kTurnsAxle) effects_.turn_axis(state.axis, state, end, result, pull_difference, dt);

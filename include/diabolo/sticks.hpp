@@ -27,6 +27,7 @@ struct Tips {
   /// Of the sticks, unit vectors; zero where they are not known. Only StickFlex looks at them.
   Vector3<Scalar> left_direction = Vector3<Scalar>::Constant(Scalar(0)),
                   right_direction = Vector3<Scalar>::Constant(Scalar(0));
+  double time = 0.0;  ///< [s], the same in all lanes. Only FormulaLaws look at it.
 };
 
 /// Whether it may be a stick's direction: of norm one within 1e-6, or zero.
@@ -91,6 +92,7 @@ class TipMotion {
   /// What was given for instant number `i`, as tips at rest.
   Tips<Scalar> pose(std::size_t i) const {
     Tips<Scalar> tips;
+    tips.time = times_[i];
     tips.left = values_[i].template head<3>();
     tips.right = values_[i].template tail<3>();
     if (directions_.empty()) return tips;
@@ -101,6 +103,20 @@ class TipMotion {
 
   /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
   Tips<Scalar> at(double time, std::size_t& hint) const {
+    Tips<Scalar> tips = read(time, hint);
+    tips.time = time;
+    return tips;
+  }
+
+  Tips<Scalar> at(double time) const {
+    std::size_t hint = 0;
+    return at(time, hint);
+  }
+
+ private:
+  using Vector6 = Eigen::Matrix<Scalar, 6, 1>;  ///< left tip over right tip
+
+  Tips<Scalar> read(double time, std::size_t& hint) const {
     // The first and the last instant belong to the motion; rounding of begin + i * dt does not decide that.
     const double rounding =
         8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin()), std::abs(end()));
@@ -117,14 +133,6 @@ class TipMotion {
     if (interpolation_ == Interpolation::kHeld) return pose(i);
     return between(i, time);
   }
-
-  Tips<Scalar> at(double time) const {
-    std::size_t hint = 0;
-    return at(time, hint);
-  }
-
- private:
-  using Vector6 = Eigen::Matrix<Scalar, 6, 1>;  ///< left tip over right tip
 
   static Vector3<Scalar> unit_or_zero(const Vector3<Scalar>& v) { return v * Scalar(Scalar(1) / norm(v)); }
 

@@ -47,10 +47,13 @@ Effect effect_from_dict(const py::dict& fields) {
   return effect;
 }
 
-/// Calls `visit(effect)` for each effect of a set.
+/// Calls `visit(effect)` for each effect of a set that is numbers alone.
 template <class Set, class Visitor>
 void for_each_effect(Set& set, Visitor&& visit) {
-  std::apply([&](auto&... effect) { (visit(effect), ...); }, set.members);
+  const auto one = [&]<class Effect>(Effect& effect) {
+    if constexpr (!Effect::kHasText) visit(effect);
+  };
+  std::apply([&](auto&... effect) { (one(effect), ...); }, set.members);
 }
 
 /// Takes over effects given by keyword; None has the amplitude zero. Throws py::type_error about anything

@@ -70,7 +70,7 @@ template <class Scalar>
 struct SpinDrag : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "spin_drag";
   Scalar deceleration{0};  ///< [rad/s^2]
-  Scalar spin_acceleration(const Scalar&, const State<Scalar>&, const Scalar&,
+  Scalar spin_acceleration(const Scalar&, const State<Scalar>&, const Tips<Scalar>&, const Scalar&,
                            const Parameters<Scalar>&) const {
     return -deceleration;
   }

@@ -71,6 +71,7 @@ Parameters<Pack> gather_parameters(const LaneBlock& block) {
 template <class Pack>
 AllEffects<Pack> gather_effects(const LaneBlock& block) {
   AllEffects<Pack> packed;
+  packed.template get<FormulaLaws>().laws = block.effects[0]->get<FormulaLaws>().laws;
   for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
     const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
       (gather_fields(std::get<I>(block.effects[lane]->members), std::get<I>(packed.members), lane), ...);
@@ -82,6 +83,7 @@ AllEffects<Pack> gather_effects(const LaneBlock& block) {
 
 template <class Pack>
 void gather_tips(const LaneBlock& block, std::size_t i, Tips<Pack>& to) {
+  to.time = block.tips[0][i].time;
   const auto fill = [&](auto&& get) {
     for (int k = 0; k < 3; ++k) {
       to.left[k] = get([k](const Tips<double>& tips) { return tips.left[k]; });

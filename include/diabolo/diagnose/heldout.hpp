@@ -106,6 +106,66 @@ inline constexpr double kImmaterialAhead = 1e-3;
 /// is made from a tenth of a second, and of the tips, which neighbours share.
 inline constexpr std::size_t kStartsAlike = 2;
 
+namespace diagnose_detail {
+
+/// What predictions are wrong by at one horizon [m], a number for each start.
+struct ErrorsAhead {
+  std::vector<double> base, augmented, gain, start;
+  Compared compared;
+  std::vector<std::vector<double>> losses;  ///< for each claim: more than with it
+};
+
+inline bool both_predicted(const WindowError& a, const WindowError& b) {
+  return a.comparable && b.comparable && !a.failed && !b.failed;
+}
+
+/// For each start of a task, its errors at all horizons.
+inline std::vector<std::vector<WindowError>> errors_of(const HorizonTask& task, int threads,
+                                                       const Watch& watch) {
+  std::vector<std::vector<WindowError>> errors(task.size());
+  for_each_index(task.size(), threads, watch, [&](std::size_t i) { errors[i] = task.errors(i); });
+  return errors;
+}
+
+/// Adds what one recording's predictions are wrong by to each horizon's errors.
+inline void add_errors(const HeldOutRecording& held, const Model& base, const Model& physics,
+                       const HorizonOptions& options, std::uint64_t seed, const Watch& watch,
+                       std::vector<ErrorsAhead>& ahead) {
+  const auto task_at = [&](const UnknownVector& at) {
+    return HorizonTask(corrected(held.recording, at), augmented_model(physics, at, "augmented"), options);
+  };
+  const HorizonTask better = task_at(held.at);
+  const std::vector<std::vector<WindowError>> with = errors_of(better, options.threads, watch),
+                                              without = errors_of(HorizonTask(held.recording, base, options),
+                                                                  options.threads, watch);
+  assert(with.size() == without.size());  // windows depend on times and dropouts, which corrected() leaves
+  const StartNoise noise = start_noise(held.recording);
+  std::vector<std::vector<double>> scatter(with.size());
+  for_each_index(with.size(), options.threads, watch,
+                 [&](std::size_t i) { scatter[i] = better.scatter(i, noise, seed); });
+  for (std::size_t i = 0; i < with.size(); ++i)
+    for (std::size_t h = 0; h < ahead.size(); ++h) {
+      const WindowError &a = without[i][h], &b = with[i][h];
+      if (!both_predicted(a, b)) continue;
+      ahead[h].base.push_back(a.model);
+      ahead[h].augmented.push_back(b.model);
+      ahead[h].gain.push_back(a.model - b.model);
+      if (!std::isfinite(scatter[i][h])) continue;
+      ahead[h].start.push_back(scatter[i][h]);
+      ahead[h].compared.add(a.model, b.model, scatter[i][h]);
+    }
+  for (std::size_t c = 0; c < held.without.size(); ++c) {
+    const std::vector<std::vector<WindowError>> poorer =
+        errors_of(task_at(held.without[c]), options.threads, watch);
+    for (std::size_t i = 0; i < with.size(); ++i)
+      for (std::size_t h = 0; h < ahead.size(); ++h)
+        if (both_predicted(poorer[i][h], with[i][h]))
+          ahead[h].losses[c].push_back(poorer[i][h].model - with[i][h].model);
+  }
+}
+
+}  // namespace diagnose_detail
+
 /// Predicts each recording from fair starts, by the base and by `physics` with its unknowns.
 inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings, const Model& base,
                                 const Model& physics, std::uint64_t seed, std::size_t most_windows,
@@ -115,80 +175,44 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
   options.starts_every = starts_every(recordings, most_windows);
   options.horizons = result.horizons;
   options.threads = threads;
-  const std::size_t horizons = options.horizons.size();
-  std::vector<std::vector<double>> base_errors(horizons), augmented_errors(horizons), gains(horizons),
-      start_errors(horizons);
-  std::vector<diagnose_detail::Compared> compared(horizons);
   const std::size_t claims = recordings.empty() ? 0 : recordings.front().without.size();
-  std::vector<std::vector<std::vector<double>>> losses(claims, std::vector<std::vector<double>>(horizons));
-  for (const HeldOutRecording& held : recordings) {
-    const HorizonTask plain(held.recording, base, options);
-    const HorizonTask better(corrected(held.recording, held.at),
-                             augmented_model(physics, held.at, "augmented"), options);
-    const std::size_t count = plain.size();
-    assert(better.size() == count);  // windows depend on times and dropouts, which corrected() leaves
-    const StartNoise noise = start_noise(held.recording);
-    std::vector<std::vector<WindowError>> without(count), with(count);
-    std::vector<std::vector<double>> scatter(count);
-    for_each_index(count, threads, watch, [&](std::size_t i) {
-      without[i] = plain.errors(i);
-      with[i] = better.errors(i);
-      scatter[i] = better.scatter(i, noise, seed);
-    });
-    for (std::size_t c = 0; c < claims; ++c) {
-      const UnknownVector& at = held.without[c];
-      const HorizonTask poorer(corrected(held.recording, at), augmented_model(physics, at, "poorer"),
-                               options);
-      std::vector<std::vector<WindowError>> errors(count);
-      for_each_index(count, threads, watch, [&](std::size_t i) { errors[i] = poorer.errors(i); });
-      for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t h = 0; h < horizons; ++h)
-          if (const WindowError& a = errors[i][h], &b = with[i][h];
-              a.comparable && b.comparable && !a.failed && !b.failed)
-            losses[c][h].push_back(a.model - b.model);
-    }
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t h = 0; h < horizons; ++h) {
-        const WindowError &a = without[i][h], &b = with[i][h];
-        if (!a.comparable || !b.comparable || a.failed || b.failed) continue;
-        base_errors[h].push_back(a.model);
-        augmented_errors[h].push_back(b.model);
-        gains[h].push_back(a.model - b.model);
-        if (!std::isfinite(scatter[i][h])) continue;
-        start_errors[h].push_back(scatter[i][h]);
-        compared[h].add(a.model, b.model, scatter[i][h]);
-      }
-  }
+  std::vector<diagnose_detail::ErrorsAhead> ahead(options.horizons.size());
+  for (diagnose_detail::ErrorsAhead& errors : ahead) errors.losses.resize(claims);
+  for (const HeldOutRecording& held : recordings)
+    diagnose_detail::add_errors(held, base, physics, options, seed, watch, ahead);
+
   std::mt19937_64 generator(seed);
-  const auto interval_of = [&](const std::vector<double>& differences, std::size_t h) {
-    const std::size_t overlap =
-        1 + static_cast<std::size_t>(std::ceil(options.horizons[h] / options.starts_every));
+  const auto interval_of = [&](const std::vector<double>& differences, double horizon) {
+    const std::size_t overlap = 1 + static_cast<std::size_t>(std::ceil(horizon / options.starts_every));
     const std::optional<ErrorSummary> summary = summarize(differences, overlap, generator);
     return summary ? std::optional(summary->mean_ci95) : std::nullopt;
   };
-  for (std::size_t h = 0; h < horizons; ++h) {
-    const bool any = !gains[h].empty();
-    result.windows = std::max(result.windows, gains[h].size());
-    result.base_error.push_back(any ? std::optional(mean_of(base_errors[h])) : std::nullopt);
-    result.augmented_error.push_back(any ? std::optional(mean_of(augmented_errors[h])) : std::nullopt);
-    std::ranges::sort(augmented_errors[h]);
-    result.augmented_median.push_back(any ? std::optional(quantile(augmented_errors[h], 0.5)) : std::nullopt);
-    result.start_error.push_back(start_errors[h].empty() ? std::nullopt
-                                                         : std::optional(mean_of(start_errors[h])));
-    result.improvement_ci95.push_back(interval_of(gains[h], h));
+  const auto mean_if_any = [](const std::vector<double>& errors) {
+    return errors.empty() ? std::nullopt : std::optional(mean_of(errors));
+  };
+  for (std::size_t h = 0; h < ahead.size(); ++h) {
+    diagnose_detail::ErrorsAhead& errors = ahead[h];
+    result.windows = std::max(result.windows, errors.gain.size());
+    result.base_error.push_back(mean_if_any(errors.base));
+    result.augmented_error.push_back(mean_if_any(errors.augmented));
+    std::ranges::sort(errors.augmented);
+    result.augmented_median.push_back(
+        errors.augmented.empty() ? std::nullopt : std::optional(quantile(errors.augmented, 0.5)));
+    result.start_error.push_back(mean_if_any(errors.start));
+    result.improvement_ci95.push_back(interval_of(errors.gain, options.horizons[h]));
     if (options.horizons[h] < kAhead) continue;
-    std::optional<LeftOver> left = diagnose_detail::left_over_of(compared[h], kImmaterialAhead, kStartsAlike);
+    std::optional<LeftOver> left =
+        diagnose_detail::left_over_of(errors.compared, kImmaterialAhead, kStartsAlike);
     if (!left) continue;
     left->quantity = "position";
     left->unit = "m";
     left->ahead_s = options.horizons[h];
     result.ahead.push_back(*left);
   }
-  for (const auto& claim : losses) {
-    result.worsening_ci95.emplace_back();
-    for (std::size_t h = 0; h < horizons; ++h)
-      result.worsening_ci95.back().push_back(interval_of(claim[h], h));
-  }
+  result.worsening_ci95.resize(claims);
+  for (std::size_t c = 0; c < claims; ++c)
+    for (std::size_t h = 0; h < ahead.size(); ++h)
+      result.worsening_ci95[c].push_back(interval_of(ahead[h].losses[c], options.horizons[h]));
   return result;
 }
 

@@ -21,7 +21,7 @@ struct LatentForce : NeutralEffect<Scalar> {
     return {Scalar(-(placebo * state.velocity.x())), Scalar(0), Scalar(0)};
   }
 
-  Scalar spin_acceleration(const Scalar& spin, const State<Scalar>& state, const Scalar&,
+  Scalar spin_acceleration(const Scalar& spin, const State<Scalar>& state, const Tips<Scalar>&, const Scalar&,
                            const Parameters<Scalar>&) const {
     using std::tanh;
     const Scalar& rate = is(state.string_state, StringState::kOnString) ? spin_string : spin_free;

@@ -3,6 +3,7 @@
 
 #include "diabolo/effects/air.hpp"
 #include "diabolo/effects/finite_axle.hpp"
+#include "diabolo/effects/formula_laws.hpp"
 #include "diabolo/effects/gravity_tilt.hpp"
 #include "diabolo/effects/gyroscopic_tilt.hpp"
 #include "diabolo/effects/landing_restitution.hpp"
@@ -20,6 +21,7 @@ namespace diabolo {
 template <class Scalar>
 using AllEffects =
     EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce>;
+              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce,
+              FormulaLaws>;
 
 }  // namespace diabolo

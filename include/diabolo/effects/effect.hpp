@@ -55,6 +55,8 @@ struct Contact {
 /// the step's length dt [s].
 template <class Scalar>
 struct NeutralEffect {
+  /// Whether it holds more than numbers; then its fields are not all of it.
+  static constexpr bool kHasText = false;
   /// Whether all amplitudes are zero, in every lane and with every derivative; then nobody asks the hooks.
   bool neutral() const { return false; }
   /// Acceleration beside gravity and string, its mean over a step from the given state [m/s^2].
@@ -90,8 +92,8 @@ struct NeutralEffect {
   }
   /// Rate of change of the given spin [rad/s] beside the string's, its mean over a step [rad/s^2]. The spin
   /// is what string and other effects have made of the state's.
-  Scalar spin_acceleration(const Scalar& /*spin*/, const State<Scalar>&, const Scalar& /*dt*/,
-                           const Parameters<Scalar>&) const {
+  Scalar spin_acceleration(const Scalar& /*spin*/, const State<Scalar>&, const Tips<Scalar>&,
+                           const Scalar& /*dt*/, const Parameters<Scalar>&) const {
     return Scalar(0);
   }
 };
@@ -213,11 +215,11 @@ struct EffectSet {
     });
   }
   /// The spin after all torques.
-  Scalar after_torques(Scalar spin, const State<Scalar>& state, const Scalar& dt,
+  Scalar after_torques(Scalar spin, const State<Scalar>& state, const Tips<Scalar>& given, const Scalar& dt,
                        const Parameters<Scalar>& parameters) const {
     each([&]<class Effect>(const Effect& effect) {
       if constexpr (hides(&Effect::spin_acceleration, &Neutral::spin_acceleration))
-        spin += effect.spin_acceleration(spin, state, dt, parameters) * dt;
+        spin += effect.spin_acceleration(spin, state, given, dt, parameters) * dt;
     });
     return spin;
   }

@@ -18,7 +18,7 @@ struct SpinLoss : NeutralEffect<Scalar> {
 
   bool neutral() const { return is_constant_zero(air) && is_constant_zero(axle); }
 
-  Scalar spin_acceleration(const Scalar& spin, const State<Scalar>&, const Scalar& dt,
+  Scalar spin_acceleration(const Scalar& spin, const State<Scalar>&, const Tips<Scalar>&, const Scalar& dt,
                            const Parameters<Scalar>&) const {
     const Scalar kept = Scalar(1) / (Scalar(1) + air * absolute(spin) * dt);
     const Scalar braking = select(spin < Scalar(0), Scalar(-axle), axle);

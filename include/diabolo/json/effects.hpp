@@ -35,6 +35,7 @@ inline AllEffects<double> effects_from_json(const nlohmann::json& object, const 
   AllEffects<double> effects;
   std::vector<std::string> known;
   const auto read = [&]<class Effect>(Effect& effect) {
+    if constexpr (Effect::kHasText) return;  // see laws_from_json()
     const std::string name(Effect::kName);
     known.push_back(name);
     if (!fields.has(name)) return;
@@ -57,6 +58,7 @@ inline AllEffects<double> effects_from_json(const nlohmann::json& object, const 
 inline nlohmann::ordered_json to_json(const AllEffects<double>& effects) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   const auto write = [&]<class Effect>(const Effect& effect) {
+    if constexpr (Effect::kHasText) return;
     nlohmann::ordered_json own = changed_numbers(effect, Effect{});
     if constexpr (std::is_same_v<Effect, StringElasticity<double>>) {
       if (own.contains("compliance"))

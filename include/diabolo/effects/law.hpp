@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diabolo/math/formula.hpp"
+
+namespace diabolo {
+
+/// What a law's formula is the size of.
+enum class Acts {
+  kForward,  ///< acceleration along the world's x [m/s^2]
+  kLeft,     ///< along y [m/s^2]
+  kUp,       ///< along z [m/s^2]
+  kAgainst,  ///< against the velocity [m/s^2]
+  kAlong,    ///< in the string's plane, towards the right tip [m/s^2]
+  kAcross,   ///< square to the string's plane, forwards [m/s^2]
+  kLift,     ///< along omega x v [m/s^2]
+  kSpin,     ///< rate of change of the spin [rad/s^2]
+  kString,   ///< added to the string's length [m]
+};
+
+/// Their names, in the order of their numbers from 0.
+inline constexpr std::array<std::string_view, 9> names_of(Acts) {
+  return {"forward", "left", "up", "against", "along", "across", "lift", "spin", "string"};
+}
+
+inline std::string_view unit_of(Acts acts) {
+  return acts == Acts::kString ? "m" : acts == Acts::kSpin ? "rad/s^2" : "m/s^2";
+}
+
+/// What a formula may ask of the state and the tips at a step's beginning.
+struct LawVariable {
+  std::string_view name, unit, meaning;
+};
+inline constexpr std::array<LawVariable, 21> kLawVariables{{
+    {"t", "s", "time of the recording, or of the tips' motion"},
+    {"x", "m", "position of the diabolo, forwards"},
+    {"y", "m", "the same to the left"},
+    {"z", "m", "the same upwards"},
+    {"vx", "m/s", "velocity, forwards"},
+    {"vy", "m/s", "the same to the left"},
+    {"vz", "m/s", "the same upwards"},
+    {"speed", "m/s", "size of the velocity"},
+    {"spin", "rad/s", "spin with its sign"},
+    {"axis_x", "1", "direction of the axle, forwards"},
+    {"axis_y", "1", "the same to the left"},
+    {"axis_z", "1", "the same upwards"},
+    {"pull", "m/s^2", "acceleration by the string in the last step"},
+    {"taut", "1", "1 on the taut string, else 0"},
+    {"flying", "1", "1 where it has left the string, else 0"},
+    {"left", "m", "distance to the left tip"},
+    {"right", "m", "distance to the right tip"},
+    {"left_speed", "m/s", "speed of the left tip"},
+    {"right_speed", "m/s", "speed of the right tip"},
+    {"passing", "m/s", "speed of the string over the axle, towards the right tip"},
+    {"slip", "m/s", "speed of the axle's surface against the string, towards the right tip"},
+}};
+
+/// A number of a law: its amplitude, or what gives it its shape.
+struct LawNumber {
+  std::string name, unit;
+  double usual = 1.0;     ///< a usual size; a fit expects no more than some three times that
+  double expected = 0.0;  ///< what a fit begins with; zero of an amplitude
+  double minimum = -1e6, maximum = 1e6;
+
+  bool operator==(const LawNumber&) const = default;
+};
+
+/// A law by a formula of numbers and of kLawVariables. The first number is its amplitude: where that is zero,
+/// there is nothing.
+struct Law {
+  static constexpr std::size_t kMostNumbers = 6;  ///< of all laws of a model
+
+  std::string name, plain;  ///< as in files, and in words
+  Acts acts = Acts::kForward;
+  std::vector<LawNumber> numbers;
+  Formula formula;
+
+  /// Throws std::invalid_argument that names the law, what was found and what was expected.
+  Law(std::string law_name, std::string words, Acts what, const std::string& text, std::vector<LawNumber> own)
+      : name(std::move(law_name)), plain(std::move(words)), acts(what), numbers(std::move(own)) {
+    const std::string here = "law " + shown(name) + ": ";
+    if (!is_word(name)) throw std::invalid_argument(here + "name; expected letters, digits and _");
+    if (plain.empty()) plain = name;
+    if (numbers.empty() || numbers.size() > kMostNumbers)
+      throw std::invalid_argument(here + std::to_string(numbers.size()) + " numbers; expected 1 to " +
+                                  std::to_string(kMostNumbers));
+    std::vector<std::string> names;
+    for (const LawVariable& variable : kLawVariables) names.emplace_back(variable.name);
+    numbers.front().expected = 0.0;
+    for (const LawNumber& number : numbers) {
+      check(number, here + "number " + shown(number.name) + ": ");
+      if (std::ranges::find(names, number.name) != names.end())
+        throw std::invalid_argument(here + "number " + shown(number.name) + ": the name is taken");
+      names.push_back(number.name);
+    }
+    try {
+      formula = Formula(text, names);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(here + error.what());
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (!formula.uses(kLawVariables.size() + i))
+        throw std::invalid_argument(here + "number " + shown(numbers[i].name) + " is not in the formula");
+  }
+
+  bool operator==(const Law& other) const {
+    return name == other.name && plain == other.plain && acts == other.acts && numbers == other.numbers &&
+           formula.text() == other.formula.text();
+  }
+
+  /// A negative amplitude is against it.
+  bool positive() const { return numbers.front().minimum >= 0.0; }
+
+ private:
+  static bool is_word(const std::string& text) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    });
+  }
+  static void check(const LawNumber& number, const std::string& here) {
+    if (!is_word(number.name)) throw std::invalid_argument(here + "name; expected letters, digits and _");
+    if (!(number.usual > 0.0) || !std::isfinite(number.usual))
+      throw std::invalid_argument(here + "usual " + shown(number.usual) + "; expected more than 0");
+    if (!(number.minimum < number.maximum) || !std::isfinite(number.maximum - number.minimum))
+      throw std::invalid_argument(here + "minimum " + shown(number.minimum) + " and maximum " +
+                                  shown(number.maximum) + "; expected the one below the other");
+    if (!(number.expected >= number.minimum && number.expected <= number.maximum))
+      throw std::invalid_argument(here + "expected " + shown(number.expected) + "; expected within " +
+                                  shown(number.minimum) + " and " + shown(number.maximum));
+  }
+};
+
+/// Throws std::invalid_argument where names repeat, or there are more numbers than kMostNumbers.
+inline void check_laws(const std::vector<Law>& laws) {
+  std::set<std::string> names;
+  std::size_t numbers = 0;
+  for (const Law& law : laws) {
+    if (!names.insert(law.name).second)
+      throw std::invalid_argument("law " + shown(law.name) + ": the name is there twice");
+    numbers += law.numbers.size();
+  }
+  if (numbers > Law::kMostNumbers)
+    throw std::invalid_argument("laws: " + std::to_string(numbers) + " numbers; expected at most " +
+                                std::to_string(Law::kMostNumbers) + " of all laws together");
+}
+
+}  // namespace diabolo

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/effects/formula_laws.hpp"
+
+#include "diabolo/rollout.hpp"
+
+#include "effects/scene.hpp"
+
+using namespace effect_scene;
+
+namespace {
+
+FormulaLaws<double> law(Acts acts, const std::string& formula, std::vector<LawNumber> numbers = {{"k", "1"}}) {
+  return FormulaLaws<double>({Law("own", "a law of one's own", acts, formula, std::move(numbers))});
+}
+
+Full with_law(const FormulaLaws<double>& laws) {
+  return full<FormulaLaws>([&](auto& effect) { effect = laws; });
+}
+
+}  // namespace
+
+TEST_CASE("laws of amplitude zero change no bit") {
+  const unsigned seed = 790;
+  CAPTURE(seed);
+  Full::Set set;
+  set.get<FormulaLaws>() = law(Acts::kAgainst, "k * speed^p", {{"k", "1"}, {"p", "1", 1.0, 1.5}});
+  CHECK(set.get<FormulaLaws>().numbers[1] == 1.5);
+  CHECK(differing_steps(set, seed) == 0);
+  set.get<FormulaLaws>().numbers[0] = 1e-8;
+  CHECK(differing_steps(set, seed) > 1000);
+}
+
+TEST_CASE("a law by a formula does what the same law of the library does") {
+  const TipMotion<double> motion({0.0, 0.5, 1.0}, {Vector(0.0, 0.3, 1.0), Vector(0.1, 0.4, 1.2), Vector(0.0, 0.3, 0.9)},
+                                 {Vector(0.0, -0.3, 1.0), Vector(0.0, -0.4, 0.8), Vector(0.1, -0.3, 1.1)},
+                                 Interpolation::kSpline);
+  State<double> start;
+  start.position = Vector(0.05, 0.1, 0.4);
+  start.spin = 90.0;
+  const auto after = [&](const Full& predictor) { return rollout(predictor, start, motion, {0.0, 1e-3, 1000}); };
+  FormulaLaws<double> drag = law(Acts::kAgainst, "k * speed^2");
+  drag.numbers[0] = 0.2;
+  const State<double> own = after(with_law(drag)),
+                      ours = after(full<Air>([](auto& air) { air.quadratic_drag = 0.2; }));
+  // (The one's strands begin anew at each step, as where an effect moves the tips.)
+  CHECK((own.position - ours.position).norm() < 2e-4);
+  FormulaLaws<double> bearing = law(Acts::kSpin, "-k * sign(spin)");
+  bearing.numbers[0] = 5.0;
+  CHECK(after(with_law(bearing)).spin ==
+        Approx(after(full<SpinLoss>([](auto& loss) { loss.axle = 5.0; })).spin).margin(1e-3));
+}
+
+TEST_CASE("a law may ask for the time, and a string may grow by it") {
+  const Vector left(0.0, 0.3, 1.0), right(0.0, -0.3, 1.0);
+  const TipMotion<double> still({0.0, 10.0}, {left, left}, {right, right}, Interpolation::kLinear);
+  State<double> state;
+  state.string_state = StringState::kOnString;
+  state.position = Vector(0.0, 0.0, 1.0 - std::sqrt(0.725 * 0.725 - 0.3 * 0.3));
+  FormulaLaws<double> creep = law(Acts::kString, "k * (t - 5)", {{"k", "m/s"}});
+  creep.numbers[0] = 2e-3;
+  const State<double> at_end = rollout(with_law(creep), state, still, {5.0, 1e-3, 4000});
+  CHECK((left - at_end.position).norm() + (right - at_end.position).norm() == Approx(1.45 + 8e-3).margin(1e-4));
+}
+
+TEST_CASE("no step takes more than all of the velocity") {
+  State<double> state;
+  state.velocity = Vector(0.0, 0.0, -0.01);
+  FormulaLaws<double> stiff = law(Acts::kAgainst, "k");
+  stiff.numbers[0] = 1000.0;
+  const Vector a = stiff.acceleration(state, {}, 1e-3, Numbers());
+  CHECK(a.norm() * 1e-3 <= 0.01);
+}
+
+TEST_CASE("what is no law is told") {
+  const auto complaint = [](const std::string& name, const std::string& formula, std::vector<LawNumber> numbers) {
+    try {
+      Law(name, "", Acts::kUp, formula, std::move(numbers));
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  CHECK(complaint("a b", "k", {{"k", "1"}}) == "law \"a b\": name; expected letters, digits and _");
+  CHECK(complaint("own", "k", {}) == "law \"own\": 0 numbers; expected 1 to 6");
+  CHECK(complaint("own", "k * foo", {{"k", "1"}}).starts_with("law \"own\": formula \"k * foo\", character 5"));
+  CHECK(complaint("own", "k", {{"k", "1"}, {"p", "1"}}) == "law \"own\": number \"p\" is not in the formula");
+  CHECK(complaint("own", "speed", {{"speed", "1"}}) == "law \"own\": number \"speed\": the name is taken");
+  CHECK(complaint("own", "k", {{"k", "1", 0.0}}) == "law \"own\": number \"k\": usual 0; expected more than 0");
+  CHECK(complaint("own", "k", {{"k", "1", 1.0, 0.0, 1.0, 2.0}}) ==
+        "law \"own\": number \"k\": expected 0; expected within 1 and 2");
+  const Law one("own", "", Acts::kUp, "k", {{"k", "1"}});
+  CHECK_THROWS_WITH(FormulaLaws<double>({one, one}), "law \"own\": the name is there twice");
+}
