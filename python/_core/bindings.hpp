@@ -14,6 +14,7 @@ void bind_parameters(pybind11::module_& module);
 void bind_model(pybind11::module_& module);
 void bind_state(pybind11::module_& module);
 void bind_effects(pybind11::module_& module);
+void bind_laws(pybind11::module_& module);
 void bind_spheroid(pybind11::module_& module);
 void bind_tip_motion(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);

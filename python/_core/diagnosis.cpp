@@ -26,12 +26,18 @@ using namespace py::literals;
 
 /// What is said, and the model with what was found.
 py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
-                   const std::vector<Recording>& holdout, const std::vector<std::string>& bank, double budget,
-                   std::uint64_t seed, int threads, const py::object& progress) {
+                   const std::vector<Recording>& holdout, const std::vector<std::string>& bank,
+                   const FormulaLaws<double>& laws, double budget, std::uint64_t seed, int threads,
+                   const py::object& progress) {
   for (const Recording& recording : recordings) check_recording(recording);
   for (const Recording& recording : holdout) check_recording(recording);
-  const DiagnosisOptions options{
-      .base = base, .holdout = holdout, .bank = bank, .budget = budget, .seed = seed, .threads = threads};
+  const DiagnosisOptions options{.base = base,
+                                 .holdout = holdout,
+                                 .bank = bank,
+                                 .laws = laws.laws ? *laws.laws : std::vector<Law>{},
+                                 .budget = budget,
+                                 .seed = seed,
+                                 .threads = threads};
   std::vector<std::string> unused;
   std::mutex mutex;
   std::pair<std::string, double> now{"", 0.0};
@@ -63,7 +69,7 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
 }  // namespace
 
 void bind_diagnosis(py::module_& module) {
-  module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "budget"_a, "seed"_a,
+  module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "laws"_a, "budget"_a, "seed"_a,
              "threads"_a, "progress"_a, "See diabolo.diagnose.");
 }
 

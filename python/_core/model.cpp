@@ -37,6 +37,7 @@ py::dict model_dict(const Model& model) {
                   "own_axle_radius"_a = model.own_axle_radius);
   for_each_effect(model.effects,
                   [&](const auto& effect) { fields[py::str(std::string(effect.kName))] = py::cast(effect); });
+  fields["formula_laws"] = py::cast(model.effects.get<FormulaLaws>());
   return fields;
 }
 
@@ -90,6 +91,10 @@ says that its own count.)");
         [](Model& m) -> Effect& { return std::get<Effect>(m.effects.members); },
         [](Model& m, const Effect& effect) { std::get<Effect>(m.effects.members) = effect; });
   });
+  cls.def_property(
+      "formula_laws", [](const Model& m) { return m.effects.get<FormulaLaws>(); },
+      [](Model& m, const FormulaLaws<double>& laws) { m.effects.get<FormulaLaws>() = laws; },
+      "Laws by formulas (FormulaLaws): a copy; set them anew to change them.");
   cls.def("to_dict", &model_dict, "The keyword arguments that make the model again.");
   cls.def("__repr__",
           [](const Model& m) { return call_text("Model", model_dict(m), model_dict(model_from({}))); });

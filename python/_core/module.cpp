@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = diabolo::kVersion;
   bind_parameters(module);
   bind_effects(module);
+  bind_laws(module);
   bind_model(module);
   bind_state(module);
   bind_recording(module);

@@ -6,12 +6,13 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
+from os import PathLike
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _core
-from ._core import DIAGNOSIS_SCHEMA, ClaimedEffect, DiagnosisResult, Model, Recording
+from ._core import DIAGNOSIS_SCHEMA, ClaimedEffect, DiagnosisResult, FormulaLaws, Model, Recording
 from .checks import (
     LARGEST_SEED,
     MOST_THREADS,
@@ -66,6 +67,7 @@ def diagnose(
     *,
     holdout: AnyRecording | Iterable[AnyRecording] = (),
     bank: Iterable[str] = (),
+    laws: FormulaLaws | Iterable[dict[str, Any]] | str | PathLike[str] = (),
     budget: float = 1e9,
     seed: int = 1,
     threads: int = 0,
@@ -81,6 +83,8 @@ def diagnose(
         `result.fit.holdout_unused`.
     bank: names of what may be claimed, such as "string_friction"; by default everything known but placebos.
         What no measurement is without stays free in every fit.
+    laws: of your own, by formulas (FormulaLaws, what makes it, or the name of its file): they are candidates as
+        all others are, and `bank` may name them.
     budget: seconds after which it ends. Fewer windows are fitted where that takes longer, then trials are
         left out; `result.not_done` tells of it.
     seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.
@@ -102,6 +106,7 @@ def diagnose(
         raise ValueError(f"budget: {budget} s; must be positive")
     names = names_of("bank", bank, "string_friction")
     chosen = model_of("base", base)
+    own = FormulaLaws.load(laws) if isinstance(laws, str | PathLike) else FormulaLaws(laws)
     held = list_of("holdout", holdout)
     trimmed, overlaps = _core.trim_overlaps([*given, *held])
     for sentence in overlaps:
@@ -111,7 +116,7 @@ def diagnose(
     _check_distinct([*given, *held])
     warn_of([*given, *held])
     _warn_of_other_set_ups([*given, *held])
-    result, model = _core.diagnose(given, chosen, held, names, budget, seed, threads, progress)
+    result, model = _core.diagnose(given, chosen, held, names, own, budget, seed, threads, progress)
     return Diagnosis(result, chosen if result.headline == "INSUFFICIENT_DATA" else model)
 
 

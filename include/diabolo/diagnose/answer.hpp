@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ struct Candidate {
   std::vector<Unknown> unknowns;  ///< none of body_swap, which is seen without a fit
   double floor;   ///< claimed only beyond, in any of its unknowns; of physics see kSmallestReach
   bool positive;  ///< a negative amplitude is against physics
+  std::vector<Unknown> companions{};  ///< free with it, and nothing without it
+  const Law* law = nullptr;           ///< of somebody's own; its numbers are the unknowns and the companions
 };
 
 /// Standard deviations of what a camera reports.
@@ -170,6 +173,12 @@ enum class Headline {
   kNothingMissing
 };
 
+/// Laws of somebody's own, as candidates.
+struct OwnCandidates {
+  FormulaLaws<double> laws;
+  std::vector<Candidate> list;
+};
+
 /// The answer.
 struct Diagnosis {
   Headline headline = Headline::kNothingMissing;
@@ -191,6 +200,7 @@ struct Diagnosis {
   std::optional<double> numerical;    ///< share of the base's error that its numerical rules make
   std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
   std::size_t windows_seen = 0;       ///< in the recordings, of which `windows` were fitted
+  std::shared_ptr<const OwnCandidates> own;  ///< to which findings may point
 };
 
 /// Numbers of a window's start: position, velocity and spin.

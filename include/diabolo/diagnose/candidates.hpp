@@ -22,9 +22,15 @@ inline const std::vector<Candidate>& candidates() {
   using enum Unknown;
   using enum CandidateKind;
   static const std::vector<Candidate> all{
-      {"string_elasticity", "the string's stretch", kPhysics, {kCompliance}, 0.0, true},
-      {"stick_flex", "the bending of the sticks", kPhysics, {kStickCompliance}, 0.0, true},
-      {"string_friction", "friction of the string on the axle", kPhysics, {kFriction}, 0.0, true},
+      {"string_elasticity", "the string's stretch", kPhysics, {kCompliance}, 0.0, true, {kDamping}},
+      {"stick_flex",
+       "the bending of the sticks",
+       kPhysics,
+       {kStickCompliance},
+       0.0,
+       true,
+       {kStickDamping, kTipMass}},
+      {"string_friction", "friction of the string on the axle", kPhysics, {kFriction}, 0.0, true, {kSpinGain}},
       {"string_wrap", "a string that is wrapped around the axle", kPhysics, {kWraps}, 0.0, true},
       {"landing_restitution", "the bounce of a catch", kPhysics, {kRestitution}, 0.0, true},
       {"air_drag_linear", "a drag that grows with speed", kPhysics, {kLinearDrag}, 0.0, true},
@@ -110,9 +116,10 @@ inline std::string_view alternative_to(std::string_view name) {
 /// All of them but placebos, or those of some names, as far as they can be missing in a base: a base that has
 /// a spin coupling leaves it to be fitted, and one with the Earth's gravity has it right. In another one
 /// gravity is asked about, and not the scale of lengths, which acts alike and is the better known. What is an
-/// alternative to another fault comes in by exchange_claims(). Throws std::invalid_argument about a name that
-/// is none.
-inline Bank bank_for(const Parameters<double>& base, const std::vector<std::string>& names) {
+/// alternative to another fault comes in by exchange_claims(). Candidates of one's own are asked about with
+/// the others. Throws std::invalid_argument about a name that is none.
+inline Bank bank_for(const Parameters<double>& base, const std::vector<std::string>& names,
+                     const std::vector<Candidate>& own = {}) {
   Bank bank;
   const auto wanted = [&](const Candidate& candidate) {
     return (names.empty() && !is_placebo(candidate)) ||
@@ -130,11 +137,15 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
     if (candidate.name == "length_scale" && asks_gravity) continue;
     bank.push_back(&candidate);
   }
+  for (const Candidate& candidate : own)
+    if (wanted(candidate)) bank.push_back(&candidate);
   for (const std::string& name : names)
-    if (std::ranges::find(candidates(), name, &Candidate::name) == candidates().end()) {
+    if (std::ranges::find(candidates(), name, &Candidate::name) == candidates().end() &&
+        std::ranges::find(own, name, &Candidate::name) == own.end()) {
       std::string known;
       for (const Candidate& candidate : candidates())
         known.append(known.empty() ? "" : ", ").append(candidate.name);
+      for (const Candidate& candidate : own) known.append(", ").append(candidate.name);
       throw std::invalid_argument(std::string("bank: \"").append(name).append("\"; expected of ") + known);
     }
   return bank;
@@ -142,13 +153,8 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
 
 /// `set` with, or without, a candidate's unknowns and those that count only beside them.
 inline ActiveSet with(ActiveSet set, const Candidate& candidate, bool included = true) {
-  for (const Unknown u : candidate.unknowns) {
-    set[index_of(u)] = included;
-    if (u == Unknown::kCompliance) set[index_of(Unknown::kDamping)] = included;
-    if (u == Unknown::kStickCompliance)
-      set[index_of(Unknown::kStickDamping)] = set[index_of(Unknown::kTipMass)] = included;
-    if (u == Unknown::kFriction) set[index_of(Unknown::kSpinGain)] = included;
-  }
+  for (const Unknown u : candidate.unknowns) set[index_of(u)] = included;
+  for (const Unknown u : candidate.companions) set[index_of(u)] = included;
   return set;
 }
 
@@ -158,6 +164,7 @@ inline bool is_in(const ActiveSet& set, const Candidate& candidate) {
 
 inline bool is_of_spin(const Candidate& candidate) {
   const Unknown first = first_of(candidate);
+  if (candidate.law != nullptr) return candidate.law->acts == Acts::kSpin;
   return first == Unknown::kSpinAir || first == Unknown::kSpinAxle || first == Unknown::kSpinCoupling;
 }
 

@@ -134,11 +134,15 @@ inline void say_denied(Diagnosis& d, const Candidate& candidate) {
 }
 
 /// The first of what a finding is tied with, in plain words.
-inline std::string tied_plainly(const Finding& finding) {
-  for (const Candidate& candidate : candidates())
-    if (!finding.tied_with.empty() && candidate.name == finding.tied_with.front())
-      return std::string(candidate.plain);
-  return "another effect";
+inline std::string tied_plainly(const Diagnosis& d, const Finding& finding) {
+  const std::string_view name = finding.tied_with.front();
+  const auto is_it = [&](const Candidate& candidate) { return candidate.name == name; };
+  if (const auto known = std::ranges::find_if(candidates(), is_it); known != candidates().end())
+    return std::string(known->plain);
+  if (d.own)
+    if (const auto own = std::ranges::find_if(d.own->list, is_it); own != d.own->list.end())
+      return std::string(own->plain);
+  return std::string(name);
 }
 
 /// Where a latent acceleration acts.
@@ -208,7 +212,7 @@ inline void conclude(Diagnosis& d) {
   } else if (tied != leading.end()) {
     d.headline = Headline::kTie;
     d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
-                 names(leading) + " would explain it, and so would " + tied_plainly(**tied) +
+                 names(leading) + " would explain it, and so would " + tied_plainly(d, **tied) +
                  " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
                  (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + names(faults)) +
                  (has_law ? "; and a" + left_plainly(d) : ".");

@@ -3,14 +3,38 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "diabolo/diagnose/fit_take.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/effects/formula_laws.hpp"
 #include "diabolo/effects/unnamed_force.hpp"
 #include "diabolo/model.hpp"
 
 namespace diabolo {
+
+/// Laws with what a fit adds to their numbers, within their ranges, and without those that do nothing.
+inline FormulaLaws<double> fitted_laws(const FormulaLaws<double>& laws, const UnknownVector& at) {
+  std::vector<Law> kept;
+  std::vector<double> values;
+  laws.each([&](const Law& law, std::size_t first) {
+    const auto value = [&](std::size_t i) {
+      const LawNumber& number = law.numbers[i];
+      return std::clamp(laws.numbers[first + i] + number.usual * at[index_of(own_number(first + i))],
+                        number.minimum, number.maximum);
+    };
+    if (value(0) == 0.0) return;
+    kept.push_back(law);
+    for (std::size_t i = 0; i < law.numbers.size(); ++i) values.push_back(value(i));
+  });
+  FormulaLaws<double> result(std::move(kept));
+  std::ranges::copy(values, result.numbers.begin());
+  return result;
+}
 
 /// The base with the physics of a fit.
 inline Model augmented_model(const Model& base, const UnknownVector& at, const std::string& name) {
@@ -54,6 +78,7 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
     if (*exponent != 0.0)
       *exponent = std::clamp(*exponent + x(Unknown::kPower), -UnnamedForce<double>::kLargestPower,
                              UnnamedForce<double>::kLargestPower);
+  model.effects.get<FormulaLaws>() = fitted_laws(model.effects.get<FormulaLaws>(), at);
   auto& loss = model.effects.get<SpinLoss>();
   loss.air += std::max(0.0, x(Unknown::kSpinAir));
   loss.axle += std::max(0.0, x(Unknown::kSpinAxle));

@@ -17,6 +17,7 @@ struct DiagnosisOptions {
   Model base = consistent_model();  ///< the simulator that is asked about
   std::vector<Recording> holdout;   ///< to compare on; else recordings, or blocks, are left out in turn
   std::vector<std::string> bank;    ///< names of the candidates; empty: all but placebos
+  std::vector<Law> laws;            ///< of one's own, which are candidates too
   double budget = 1e9;              ///< it ends about then, and tells what it left [s]
   std::uint64_t seed = 1;           ///< of the bootstrap
   int threads = 0;                  ///< 0: one for every processor; the result is the same

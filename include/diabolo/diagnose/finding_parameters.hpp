@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/own_laws.hpp"
 #include "diabolo/diagnose/result.hpp"
 
 namespace diabolo {
@@ -51,6 +52,19 @@ inline constexpr std::array<NamedUnknown, 15> kNamedUnknowns{{
     {Unknown::kTimeOffset, "seconds", "s"},
 }};
 
+/// Those of a law of somebody's own.
+inline std::vector<Estimate> own_numbers_of(const Finding& f) {
+  std::vector<Unknown> unknowns = f.candidate->unknowns;
+  unknowns.insert(unknowns.end(), f.candidate->companions.begin(), f.candidate->companions.end());
+  std::vector<Estimate> result;
+  for (const Unknown u : unknowns) {
+    const OwnNumber own = own_number_of(*f.candidate, u);
+    result.push_back(with_deviation(own.number->name, own.value(f.estimate[index_of(u)]),
+                                    own.number->usual * f.deviation[index_of(u)], own.number->unit));
+  }
+  return result;
+}
+
 /// The parameters of a finding by their fixed names.
 inline std::vector<Estimate> parameters_of(const Finding& f, double given_length, double given_gravity) {
   const auto value = [&](Unknown u) { return f.estimate[index_of(u)]; };
@@ -73,6 +87,7 @@ inline std::vector<Estimate> parameters_of(const Finding& f, double given_length
     const double frames = static_cast<double>(f.swapped);
     return {Estimate{"frames", frames, "1", Interval{frames, frames}}};
   }
+  if (f.candidate->law != nullptr) return own_numbers_of(f);
   const Unknown first = first_of(*f.candidate);
   for (const auto& [unknown, name, unit] : kNamedUnknowns)
     if (unknown == first) return {plain(name, unknown, unit)};

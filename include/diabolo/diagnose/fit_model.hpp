@@ -78,7 +78,7 @@ inline bool is_bouncy(const UnknownVector& at) { return compliance_of(at) > kBou
 template <class D>
 using FitPredictor =
     Predictor<D, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, UnnamedForce, LatentForce>;
+              StickFlex, StringMass, LandingRestitution, UnnamedForce, LatentForce, FormulaLaws>;
 
 /// The base with everything that may be missing, which carries its derivatives.
 template <class D>
@@ -136,6 +136,15 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
   unnamed.flight_lift += x(Unknown::kFlightLift);
   for (D* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
     if (!is_constant_zero(*exponent)) *exponent += x(Unknown::kPower);
+  auto& own = effects.template get<FormulaLaws>();
+  own.each([&](const Law& law, std::size_t first) {
+    for (std::size_t i = 0; i < law.numbers.size(); ++i) {
+      const LawNumber& number = law.numbers[i];
+      D& value = own.numbers[first + i];
+      value += x(own_number(first + i)) * D(number.usual);
+      if (i > 0) value = minimum(maximum(value, D(number.minimum)), D(number.maximum));
+    }
+  });
   auto& latent = effects.template get<LatentForce>();
   latent.spin_string = x(Unknown::kSpinString);
   latent.spin_free = x(Unknown::kSpinFree);

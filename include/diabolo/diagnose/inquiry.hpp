@@ -17,6 +17,7 @@
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/noise_trial.hpp"
+#include "diabolo/diagnose/own_laws.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/sufficient.hpp"
@@ -39,8 +40,10 @@ class Inquiry {
         watch_(watch),
         budget_(seconds, watch.clock),
         numerical_(options.base.parameters.string_law != StringLaw::kInextensible),
-        physics_(physics_without_rules(options.base)),
-        bank_(bank_for(physics_.parameters, options.bank)) {
+        physics_(physics_without_rules(options.base)) {
+    result_.own = own_candidates(physics_.effects.template get<FormulaLaws>(), options.laws);
+    physics_.effects.template get<FormulaLaws>() = result_.own->laws;
+    bank_ = bank_for(physics_.parameters, options.bank, result_.own->list);
     result_.base = options.base.name;
     result_.base_gravity = physics_.parameters.gravity;
     result_.base_string_length = parameters_for(physics_, recordings.front()).string_length;

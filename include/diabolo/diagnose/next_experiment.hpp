@@ -55,7 +55,10 @@ inline std::optional<Alternative> alternative_of(std::string_view claim, std::st
   const std::vector<Alternative> known = alternatives_to(claim, fit, set);
   const auto own = std::ranges::find(known, other, &Alternative::name);
   if (own != known.end()) return *own;
-  if (other == "string_wrap") return std::nullopt;
+  const auto known_by_name = [](std::string_view name) {
+    return std::ranges::find(candidates(), name, &Candidate::name) != candidates().end();
+  };
+  if (other == "string_wrap" || !known_by_name(claim) || !known_by_name(other)) return std::nullopt;
   Alternative result{other, fit.delay, with(with(set, candidate_of(claim), false), candidate_of(other)), {}};
   result.at = within_bounds(Evidence(fit).solve(result.set), fit);
   return result;

@@ -14,6 +14,7 @@
 #include "diabolo/diagnose/diagnosis_result.hpp"
 #include "diabolo/diagnose/finding_parameters.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/own_laws.hpp"
 #include "diabolo/diagnose/significance.hpp"
 
 namespace diabolo {
@@ -49,7 +50,8 @@ inline std::string kind_of(const Candidate& candidate) {
 }
 
 /// In which direction a candidate acts.
-inline const char* direction_of(const Candidate& candidate) {
+inline std::string direction_of(const Candidate& candidate) {
+  if (candidate.law != nullptr) return std::string(names_of(Acts{})[static_cast<std::size_t>(candidate.law->acts)]);
   switch (first_of(candidate)) {
     case Unknown::kCompliance:
     case Unknown::kStickCompliance:
@@ -145,6 +147,12 @@ inline LadderRow row_of(const Finding& f) {
   row.parameter = f.swapped > 0 ? "frames" : info_of(shown_unknown).name;
   row.estimate = f.swapped > 0 ? static_cast<double>(f.swapped) : f.estimate[index_of(shown_unknown)];
   row.unit = f.swapped > 0 ? "1" : info_of(shown_unknown).unit;
+  if (f.candidate->law != nullptr) {
+    const OwnNumber own = own_number_of(*f.candidate, shown_unknown);
+    row.parameter = own.number->name;
+    row.estimate = own.value(row.estimate);
+    row.unit = own.number->unit;
+  }
   row.z = f.z;
   row.p_value = f.p_value;
   if (!is_of_spin(*f.candidate)) row.size_m = f.size;
@@ -160,6 +168,10 @@ inline std::optional<UpperLimit> limit_of(const Finding& f) {
   const int u = index_of(f.candidate->unknowns.front());
   if (!(f.deviation[u] > 0.0)) return {};
   const double limit = std::max(0.0, std::abs(f.estimate[u]) + kNormal95 * f.deviation[u]);
+  if (f.candidate->law != nullptr) {
+    const LawNumber& own = f.candidate->law->numbers.front();
+    return UpperLimit{std::string(f.candidate->name), own.name, limit * own.usual, own.unit};
+  }
   return UpperLimit{std::string(f.candidate->name), std::string(info.name), limit, std::string(info.unit)};
 }
 

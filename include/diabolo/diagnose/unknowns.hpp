@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "diabolo/effects/law.hpp"
 #include "diabolo/recording/plausibility/usual_path.hpp"
 
 namespace diabolo {
@@ -60,7 +61,8 @@ enum class Unknown : int {
   kSpinFree,
   kPlacebo,  ///< of a drag that acts along the recording's x alone, as nothing does [1/s]
   kPower,    ///< by which a force without a name grows, less the base's [1]; counts where there is one
-  kCount
+  kOwn,      ///< the first number of FormulaLaws, less the base's, in its usual size; the others follow
+  kCount = kOwn + static_cast<int>(Law::kMostNumbers)
 };
 
 inline constexpr int kUnknowns = static_cast<int>(Unknown::kCount);
@@ -137,7 +139,18 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"spin_off_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"placebo", "1/s", 0.1, 0.0, -10.0, 10.0},
     {"power", "1", 1.0, 2.0, -4.0, 4.0},
+    {"own_1", "1", 1.0, 3.0, -1e3, 1e3},
+    {"own_2", "1", 1.0, 3.0, -1e3, 1e3},
+    {"own_3", "1", 1.0, 3.0, -1e3, 1e3},
+    {"own_4", "1", 1.0, 3.0, -1e3, 1e3},
+    {"own_5", "1", 1.0, 3.0, -1e3, 1e3},
+    {"own_6", "1", 1.0, 3.0, -1e3, 1e3},
 }};
+
+/// The unknown of number `i` of FormulaLaws.
+inline constexpr Unknown own_number(std::size_t i) {
+  return static_cast<Unknown>(index_of(Unknown::kOwn) + static_cast<int>(i));
+}
 
 inline constexpr const UnknownInfo& info_of(Unknown u) {
   return kUnknownInfos[static_cast<std::size_t>(index_of(u))];

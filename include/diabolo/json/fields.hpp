@@ -92,6 +92,16 @@ class JsonFields {
     return result;
   }
 
+  std::string text(const std::string& field) const {
+    if (!at(field).is_string()) fail(field, "a text");
+    return at(field).get<std::string>();
+  }
+
+  const nlohmann::json& list(const std::string& field) const {
+    if (!at(field).is_array()) fail(field, "a list");
+    return at(field);
+  }
+
   /// A text, or a list of texts; none of them empty, one at least.
   std::vector<std::string> names(const std::string& field) const {
     const nlohmann::json& value = at(field);

@@ -10,7 +10,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from .._core import Estimate, InputFile, Model, Recording
+from .._core import Estimate, FormulaLaws, InputFile, Model, Recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import Diagnosis
 from ..diagnosis import diagnose as run_diagnosis
@@ -63,6 +63,11 @@ def add_parser(commands: Any) -> None:
         metavar="RECORDING",
         help="held-out recordings, or rows of them as above: nothing is fitted to them",
     )
+    parser.add_argument(
+        "--law",
+        metavar="FILE",
+        help="laws of your own, by formulas, which are asked about as all others: see docs/your_law.md",
+    )
     parser.add_argument("--json", metavar="FILE", help="write the result as JSON; - is standard output")
     parser.add_argument(
         "--out",
@@ -94,7 +99,9 @@ def run(arguments: argparse.Namespace) -> None:
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
     settings = [arguments.calibration] if arguments.calibration else []
     settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
+    settings += [arguments.law] if arguments.law else []
     files.check_outputs(outputs, [*inputs, *settings], folder)
+    laws = FormulaLaws.load(arguments.law) if arguments.law else ()
     reading = reading_of(arguments)
     takes, held = (
         [_cut(read_excerpt(text, reading)) for text in given]
@@ -107,6 +114,7 @@ def run(arguments: argparse.Namespace) -> None:
             takes,
             read_model(arguments.base),
             holdout=held,
+            laws=laws,
             budget=arguments.budget,
             seed=arguments.seed,
             threads=arguments.threads,
