@@ -36,10 +36,13 @@ Vector3<double> to_direction(const Array& array, const std::string& name) {
 StepStatus<double> step(const Simulator& predictor, State<double>& state, const Array& left0,
                         const Array& right0, const Array& left1, const Array& right1, double dt,
                         const std::optional<std::array<Array, 4>>& velocities,
-                        const std::optional<std::array<Array, 4>>& directions) {
+                        const std::optional<std::array<Array, 4>>& directions, double time) {
+  if (!std::isfinite(time)) throw std::invalid_argument("time: not finite");
   if (!(dt > 0.0) || !std::isfinite(dt))
     throw std::invalid_argument("dt: " + std::to_string(dt) + " s; must be positive and finite");
   Tips<double> begin, end;
+  begin.time = time;
+  end.time = time + dt;
   begin.left = to_vector3(left0, "left0");
   begin.right = to_vector3(right0, "right0");
   end.left = to_vector3(left1, "left1");
@@ -107,13 +110,14 @@ It holds nothing but checked constants; the state is yours. For many steps, or m
           }))
       .def(
           "step", &step, "state"_a, "left0"_a, "right0"_a, "left1"_a, "right1"_a, "dt"_a,
-          "velocities"_a = py::none(), "directions"_a = py::none(),
+          "velocities"_a = py::none(), "directions"_a = py::none(), "time"_a = 0.0,
           R"(Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
 each of the shape (3,) [m].
 
 `velocities` [m/s] are those of left0, right0, left1, right1; without them the tips go straight at constant
 speed. `directions`, unit vectors, are those of the sticks at the same four instants, zero where not known;
-StickFlex alone looks at them. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.)");
+StickFlex alone looks at them. `time` [s] is that of left0, for FormulaLaws. Raises FloatingPointError, and
+leaves the state as it was, where the result is not finite.)");
 }
 
 }  // namespace diabolo::python
