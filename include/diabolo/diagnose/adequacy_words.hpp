@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -61,6 +63,28 @@ inline std::string change_in_words(const ChangeInTime& change) {
   return what + " that comes and goes, " + size_in_words(change.size, change.unit) +
          (change.frequency_hz ? " at " + shown(std::round(100.0 * *change.frequency_hz) / 100.0) + " Hz"
                               : "");
+}
+
+inline std::string three_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// A learnt law with its size and its interval: "against the velocity, of constant size: 0.41 [0.38, 0.44]
+/// m/s^2".
+inline std::string learnt_plainly(const Learnt& learnt) {
+  constexpr double kNormal90 = 1.645;
+  std::string text = learnt.law.plain;
+  for (std::size_t i = 0; i < learnt.value.size(); ++i) {
+    const LawNumber& number = learnt.law.numbers[i];
+    if (number.name == "phase") continue;
+    const double value = learnt.value[i], reach = kNormal90 * learnt.deviation[i];
+    text += (i == 0 ? ": " : ", " + number.name + " ") + three_digits(value) + " [" +
+            three_digits(value - reach) + ", " + three_digits(value + reach) + "]" +
+            (number.unit == "1" ? "" : " " + number.unit);
+  }
+  return text;
 }
 
 /// How much of the gap what was found explains, and what it leaves: sentences after the answer's.

@@ -15,6 +15,7 @@
 #include "diabolo/diagnose/adequacy.hpp"
 #include "diabolo/diagnose/diagnosis_options.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/effects/law.hpp"
 #include "diabolo/math/bootstrap.hpp"
 #include "diabolo/math/dual.hpp"
 #include "diabolo/model.hpp"
@@ -123,6 +124,14 @@ inline constexpr std::array kMayChange{
     MayChange{Unknown::kSpinFree, "spin_off_string", "rad/s^2"},
     MayChange{Unknown::kStringLength, "string_length", "m"}};
 
+/// A law by a formula that was learnt from what is left over, and is in the model.
+struct Learnt {
+  Law law;
+  std::vector<double> value, deviation;                  ///< of its numbers, in their units
+  double gain = 0.0;                                     ///< of windows that were left out, in chi^2
+  std::vector<std::optional<Interval>> worsening_ci95;  ///< see UnexplainedForce
+};
+
 /// What was seen in a window before anything was added, and what is left.
 struct WindowFinding {
   std::size_t recording;
@@ -187,6 +196,7 @@ struct Diagnosis {
   double base_string_length = 0.0;         ///< [m]
   std::vector<Finding> findings;           ///< of every candidate, the surest first
   std::vector<UnexplainedForce> unexplained_forces;
+  std::vector<Learnt> learnt;  ///< in the order in which they were
   std::vector<WindowFinding> windows;
   std::vector<std::pair<std::string, CameraNoise>> noise;
   UnknownVector at = UnknownVector::Zero();

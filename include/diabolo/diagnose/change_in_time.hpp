@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/answer.hpp"
@@ -107,6 +108,20 @@ inline double left_beside(const WindowSeries& series,
   return (values - columns * best).squaredNorm();
 }
 
+/// The frequency [Hz] of the oscillation that leaves least of a series, and what it leaves; zero where none
+/// leaves less than nothing does. (What bends but once is no oscillation.)
+inline std::pair<double, double> best_frequency(const WindowSeries& series) {
+  std::pair<double, double> best{0.0, left_beside(series, {})};
+  const double span = series.time.back() - series.time.front();
+  for (int k = 15; 0.1 * k / span <= kFastestChange; ++k) {
+    const double f = 0.1 * k / span, omega = 2.0 * std::numbers::pi * f;
+    const double left = left_beside(series, {[omega](double t) { return std::sin(omega * t); },
+                                             [omega](double t) { return std::cos(omega * t); }});
+    if (left < best.second) best = {f, left};
+  }
+  return best;
+}
+
 /// Names the shape of a change: steady, or an oscillation that leaves clearly less; neither where both leave
 /// most of it. Only where all windows are of one recording, whose clock they share.
 inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
@@ -114,14 +129,7 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
   double slope = 0.0;
   const double all = left_beside(series, {}),
                steady = left_beside(series, {[](double t) { return t; }}, &slope);
-  const double span = series.time.back() - series.time.front();
-  double best = all, frequency = 0.0;
-  for (int k = 15; 0.1 * k / span <= kFastestChange; ++k) {  // what bends but once is no oscillation
-    const double f = 0.1 * k / span, omega = 2.0 * std::numbers::pi * f;
-    const double left = left_beside(series, {[omega](double t) { return std::sin(omega * t); },
-                                             [omega](double t) { return std::cos(omega * t); }});
-    if (left < best) best = left, frequency = f;
-  }
+  const auto [frequency, best] = best_frequency(series);
   if (steady < 0.7 * all && steady < 1.2 * best)
     change.trend_per_s = slope;
   else if (best < 0.7 * all)

@@ -163,6 +163,11 @@ inline std::string plainly(Unknown latent) {
 
 /// Of the force that has no name: the end of a sentence.
 inline std::string left_plainly(const Diagnosis& d) {
+  if (!d.learnt.empty()) {
+    std::string text = " law that has no name is at work: ";
+    for (std::size_t i = 0; i < d.learnt.size(); ++i) text += (i > 0 ? "; and " : "") + learnt_plainly(d.learnt[i]);
+    return text + ". With it the simulator predicts better what was left out.";
+  }
   const UnexplainedForce& leftover = d.unexplained_forces.front();
   return " force that has no name is left: " + plainly(leftover.unknown) +
          (leftover.in_model ? "; with its law the simulator predicts better what was left out."
@@ -196,7 +201,8 @@ inline void conclude(Diagnosis& d) {
     if (f.claimed) (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
   const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
   const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
-  const bool has_law = !d.unexplained_forces.empty() && d.unexplained_forces.front().in_model;
+  const bool has_law = !d.learnt.empty() ||
+                       (!d.unexplained_forces.empty() && d.unexplained_forces.front().in_model);
   const bool only_leftover =
       !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
   const bool beyond_noise = !d.adequacy.adequate.value_or(true);

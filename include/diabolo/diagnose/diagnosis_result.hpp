@@ -58,6 +58,7 @@ struct DiagnosisResult {
   std::vector<ClaimedEffect> effects;
   Adequacy adequacy;
   std::vector<UnnamedStructure> unnamed;
+  std::vector<LearntLawFound> learnt;
   std::vector<UpperLimit> upper_limits;
   std::vector<Estimate> nuisances;
   HeldOutErrors fit;
@@ -83,6 +84,7 @@ struct DiagnosisResult {
     visit("effects", &DiagnosisResult::effects, "What is claimed, the surest first.");
     visit("adequacy", &DiagnosisResult::adequacy, "Whether it leaves no more than noise would.");
     visit("unnamed", &DiagnosisResult::unnamed, "What is there and has no name.");
+    visit("learnt", &DiagnosisResult::learnt, "Laws that were learnt from it.");
     visit("upper_limits", &DiagnosisResult::upper_limits, "What may be there unseen.");
     visit("nuisances", &DiagnosisResult::nuisances, "What was measured on the way.");
     visit("fit", &DiagnosisResult::fit, "Errors on data that was not fitted.");

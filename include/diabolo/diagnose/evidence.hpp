@@ -60,6 +60,15 @@ class Evidence {
     return result;
   }
 
+  /// chi^2 of the windows that are marked, less a constant, where the unknowns are as the others say.
+  double cost_left_out(const ActiveSet& free, const std::vector<bool>& left_out) const {
+    const UnknownVector x = solve_without(free, left_out);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (left_out[i]) sum += x.dot(parts_[i].information * x) - 2.0 * parts_[i].slope.dot(x);
+    return sum;
+  }
+
   /// Best scaled unknowns as the windows see them that are not marked `left_out`.
   UnknownVector solve_without(const ActiveSet& free, const std::vector<bool>& left_out) const {
     UnknownMatrix information = information_;

@@ -36,6 +36,15 @@ inline std::vector<Fold> folds_of(const std::vector<FitTake>& fit_takes) {
   return folds;
 }
 
+/// Which windows touch a fold.
+inline std::vector<bool> windows_in(const Fold& fold, const std::vector<FitTake>& fit_takes) {
+  std::vector<bool> result;
+  for (std::size_t s = 0; s < fit_takes.size(); ++s)
+    for (const FitWindow& window : fit_takes[s].windows)
+      result.push_back(s == fold.fit_take && window.first <= fold.last && window.last >= fold.first);
+  return result;
+}
+
 /// A recording and the unknowns that others say it has, and that they would say without this or that claim.
 struct HeldOutRecording {
   Recording recording;
@@ -74,10 +83,7 @@ inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& e
   }
   if (!holdout.empty()) return result;
   for (const Fold& fold : folds_of(fit.fit_takes)) {
-    std::vector<bool> left_out;
-    for (std::size_t s = 0; s < fit.fit_takes.size(); ++s)
-      for (const FitWindow& window : fit.fit_takes[s].windows)
-        left_out.push_back(s == fold.fit_take && window.first <= fold.last && window.last >= fold.first);
+    const std::vector<bool> left_out = windows_in(fold, fit.fit_takes);
     if (std::ranges::count(left_out, false) < 4) continue;
     add(cut(fit.fit_takes[fold.fit_take].take->recording, fold.first, fold.last), left_out);
   }

@@ -4,25 +4,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "diabolo/diagnose/alternatives.hpp"
 #include "diabolo/diagnose/axle_motion.hpp"
+#include "diabolo/diagnose/claim_search.hpp"
 #include "diabolo/diagnose/conclude.hpp"
-#include "diabolo/diagnose/diagnosis_options.hpp"
 #include "diabolo/diagnose/findings.hpp"
-#include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/learn_law.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/noise_trial.hpp"
-#include "diabolo/diagnose/own_laws.hpp"
-#include "diabolo/diagnose/refine.hpp"
-#include "diabolo/diagnose/select.hpp"
-#include "diabolo/diagnose/sufficient.hpp"
-#include "diabolo/diagnose/thin.hpp"
-#include "diabolo/diagnose/time_budget.hpp"
 #include "diabolo/diagnose/unnamed_law.hpp"
 
 namespace diabolo {
@@ -31,33 +25,22 @@ namespace diagnose_detail {
 
 /// One diagnosis, with every body under its name.
 template <class D>
-class Inquiry {
+class Inquiry : public ClaimSearch<D> {
  public:
-  Inquiry(const std::vector<Recording>& recordings, const DiagnosisOptions& options,
-          const DiagnosisWatch& watch, double seconds)
-      : recordings_(recordings),
-        options_(options),
-        watch_(watch),
-        budget_(seconds, watch.clock),
-        numerical_(options.base.parameters.string_law != StringLaw::kInextensible),
-        physics_(physics_without_rules(options.base)) {
-    result_.own = own_candidates(physics_.effects.template get<FormulaLaws>(), options.laws);
-    physics_.effects.template get<FormulaLaws>() = result_.own->laws;
-    bank_ = bank_for(physics_.parameters, options.bank, result_.own->list);
-    result_.base = options.base.name;
-    result_.base_gravity = physics_.parameters.gravity;
-    result_.base_string_length = parameters_for(physics_, recordings.front()).string_length;
-  }
+  using Search = ClaimSearch<D>;
+  using Search::Search;
 
   Diagnosis answer() {
-    read();
-    if (result_.reason.empty()) fit_all();
+    this->read();
+    if (result_.reason.empty()) this->fit_all();
     if (!result_.reason.empty()) {
       result_.model = options_.base;
     } else {
       settle();
-      const bool withdrawn = look_for_unnamed(withdraw_what_does_not_help(result_));
+      bool withdrawn = withdraw_what_does_not_help(result_);
       judge();
+      withdrawn = learn_laws(withdrawn);
+      if (result_.learnt.empty()) withdrawn = look_for_unnamed(withdrawn);
       if (withdrawn || withdraw_what_explains_too_little(result_)) result_.model = options_.base;
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       finish();
@@ -67,108 +50,9 @@ class Inquiry {
     return std::move(result_);
   }
 
-  /// Whether friction would have to give energy.
-  bool backwards() const { return backwards_; }
-
  private:
-  /// Tells of a step between two fractions of the work; it is watched until a share of the budget is spent.
-  FitWatch step(const std::string& name, double begin, double end, double share = 1.0) const {
-    const auto enough = [this, share] { return budget_.spent(share); };
-    if (!watch_.progress) return {{{}, watch_.cancelled}, enough};
-    watch_.progress(name, begin);
-    return {
-        {towards(begin, end, [this, name](double done) { watch_.progress(name, done); }), watch_.cancelled},
-        enough};
-  }
-
-  void read() {
-    step("reading the motion", 0.0, 0.03);
-    fit_ = prepared(recordings_, physics_);
-    result_.windows_seen = window_count(fit_.fit_takes);
-    result_.reason = insufficient(fit_.fit_takes);
-    if (!result_.reason.empty()) return;
-    thin<D>(fit_, physics_, options_.threads, budget_, step("choosing what decides", 0.03, 0.05));
-    refine<D>(fit_, physics_, ActiveSet::Constant(false), 2, options_.threads,
-              step("fitting starts", 0.05, 0.15));
-    remember_before(result_, fit_);
-  }
-
-  /// Fits everything, keeps what is sure and exchanges it for what explains more. Another delay than thought
-  /// at first changes what all else looks like, as do springs so soft that it bounces: all is asked again.
-  void fit_all() {
-    set_ = asked_at_first(bank_);
-    if (std::ranges::none_of(fit_.fit_takes, has_spin)) without_spin(bank_, set_);
-    for (bool again = false;; again = true) {
-      if (!fit_bank(again)) {
-        result_.reason = "the budget of " + shown(options_.budget) +
-                         " s is spent before anything fits; more time is needed";
-        result_.windows.clear();
-        return;
-      }
-      keep_what_is_sure(again);
-      const Delay before = fit_.delay;
-      exchange(again);
-      const bool soft = !fit_.bounces && is_bouncy(fit_.at);
-      if ((fit_.delay == before && !soft) ||
-          !budget_.allows("asking all again with what was found", kFitsShare))
-        return;
-      ask_again(soft);
-    }
-  }
-
-  /// Whether it was done in time; again, from what was found, it is no loss where it was not.
-  bool fit_bank(bool again) {
-    const FitWatch everything = step("fitting everything", again ? 0.6 : 0.15, again ? 0.7 : 0.4, kFitsShare);
-    if (again)  // starts that bounce, or are late, are others
-      approach<D>(fit_, physics_, ActiveSet::Constant(false), 3, options_.threads, everything);
-    if (std::ranges::any_of(fit_.fit_takes, has_spin) || again)
-      fit_everything<D>(fit_, physics_, set_, options_.threads, everything);
-    else
-      fit_unseen_spin<D>(fit_, physics_, set_, options_.threads, everything);
-    return again || !everything.is_enough();
-  }
-
-  void keep_what_is_sure(bool again) {
-    const Candidate& friction = candidate_of("string_friction");
-    backwards_ =
-        is_in(set_, friction) && significance(friction, estimates_of(Evidence(fit_), set_)) < -kSignificance;
-    set_ = eliminate(Evidence(fit_), bank_, set_);
-    for (int round = 0;; ++round) {
-      const double begin = (again ? 0.7 : 0.4) + 0.03 * round;
-      put_at_rest(fit_, set_);
-      refine<D>(fit_, physics_, set_, kMostIterations, options_.threads,
-                step("refitting what is sure", begin, begin + 0.03, kFitsShare));
-      const Evidence evidence(fit_);
-      ActiveSet next = eliminate(evidence, bank_, set_);
-      if (const Candidate* candidate = strongest_left_out(evidence, bank_, next))
-        next = with(next, *candidate);
-      if ((next == set_).all() || round == 2 || !budget_.allows("asking again what is sure", kFitsShare))
-        return;  // judged at its own fit
-      set_ = next;
-    }
-  }
-
-  void exchange(bool again) {
-    Diagnosis draft = result_;
-    find(draft, fit_, Evidence(fit_), bank_, set_);
-    const FitWatch trying =
-        step("trying other explanations", again ? 0.8 : 0.5, again ? 0.85 : 0.6, kFitsShare);
-    std::ranges::move(exchange_claims<D>(fit_, bank_, set_, draft, physics_, options_.threads, trying),
-                      std::back_inserter(exchanged_));
-    if (trying.is_enough()) budget_.leave("trying all other explanations");
-  }
-
-  void ask_again(bool soft) {
-    fit_.noise_is_known = false;
-    fit_.bounces = fit_.bounces || soft;
-    std::erase_if(exchanged_, [](const Replacement& e) {  // what is asked again
-      return e.name != "string_wrap" && alternative_to(e.name) != "time_offset";
-    });
-    for (const Candidate* candidate : bank_)
-      if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kRestitution)
-        set_ = with(set_, *candidate);
-    if (std::ranges::none_of(fit_.fit_takes, has_spin)) without_spin(bank_, set_);
-  }
+  using Search::backwards_, Search::bank_, Search::budget_, Search::exchanged_, Search::fit_, Search::numerical_,
+      Search::options_, Search::physics_, Search::recordings_, Search::result_, Search::set_, Search::step;
 
   /// Claims what stands, and takes back, one after the other, what data that were left out deny.
   void settle() {
@@ -225,6 +109,32 @@ class Inquiry {
     return withdraw_what_left_out_data_deny(result_);
   }
 
+  /// Where more is left than noise would leave: takes laws that were learnt into the model, one after the
+  /// other. Returns whether what was found is withdrawn.
+  bool learn_laws(bool withdrawn) {
+    constexpr std::size_t kMost = 2;
+    while (!result_.adequacy.adequate.value_or(true) && result_.learnt.size() < kMost &&
+           budget_.allows("learning laws", kTrialsShare)) {
+      const FitWatch looking = step("learning laws", 0.9, 0.95, kTrialsShare);
+      std::optional<LearntLaw> law =
+          learn_law<D>(fit_, physics_, set_, bank_, result_.windows, options_, looking);
+      if (looking.is_enough()) budget_.leave("learning laws");
+      if (!law || looking.is_enough()) break;
+      physics_ = std::move(law->physics);
+      fit_ = std::move(law->fit);
+      set_ = law->set;
+      fit_.noise_is_known = false;  // what was not known was taken for noise
+      refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, looking);
+      fit_.noise_is_known = true;
+      result_.learnt.push_back({std::move(law->law), {}, {}, law->gain, std::move(law->worsening_ci95)});
+      settle();
+      withdrawn = withdraw_what_does_not_help(result_);
+      judge();
+    }
+    note_learnt(result_, physics_, fit_, set_);
+    return withdrawn;
+  }
+
   /// Takes a law without a name into the model where it helps. Returns whether what was found is withdrawn.
   bool look_for_unnamed(bool withdrawn) {
     if (!physics_.effects.template get<UnnamedForce>().neutral()) {
@@ -254,6 +164,7 @@ class Inquiry {
       result_.unexplained_forces.insert(result_.unexplained_forces.begin(),
                                         as_fitted(leftover, leftover.law.exponent, fit_, set_));
       result_.unexplained_forces.front().in_model = !withdrawn;
+      judge();
       break;
     }
     return withdrawn;
@@ -284,19 +195,7 @@ class Inquiry {
     if (looking.is_enough()) budget_.leave(proposing);
   }
 
-  const std::vector<Recording>& recordings_;
-  const DiagnosisOptions& options_;
-  const DiagnosisWatch& watch_;
-  TimeBudget budget_;
-  bool numerical_;
-  Model physics_;
-  Bank bank_;
-  Fit fit_;
-  ActiveSet set_ = ActiveSet::Constant(false);
-  std::vector<Replacement> exchanged_;
   std::vector<const Candidate*> denied_;
-  bool backwards_ = false;
-  Diagnosis result_;
 };
 
 }  // namespace diagnose_detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/diagnose/select.hpp"
 #include "diabolo/effects/formula_laws.hpp"
 
 namespace diabolo {
@@ -52,6 +54,25 @@ inline OwnNumber own_number_of(const Candidate& candidate, Unknown u) {
   const std::size_t i = static_cast<std::size_t>(index_of(u) - index_of(candidate.unknowns.front()));
   const LawNumber& number = candidate.law->numbers[i];
   return {&number, number.expected};
+}
+
+/// Notes what the numbers of learnt laws came out as; their laws are the model's last ones.
+inline void note_learnt(Diagnosis& d, const Model& physics, const Fit& fit, const ActiveSet& set) {
+  if (d.learnt.empty()) return;
+  const Estimates now = estimates_of(Evidence(fit), set);
+  const auto& own = physics.effects.get<FormulaLaws>();
+  std::size_t index = 0;
+  const std::size_t known = own.laws->size() - d.learnt.size();
+  own.each([&](const Law& law, std::size_t first) {
+    if (index++ < known) return;
+    Learnt& learnt = d.learnt[index - known - 1];
+    learnt.law = law;
+    for (std::size_t i = 0; i < law.numbers.size(); ++i) {
+      const int u = index_of(own_number(first + i));
+      learnt.value.push_back(own.numbers[first + i] + law.numbers[i].usual * fit.at[u]);
+      learnt.deviation.push_back(law.numbers[i].usual * now.deviation(u));
+    }
+  });
 }
 
 }  // namespace diabolo

@@ -146,6 +146,28 @@ struct UnnamedStructure {
   }
 };
 
+struct LearntLawFound {
+  static constexpr const char* kName = "LearntLawFound";
+  static constexpr const char* kDoc = "A law that was learnt from what had no name; it is in the model.";
+
+  std::string name, law, acts, formula;
+  std::vector<Estimate> numbers;
+  double gain = kNaN;
+  IntervalByHorizon worse_without_ci95_m;
+
+  template <class Visit>
+  static void for_each_field(const Visit& visit) {
+    visit("name", &LearntLawFound::name, "In the model's file.");
+    visit("law", &LearntLawFound::law, "In words.");
+    visit("acts", &LearntLawFound::acts, "What the formula is the size of, see FormulaLaws.");
+    visit("formula", &LearntLawFound::formula, "Of the numbers and of FormulaLaws.variables().");
+    visit("numbers", &LearntLawFound::numbers, "Of the formula, the size first.");
+    visit("gain", &LearntLawFound::gain, "In chi^2, of windows that were left out.");
+    visit("worse_without_ci95_m", &LearntLawFound::worse_without_ci95_m,
+          "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
+  }
+};
+
 struct UpperLimit {
   static constexpr const char* kName = "UpperLimit";
   static constexpr const char* kDoc = "Physics that is not claimed: how much of it may still be there.";

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/diagnosis_result.hpp"
 #include "diabolo/diagnose/finding_parameters.hpp"
 #include "diabolo/diagnose/findings.hpp"
@@ -206,6 +207,20 @@ inline UnnamedStructure unnamed_of(const UnexplainedForce& l) {
   return found;
 }
 
+inline LearntLawFound learnt_of(const Learnt& learnt) {
+  LearntLawFound found;
+  found.name = learnt.law.name;
+  found.law = learnt_plainly(learnt);
+  found.acts = names_of(Acts{})[static_cast<std::size_t>(learnt.law.acts)];
+  found.formula = learnt.law.formula.text();
+  for (std::size_t i = 0; i < learnt.value.size(); ++i)
+    found.numbers.push_back(with_deviation(learnt.law.numbers[i].name, learnt.value[i], learnt.deviation[i],
+                                           learnt.law.numbers[i].unit));
+  found.gain = learnt.gain;
+  found.worse_without_ci95_m = learnt.worsening_ci95;
+  return found;
+}
+
 inline Location located(const Diagnosis& d, const std::vector<Recording>& recordings) {
   Location location;
   for (int k = 0; k < kLatents; ++k) {
@@ -261,6 +276,7 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
   }
   for (const UnexplainedForce& l : d.unexplained_forces)
     result.unnamed.push_back(diagnose_detail::unnamed_of(l));
+  for (const Learnt& learnt : d.learnt) result.learnt.push_back(diagnose_detail::learnt_of(learnt));
   result.fit = {d.heldout.whole_recordings ? "recordings" : "blocks",
                 d.heldout.horizons,
                 d.heldout.base_error,

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/change_in_time.hpp"
+#include "diabolo/diagnose/fit.hpp"
+#include "diabolo/diagnose/open_law.hpp"
+#include "diabolo/effects/law.hpp"
+
+namespace diabolo {
+
+/// A law that may be what is left over, and what is asked of windows to see whether it is: laws of one number
+/// each, together as good as the law with its shape as it is begun with.
+struct LawGuess {
+  Law law;
+  std::vector<Law> probes;
+};
+
+namespace diagnose_detail {
+
+/// Usual sizes of a motion, to one digit: a law's amplitude is what it is there.
+struct UsualSizes {
+  double speed = 1.0, spin = 100.0, tips = 1.0;
+};
+
+inline double one_digit(double x) {
+  if (!(x > 0.0)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  return std::round(x / power) * power;
+}
+
+inline UsualSizes usual_sizes(const Fit& fit) {
+  std::vector<double> speeds, spins, tips;
+  for (const FitTake& fit_take : fit.fit_takes)
+    for (const FitWindow& window : fit_take.windows) {
+      speeds.push_back(mean_speed(fit_take, window));
+      spins.push_back(std::abs(window.start.spin));
+      const Tips<double> now = fit_take.take->motion->at(fit_take.take->times[window.first]);
+      tips.push_back(now.left_velocity.norm() + now.right_velocity.norm());
+    }
+  const auto middle = [](std::vector<double>& values) {
+    std::ranges::sort(values);
+    return one_digit(quantile(values, 0.5));
+  };
+  return {middle(speeds), middle(spins), middle(tips)};
+}
+
+/// In words, as the end of "a force that has no name".
+inline std::string direction_in_words(Acts acts) {
+  switch (acts) {
+    case Acts::kForward:
+      return "forwards";
+    case Acts::kLeft:
+      return "to the left";
+    case Acts::kUp:
+      return "upwards";
+    case Acts::kAgainst:
+      return "against the velocity";
+    case Acts::kAlong:
+      return "along the string";
+    case Acts::kAcross:
+      return "across the string's plane";
+    case Acts::kLift:
+      return "square to axle and velocity";
+    case Acts::kSpin:
+      return "on the spin";
+    default:
+      return "on the string's length";
+  }
+}
+
+/// Makes guesses one by one.
+class Guesses {
+ public:
+  std::vector<LawGuess> list;
+
+  /// amplitude * factor, as it is.
+  void fixed(Acts acts, const std::string& factor, const std::string& words) {
+    const Law law = made(acts, product(factor), words, {amplitude(acts)});
+    list.push_back({law, {law}});
+  }
+
+  /// rate * factor * t.
+  void trending(Acts acts, const std::string& factor) {
+    LawNumber rate = amplitude(acts);
+    rate.name = "rate";
+    rate.unit = acts == Acts::kString ? "m/s" : acts == Acts::kSpin ? "rad/s^3" : "m/s^3";
+    rate.usual *= 0.1;
+    const Law law = made(acts, joined("rate", joined(factor, "t")), ", growing in time", {rate});
+    list.push_back({law, {law}});
+  }
+
+  /// amplitude * factor * base^power, begun with `power`.
+  void growing(Acts acts, const std::string& factor, const std::string& base, double power,
+               const std::string& words) {
+    const std::string begun = product(joined(factor, "(" + base + ")^" + shown(power)));
+    const LawNumber free{"power", "1", 0.5, power, -4.0, 4.0};
+    list.push_back({made(acts, product(joined(factor, "(" + base + ")^power")), words, {amplitude(acts), free}),
+                    {made(acts, begun, words, {amplitude(acts)})}});
+  }
+
+  /// amplitude * factor * sin(2 pi frequency t + phase).
+  void swinging(Acts acts, const std::string& factor, double frequency, double span,
+                const std::string& words) {
+    const std::string angle = "2 * pi * " + shown(frequency) + " * t";
+    const std::vector<LawNumber> numbers{
+        amplitude(acts),
+        {"frequency", "Hz", 0.1 / span, frequency, std::max(0.0, frequency - 1.0 / span), frequency + 1.0 / span},
+        {"phase", "rad", 0.3, 0.0, -10.0, 10.0}};
+    list.push_back({made(acts, product(joined(factor, "sin(2 * pi * frequency * t + phase)")), words, numbers),
+                    {made(acts, product(joined(factor, "sin(" + angle + ")")), words, {amplitude(acts)}),
+                     made(acts, product(joined(factor, "cos(" + angle + ")")), words, {amplitude(acts)})}});
+  }
+
+ private:
+  static LawNumber amplitude(Acts acts) {
+    const double usual = acts == Acts::kSpin ? 5.0 : acts == Acts::kString ? 2e-3 : 0.3;
+    return {"size", std::string(unit_of(acts)), usual, 0.0, -1e3, 1e3};
+  }
+  static std::string joined(const std::string& a, const std::string& b) {
+    return a.empty() ? b : b.empty() ? a : a + " * " + b;
+  }
+  static std::string product(const std::string& factor) { return joined("size", factor); }
+  static Law made(Acts acts, const std::string& formula, const std::string& words,
+                  std::vector<LawNumber> numbers) {
+    return {"learnt", direction_in_words(acts) + words, acts, formula, std::move(numbers)};
+  }
+};
+
+/// What may drive a change in time, as kMayChange has it, and by which factor it acts there.
+struct Swinging {
+  Acts acts;
+  const char* factor;
+};
+inline constexpr std::array<Swinging, kMayChange.size()> kSwinging{{{Acts::kForward, ""},
+                                                                    {Acts::kLeft, ""},
+                                                                    {Acts::kUp, ""},
+                                                                    {Acts::kAlong, "taut"},
+                                                                    {Acts::kAcross, "taut"},
+                                                                    {Acts::kAgainst, "(1 - taut)"},
+                                                                    {Acts::kUp, "(1 - taut)"},
+                                                                    {Acts::kLift, "(1 - taut)"},
+                                                                    {Acts::kSpin, "taut"},
+                                                                    {Acts::kSpin, "(1 - taut)"},
+                                                                    {Acts::kString, ""}}};
+
+/// Laws in time: a trend, and the oscillation that windows see best.
+inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& windows) {
+  for (std::size_t k = 0; k < kMayChange.size(); ++k) {
+    const WindowSeries series = series_of(windows, k);
+    if (series.size() < 12) continue;
+    const double span = series.time.back() - series.time.front();
+    const auto [acts, factor] = kSwinging[k];
+    guesses.trending(acts, factor);
+    const double frequency = best_frequency(series).first;
+    if (frequency > 0.0) guesses.swinging(acts, factor, frequency, span, ", to and fro");
+  }
+}
+
+}  // namespace diagnose_detail
+
+/// What may be left over beside the laws that have a name: dependences on speed, spin, tension, tips, place
+/// and, where all windows share a clock, time, in each direction. `windows` hold what they say of the fit.
+inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<WindowFinding>& windows) {
+  using enum Acts;
+  const diagnose_detail::UsualSizes usual = diagnose_detail::usual_sizes(fit);
+  const std::string speed = "speed / " + shown(usual.speed), spin = "abs(spin) / " + shown(usual.spin),
+                    tips = "(left_speed + right_speed) / " + shown(usual.tips);
+  const std::string at_speed = " (at " + shown(usual.speed) + " m/s)",
+                    at_spin = " (at " + shown(usual.spin) + " rad/s)",
+                    at_tips = " (at " + shown(usual.tips) + " m/s)";
+  diagnose_detail::Guesses guesses;
+  const auto in_all = [&](Acts acts, const std::string& factor) {
+    for (const double power : {1.0, 2.0, 3.0})
+      guesses.growing(acts, factor, speed, power, ", growing with the speed" + at_speed);
+    for (const double power : {0.5, 1.0, 2.0})
+      guesses.growing(acts, factor, spin, power, ", growing with the spin" + at_spin);
+    guesses.growing(acts, factor, tips, 1.0, ", growing with the speed of the tips" + at_tips);
+  };
+  guesses.fixed(kAgainst, "", ", of constant size");
+  guesses.fixed(kAgainst, "taut", " while on the string, of constant size");
+  guesses.fixed(kAgainst, "(1 - taut)", " while off the string, of constant size");
+  guesses.fixed(kAgainst, "pull / 10", ", growing with the string's pull (at 10 m/s^2)");
+  in_all(kAgainst, "");
+  for (const Acts acts : {kAlong, kAcross}) {
+    guesses.fixed(acts, "taut", ", of constant size");
+    guesses.fixed(acts, "taut * pull / 10", ", growing with the string's pull (at 10 m/s^2)");
+    in_all(acts, "taut");
+  }
+  guesses.fixed(kLift, "", ", of constant size");
+  in_all(kLift, "");
+  for (const Acts acts : {kForward, kLeft, kUp}) {
+    guesses.fixed(acts, "taut", " while on the string, of constant size");
+    for (const char* place : {"x", "y", "z"})
+      guesses.fixed(acts, place, std::string(", growing with ") + place + " (at 1 m)");
+    guesses.growing(acts, "", tips, 1.0, ", growing with the speed of the tips" + at_tips);
+  }
+  const std::string slows = "tanh(-spin)";
+  for (const double power : {0.5, 1.0, 1.5, 3.0})
+    guesses.growing(kSpin, slows, spin, power, ", slowing it, growing with it" + at_spin);
+  guesses.fixed(kSpin, slows + " * taut", ", slowing it while on the string");
+  guesses.fixed(kSpin, slows + " * (1 - taut)", ", slowing it while off the string");
+  guesses.fixed(kSpin, slows + " * pull / 10", ", slowing it, growing with the string's pull (at 10 m/s^2)");
+  guesses.growing(kSpin, slows, speed, 1.0, ", slowing it, growing with the speed" + at_speed);
+  guesses.growing(kString, "", speed, 1.0, ", growing with the speed" + at_speed);
+  guesses.growing(kString, "", spin, 1.0, ", growing with the spin" + at_spin);
+  if (fit.fit_takes.size() == 1) diagnose_detail::guess_in_time(guesses, windows);
+  return std::move(guesses.list);
+}
+
+}  // namespace diabolo

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/diagnosis_options.hpp"
+#include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/law_guesses.hpp"
+#include "diabolo/diagnose/refine.hpp"
+#include "diabolo/diagnose/select.hpp"
+#include "diabolo/diagnose/significance.hpp"
+
+namespace diabolo {
+
+/// A guess is gone after where windows that were left out fit better by so much, in chi^2: the square of
+/// what a name needs, since many guesses are asked about.
+inline constexpr double kGainOfLaw = kSignificance * kSignificance;
+
+/// A law that was learnt and the fit with it.
+struct LearntLaw {
+  Law law;
+  std::size_t first = 0;  ///< place of its first number among those of the model's laws
+  Model physics;          ///< the base of the fit
+  Fit fit;
+  ActiveSet set = ActiveSet::Constant(false);
+  double gain = 0.0;  ///< see gain_left_out()
+  std::vector<std::optional<Interval>> worsening_ci95{};  ///< see UnexplainedForce
+};
+
+namespace diagnose_detail {
+
+/// The model with more laws, which do nothing yet.
+inline Model with_laws(Model physics, const std::vector<Law>& more) {
+  auto& own = physics.effects.get<FormulaLaws>();
+  std::vector<Law> laws = own.laws ? *own.laws : std::vector<Law>{};
+  int number = 1;
+  for (Law law : more) {
+    do law.name = "learnt_" + std::to_string(number++);
+    while (std::ranges::find(laws, law.name, &Law::name) != laws.end());
+    laws.push_back(std::move(law));
+  }
+  FormulaLaws<double> result(std::move(laws));
+  if (own.laws) {
+    std::size_t known = 0;
+    own.each([&](const Law& law, std::size_t) { known += law.numbers.size(); });
+    std::copy_n(own.numbers.begin(), known, result.numbers.begin());
+  }
+  own = std::move(result);
+  return physics;
+}
+
+inline std::size_t numbers_of(const FormulaLaws<double>& laws) {
+  std::size_t count = 0;
+  laws.each([&](const Law& law, std::size_t) { count += law.numbers.size(); });
+  return count;
+}
+
+/// What windows that were left out fold by fold fit better by with `more` free than with `set`: of chi^2 in
+/// units of the dispersion. Position and spin count.
+inline double gain_left_out(const Evidence& evidence, const std::vector<std::vector<bool>>& folds,
+                            const ActiveSet& set, const ActiveSet& more) {
+  double sum = 0.0;
+  for (const std::vector<bool>& left_out : folds)
+    sum += evidence.cost_left_out(set, left_out) - evidence.cost_left_out(more, left_out);
+  return sum / evidence.dispersion();
+}
+
+/// The windows of each fold.
+inline std::vector<std::vector<bool>> folds_in(const Fit& fit) {
+  std::vector<std::vector<bool>> result;
+  for (const Fold& fold : folds_of(fit.fit_takes)) result.push_back(windows_in(fold, fit.fit_takes));
+  return result;
+}
+
+/// What is free beside a law.
+inline ActiveSet without(const LearntLaw& learnt) {
+  ActiveSet result = learnt.set;
+  for (std::size_t i = 0; i < learnt.law.numbers.size(); ++i)
+    result[index_of(own_number(learnt.first + i))] = false;
+  return result;
+}
+
+/// A guess with what the windows say of its probes.
+struct ScoredGuess {
+  const LawGuess* guess;
+  double gain;
+  std::vector<double> sizes;  ///< of the probes, in SI units
+};
+
+/// Asks windows about guesses, as many at once as there is room for, without fitting them.
+template <class D>
+std::vector<ScoredGuess> scored(const std::vector<LawGuess>& guesses, const Fit& fit, const Model& physics,
+                                const ActiveSet& set, int threads, const FitWatch& watch) {
+  const std::size_t used = numbers_of(physics.effects.get<FormulaLaws>()), room = Law::kMostNumbers - used;
+  const std::vector<std::vector<bool>> folds = folds_in(fit);
+  std::vector<ScoredGuess> result;
+  for (std::size_t begin = 0; begin < guesses.size() && !watch.is_enough();) {
+    std::vector<Law> probes;
+    std::size_t end = begin;
+    while (end < guesses.size() && probes.size() + guesses[end].probes.size() <= room) {
+      probes.insert(probes.end(), guesses[end].probes.begin(), guesses[end].probes.end());
+      ++end;
+    }
+    if (end == begin) break;
+    ActiveSet asked = set;
+    for (std::size_t i = 0; i < probes.size(); ++i) asked[index_of(own_number(used + i))] = true;
+    Fit looked = fit;
+    linearize<D>(looked, with_laws(physics, probes), asked, threads, watch);
+    const Evidence evidence(looked);
+    for (std::size_t own = used; begin < end; ++begin) {
+      ActiveSet more = set;
+      for (std::size_t i = 0; i < guesses[begin].probes.size(); ++i) more[index_of(own_number(own + i))] = true;
+      ScoredGuess guess{&guesses[begin], gain_left_out(evidence, folds, set, more), {}};
+      const UnknownVector at = evidence.solve(more);
+      for (const Law& probe : guesses[begin].probes)
+        guess.sizes.push_back(at[index_of(own_number(own++))] * probe.numbers.front().usual);
+      result.push_back(std::move(guess));
+    }
+  }
+  std::ranges::stable_sort(result, std::greater(), &ScoredGuess::gain);
+  return result;
+}
+
+/// Fits a guess from where its probes are, with its shape, and with what is sure beside it.
+template <class D>
+LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics, const ActiveSet& set,
+                 const Bank& bank, int threads, const FitWatch& watch) {
+  LearntLaw result{scored.guess->law, numbers_of(physics.effects.get<FormulaLaws>()), physics, fit, set};
+  std::vector<LawNumber>& numbers = result.law.numbers;
+  double size = scored.sizes.front();
+  if (scored.sizes.size() == 2) {  // sine and cosine
+    size = std::hypot(scored.sizes[0], scored.sizes[1]);
+    numbers.back().expected = std::atan2(scored.sizes[1], scored.sizes[0]);
+  }
+  numbers.front().usual = std::max(std::abs(size), 1e-3 * numbers.front().usual);
+  result.physics = with_laws(physics, {result.law});
+  result.law = result.physics.effects.get<FormulaLaws>().laws->back();
+  for (std::size_t i = 0; i < numbers.size(); ++i) result.set[index_of(own_number(result.first + i))] = true;
+  result.fit.at[index_of(own_number(result.first))] = std::copysign(1.0, size);
+  approach<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
+  result.set = eliminate(Evidence(result.fit), bank, result.set);
+  put_at_rest(result.fit, result.set);
+  refine<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
+  result.gain = gain_left_out(Evidence(result.fit), folds_in(fit), without(result), result.set);
+  return result;
+}
+
+/// Whether data that were left out are predicted better with a law, and nowhere worse; of one on the spin,
+/// which positions hardly show, that they are not predicted worse. Notes by how much.
+inline bool helps(LearntLaw& learnt, const Model& base, const std::vector<Recording>& holdout,
+                  std::uint64_t seed, int threads, const FitWatch& watch) {
+  const std::vector<HeldOutRecording> held =
+      leave_out(learnt.fit, Evidence(learnt.fit), learnt.set, {without(learnt)}, holdout);
+  learnt.worsening_ci95 =
+      compare_held_out(held, base, learnt.physics, seed, learnt.fit.most_windows, threads, watch)
+          .worsening_ci95.front();
+  const auto any = [&](auto says) { return std::ranges::any_of(learnt.worsening_ci95, says); };
+  const bool better = any([](const auto&i) { return i && i->low > 0.0; }),
+             worse = any([](const auto&i) { return i && i->high < 0.0; });
+  return !worse && (better || learnt.law.acts == Acts::kSpin);
+}
+
+}  // namespace diagnose_detail
+
+/// The law that leaves least of what is left over, if windows that were left out say that it is there; fitted
+/// with what is sure beside it. Of the best guesses some are fitted. `windows` hold what they say of the fit.
+template <class D>
+std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const ActiveSet& set,
+                                   const Bank& bank, const std::vector<WindowFinding>& windows,
+                                   const DiagnosisOptions& options, const FitWatch& watch) {
+  constexpr std::size_t kMostFits = 3;
+  const std::vector<LawGuess> guesses = law_guesses(fit, windows);
+  const auto scored = diagnose_detail::scored<D>(guesses, fit, physics, set, options.threads, watch);
+  std::optional<LearntLaw> best;
+  for (std::size_t i = 0; i < std::min(kMostFits, scored.size()) && !watch.is_enough(); ++i) {
+    if (scored[i].gain < kGainOfLaw) break;
+    LearntLaw trial = diagnose_detail::fitted<D>(scored[i], fit, physics, set, bank, options.threads, watch);
+    if (!(trial.gain > kGainOfLaw) || watch.is_enough()) continue;
+    if (!best || trial.fit.cost < best->fit.cost) best = std::move(trial);
+  }
+  if (best && !diagnose_detail::helps(*best, options.base, options.holdout, options.seed, options.threads, watch))
+    return std::nullopt;
+  return best;
+}
+
+}  // namespace diabolo
