@@ -109,12 +109,11 @@ class Inquiry : public ClaimSearch<D> {
     return withdraw_what_left_out_data_deny(result_);
   }
 
-  /// Where more is left than noise would leave: takes laws that were learnt into the model, one after the
-  /// other. Returns whether what was found is withdrawn.
+  /// Takes laws that were learnt from what is left into the model, one after the other. Returns whether what
+  /// was found is withdrawn.
   bool learn_laws(bool withdrawn) {
     constexpr std::size_t kMost = 2;
-    while (!result_.adequacy.adequate.value_or(true) && result_.learnt.size() < kMost &&
-           budget_.allows("learning laws", kTrialsShare)) {
+    while (result_.learnt.size() < kMost && budget_.allows("learning laws", kTrialsShare)) {
       const FitWatch looking = step("learning laws", 0.9, 0.95, kTrialsShare);
       std::optional<LearntLaw> law =
           learn_law<D>(fit_, physics_, set_, bank_, result_.windows, options_, looking);

@@ -35,8 +35,9 @@ struct UsualSizes {
 
 inline double one_digit(double x) {
   if (!(x > 0.0)) return 1.0;
-  const double power = std::pow(10.0, std::floor(std::log10(x)));
-  return std::round(x / power) * power;
+  const double power = std::floor(std::log10(x));
+  return power < 0.0 ? std::round(x * std::pow(10.0, -power)) / std::pow(10.0, -power)
+                     : std::round(x / std::pow(10.0, power)) * std::pow(10.0, power);
 }
 
 inline UsualSizes usual_sizes(const Fit& fit) {
@@ -162,7 +163,7 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
     const double span = series.time.back() - series.time.front();
     const auto [acts, factor] = kSwinging[k];
     guesses.trending(acts, factor);
-    const double frequency = best_frequency(series).first;
+    const double frequency = std::round(1e4 * best_frequency(series).first) / 1e4;
     if (frequency > 0.0) guesses.swinging(acts, factor, frequency, span, ", to and fro");
   }
 }

@@ -19,8 +19,8 @@
 
 namespace diabolo {
 
-/// A guess is gone after where windows that were left out fit better by so much, in chi^2: the square of
-/// what a name needs, since many guesses are asked about.
+/// A law is learnt where chi^2 falls by so much, in units of the dispersion: the square of what a name needs.
+/// (Beside that it must matter, explain windows that were left out, and help predictions of them.)
 inline constexpr double kGainOfLaw = kSignificance * kSignificance;
 
 /// A law that was learnt and the fit with it.
@@ -30,7 +30,7 @@ struct LearntLaw {
   Model physics;          ///< the base of the fit
   Fit fit;
   ActiveSet set = ActiveSet::Constant(false);
-  double gain = 0.0;  ///< see gain_left_out()
+  double gain = 0.0;  ///< what chi^2 falls by, in units of the dispersion
   std::vector<std::optional<Interval>> worsening_ci95{};  ///< see UnexplainedForce
 };
 
@@ -62,23 +62,6 @@ inline std::size_t numbers_of(const FormulaLaws<double>& laws) {
   return count;
 }
 
-/// What windows that were left out fold by fold fit better by with `more` free than with `set`: of chi^2 in
-/// units of the dispersion. Position and spin count.
-inline double gain_left_out(const Evidence& evidence, const std::vector<std::vector<bool>>& folds,
-                            const ActiveSet& set, const ActiveSet& more) {
-  double sum = 0.0;
-  for (const std::vector<bool>& left_out : folds)
-    sum += evidence.cost_left_out(set, left_out) - evidence.cost_left_out(more, left_out);
-  return sum / evidence.dispersion();
-}
-
-/// The windows of each fold.
-inline std::vector<std::vector<bool>> folds_in(const Fit& fit) {
-  std::vector<std::vector<bool>> result;
-  for (const Fold& fold : folds_of(fit.fit_takes)) result.push_back(windows_in(fold, fit.fit_takes));
-  return result;
-}
-
 /// What is free beside a law.
 inline ActiveSet without(const LearntLaw& learnt) {
   ActiveSet result = learnt.set;
@@ -87,19 +70,20 @@ inline ActiveSet without(const LearntLaw& learnt) {
   return result;
 }
 
-/// A guess with what the windows say of its probes.
+/// A guess with what the windows say of its probes, all else free that is.
 struct ScoredGuess {
   const LawGuess* guess;
-  double gain;
+  double gain;  ///< see LearntLaw
   std::vector<double> sizes;  ///< of the probes, in SI units
 };
 
-/// Asks windows about guesses, as many at once as there is room for, without fitting them.
+/// The best guesses, which may be fitted, no law twice: windows are asked about as many at once as there is
+/// room for.
 template <class D>
-std::vector<ScoredGuess> scored(const std::vector<LawGuess>& guesses, const Fit& fit, const Model& physics,
-                                const ActiveSet& set, int threads, const FitWatch& watch) {
+std::vector<ScoredGuess> best_guesses(const std::vector<LawGuess>& guesses, const Fit& fit,
+                                      const Model& physics, const ActiveSet& set, std::size_t most,
+                                      int threads, const FitWatch& watch) {
   const std::size_t used = numbers_of(physics.effects.get<FormulaLaws>()), room = Law::kMostNumbers - used;
-  const std::vector<std::vector<bool>> folds = folds_in(fit);
   std::vector<ScoredGuess> result;
   for (std::size_t begin = 0; begin < guesses.size() && !watch.is_enough();) {
     std::vector<Law> probes;
@@ -117,7 +101,8 @@ std::vector<ScoredGuess> scored(const std::vector<LawGuess>& guesses, const Fit&
     for (std::size_t own = used; begin < end; ++begin) {
       ActiveSet more = set;
       for (std::size_t i = 0; i < guesses[begin].probes.size(); ++i) more[index_of(own_number(own + i))] = true;
-      ScoredGuess guess{&guesses[begin], gain_left_out(evidence, folds, set, more), {}};
+      const double gain = (evidence.cost(set) - evidence.cost(more)) / evidence.dispersion();
+      ScoredGuess guess{&guesses[begin], gain, {}};
       const UnknownVector at = evidence.solve(more);
       for (const Law& probe : guesses[begin].probes)
         guess.sizes.push_back(at[index_of(own_number(own++))] * probe.numbers.front().usual);
@@ -125,7 +110,16 @@ std::vector<ScoredGuess> scored(const std::vector<LawGuess>& guesses, const Fit&
     }
   }
   std::ranges::stable_sort(result, std::greater(), &ScoredGuess::gain);
-  return result;
+  std::vector<ScoredGuess> best;
+  for (ScoredGuess& one : result) {
+    const Law& law = one.guess->law;
+    const bool tried = std::ranges::any_of(best, [&](const ScoredGuess& other) {
+      return other.guess->law.acts == law.acts && other.guess->law.formula.text() == law.formula.text();
+    });
+    if (best.size() < most && one.gain > kGainOfLaw && !tried && law.numbers.size() <= room)
+      best.push_back(std::move(one));
+  }
+  return best;
 }
 
 /// Fits a guess from where its probes are, with its shape, and with what is sure beside it.
@@ -148,14 +142,45 @@ LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics
   result.set = eliminate(Evidence(result.fit), bank, result.set);
   put_at_rest(result.fit, result.set);
   refine<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
-  result.gain = gain_left_out(Evidence(result.fit), folds_in(fit), without(result), result.set);
+  result.gain = (fit.cost - result.fit.cost) / result.fit.dispersion;
   return result;
+}
+
+/// Whether a law moves the diabolo, or its spin, by as much as matters.
+inline bool matters(const LearntLaw& learnt) {
+  Candidate own{learnt.law.name, "", CandidateKind::kPhysics, {own_number(learnt.first)}, 0.0, false};
+  own.law = &learnt.law;
+  const double least = is_of_spin(own) ? kSmallestSpinShare : kSmallestReach;
+  return size_of(own, learnt.fit.at, learnt.fit.systems) > least;
+}
+
+/// Whether a fit is sure of all its laws by formulas: of two that do the same it is of neither.
+inline bool is_sure_of_laws(const LearntLaw& learnt) {
+  const Estimates now = estimates_of(Evidence(learnt.fit), learnt.set);
+  bool sure = true;
+  learnt.physics.effects.get<FormulaLaws>().each([&](const Law&, std::size_t first) {
+    const int size = index_of(own_number(first));
+    if (learnt.set[size]) sure = sure && std::abs(now.estimate[size]) > kSignificance * now.deviation(size);
+  });
+  return sure;
+}
+
+/// Whether windows that were left out, fold by fold, fit better with a law. Position and spin count.
+inline bool explains_left_out(const LearntLaw& learnt) {
+  const Evidence evidence(learnt.fit);
+  const ActiveSet less = without(learnt);
+  double gain = 0.0;
+  for (const Fold& fold : folds_of(learnt.fit.fit_takes)) {
+    const std::vector<bool> left_out = windows_in(fold, learnt.fit.fit_takes);
+    gain += evidence.cost_left_out(less, left_out) - evidence.cost_left_out(learnt.set, left_out);
+  }
+  return gain > 0.0;
 }
 
 /// Whether data that were left out are predicted better with a law, and nowhere worse; of one on the spin,
 /// which positions hardly show, that they are not predicted worse. Notes by how much.
 inline bool helps(LearntLaw& learnt, const Model& base, const std::vector<Recording>& holdout,
-                  std::uint64_t seed, int threads, const FitWatch& watch) {
+                          std::uint64_t seed, int threads, const FitWatch& watch) {
   const std::vector<HeldOutRecording> held =
       leave_out(learnt.fit, Evidence(learnt.fit), learnt.set, {without(learnt)}, holdout);
   learnt.worsening_ci95 =
@@ -175,19 +200,22 @@ template <class D>
 std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const ActiveSet& set,
                                    const Bank& bank, const std::vector<WindowFinding>& windows,
                                    const DiagnosisOptions& options, const FitWatch& watch) {
-  constexpr std::size_t kMostFits = 3;
+  constexpr std::size_t kMostFits = 4;
   const std::vector<LawGuess> guesses = law_guesses(fit, windows);
-  const auto scored = diagnose_detail::scored<D>(guesses, fit, physics, set, options.threads, watch);
-  std::optional<LearntLaw> best;
-  for (std::size_t i = 0; i < std::min(kMostFits, scored.size()) && !watch.is_enough(); ++i) {
-    if (scored[i].gain < kGainOfLaw) break;
-    LearntLaw trial = diagnose_detail::fitted<D>(scored[i], fit, physics, set, bank, options.threads, watch);
-    if (!(trial.gain > kGainOfLaw) || watch.is_enough()) continue;
-    if (!best || trial.fit.cost < best->fit.cost) best = std::move(trial);
+  std::vector<LearntLaw> trials;
+  for (const auto& scored : diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits,
+                                                             options.threads, watch)) {
+    LearntLaw trial = diagnose_detail::fitted<D>(scored, fit, physics, set, bank, options.threads, watch);
+    if (watch.is_enough()) return std::nullopt;  // it may not have settled
+    if (trial.gain > kGainOfLaw && diagnose_detail::matters(trial) &&
+        diagnose_detail::is_sure_of_laws(trial) && diagnose_detail::explains_left_out(trial))
+      trials.push_back(std::move(trial));
   }
-  if (best && !diagnose_detail::helps(*best, options.base, options.holdout, options.seed, options.threads, watch))
-    return std::nullopt;
-  return best;
+  std::ranges::stable_sort(trials, std::greater(), &LearntLaw::gain);
+  for (LearntLaw& trial : trials)
+    if (diagnose_detail::helps(trial, options.base, options.holdout, options.seed, options.threads, watch))
+      return std::move(trial);
+  return std::nullopt;
 }
 
 }  // namespace diabolo
