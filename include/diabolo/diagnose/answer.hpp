@@ -97,10 +97,7 @@ struct Finding {
 struct UnexplainedForce {
   Unknown unknown;
   double value, deviation, z, size;
-  PowerLaw law;           ///< how it grows
-  bool in_model = false;  ///< as an UnnamedForce
-  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; where tried.
-  std::vector<std::optional<Interval>> worsening_ci95{};
+  PowerLaw law;  ///< how it grows
 };
 
 /// An unknown of which a diagnosis asks whether it changes in time, as what it is told, and in which unit.
@@ -129,7 +126,7 @@ struct Learnt {
   Law law;
   std::vector<double> value, deviation;                  ///< of its numbers, in their units
   double gain = 0.0;                                     ///< of windows that were left out, in chi^2
-  std::vector<std::optional<Interval>> worsening_ci95;  ///< see UnexplainedForce
+  std::vector<std::optional<Interval>> worsening_ci95;  ///< see Finding
 };
 
 /// What was seen in a window before anything was added, and what is left.

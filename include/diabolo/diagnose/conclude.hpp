@@ -168,12 +168,8 @@ inline std::string left_plainly(const Diagnosis& d) {
     for (std::size_t i = 0; i < d.learnt.size(); ++i) text += (i > 0 ? "; and " : "") + learnt_plainly(d.learnt[i]);
     return text + ". With it the simulator predicts better what was left out.";
   }
-  const UnexplainedForce& leftover = d.unexplained_forces.front();
-  return " force that has no name is left: " + plainly(leftover.unknown) +
-         (leftover.in_model ? "; with its law the simulator predicts better what was left out."
-          : leftover.worsening_ci95.empty()
-              ? "."
-              : "; no law of it was found that helps on data that were left out.");
+  return " force that has no name is left: " + plainly(d.unexplained_forces.front().unknown) +
+         "; no law of it was found that helps on data that were left out.";
 }
 
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
@@ -201,8 +197,7 @@ inline void conclude(Diagnosis& d) {
     if (f.claimed) (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
   const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
   const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
-  const bool has_law = !d.learnt.empty() ||
-                       (!d.unexplained_forces.empty() && d.unexplained_forces.front().in_model);
+  const bool has_law = !d.learnt.empty();
   const bool only_leftover =
       !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
   const bool beyond_noise = !d.adequacy.adequate.value_or(true);

@@ -74,10 +74,6 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   unnamed.flight_against += x(Unknown::kFlightAgainst);
   unnamed.flight_vertical += x(Unknown::kFlightVertical);
   unnamed.flight_lift += x(Unknown::kFlightLift);
-  for (double* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
-    if (*exponent != 0.0)
-      *exponent = std::clamp(*exponent + x(Unknown::kPower), -UnnamedForce<double>::kLargestPower,
-                             UnnamedForce<double>::kLargestPower);
   model.effects.get<FormulaLaws>() = fitted_laws(model.effects.get<FormulaLaws>(), at);
   auto& loss = model.effects.get<SpinLoss>();
   loss.air += std::max(0.0, x(Unknown::kSpinAir));

@@ -134,8 +134,6 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
   unnamed.flight_against += x(Unknown::kFlightAgainst);
   unnamed.flight_vertical += x(Unknown::kFlightVertical);
   unnamed.flight_lift += x(Unknown::kFlightLift);
-  for (D* exponent : {&unnamed.speed_exponent, &unnamed.spin_exponent})
-    if (!is_constant_zero(*exponent)) *exponent += x(Unknown::kPower);
   auto& own = effects.template get<FormulaLaws>();
   own.each([&](const Law& law, std::size_t first) {
     for (std::size_t i = 0; i < law.numbers.size(); ++i) {

@@ -17,7 +17,6 @@
 #include "diabolo/diagnose/learn_law.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/noise_trial.hpp"
-#include "diabolo/diagnose/unnamed_law.hpp"
 
 namespace diabolo {
 
@@ -40,7 +39,6 @@ class Inquiry : public ClaimSearch<D> {
       bool withdrawn = withdraw_what_does_not_help(result_);
       judge();
       withdrawn = learn_laws(withdrawn);
-      if (result_.learnt.empty()) withdrawn = look_for_unnamed(withdrawn);
       if (withdrawn || withdraw_what_explains_too_little(result_)) result_.model = options_.base;
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       finish();
@@ -78,7 +76,7 @@ class Inquiry : public ClaimSearch<D> {
     result_.findings.clear();
     result_.unexplained_forces.clear();
     find(result_, fit_, evidence, bank_, set_);
-    if (!physics_.effects.template get<UnnamedForce>().neutral() || set_[index_of(Unknown::kPower)])
+    if (!physics_.effects.template get<UnnamedForce>().neutral())
       result_.unexplained_forces.clear();  // they are told in units of the law that is there
     if (options_.bank.empty() || std::ranges::count(options_.bank, "gyroscopic_tilt") > 0)
       result_.findings.push_back(find_axle_motion(fit_, result_.model));
@@ -113,7 +111,8 @@ class Inquiry : public ClaimSearch<D> {
   /// was found is withdrawn.
   bool learn_laws(bool withdrawn) {
     constexpr std::size_t kMost = 2;
-    while (result_.learnt.size() < kMost && budget_.allows("learning laws", kTrialsShare)) {
+    for (bool more = true; more && result_.learnt.size() < kMost;) {
+      if (!budget_.allows("learning laws", kTrialsShare)) break;
       const FitWatch looking = step("learning laws", 0.9, 0.95, kTrialsShare);
       std::optional<LearntLaw> law =
           learn_law<D>(fit_, physics_, set_, bank_, result_.windows, options_, looking);
@@ -129,43 +128,9 @@ class Inquiry : public ClaimSearch<D> {
       settle();
       withdrawn = withdraw_what_does_not_help(result_);
       judge();
+      more = !result_.adequacy.adequate.value_or(true);
     }
     note_learnt(result_, physics_, fit_, set_);
-    return withdrawn;
-  }
-
-  /// Takes a law without a name into the model where it helps. Returns whether what was found is withdrawn.
-  bool look_for_unnamed(bool withdrawn) {
-    if (!physics_.effects.template get<UnnamedForce>().neutral()) {
-      result_.not_done.push_back("looking for forces without a name beside the base's own");
-      return withdrawn;
-    }
-    if (withdrawn || !budget_.allows("looking for forces without a name", kTrialsShare)) return withdrawn;
-    const FitWatch looking = step("fitting what has no name", 0.9, 0.95, kTrialsShare);
-    for (UnexplainedForce& leftover :
-         laws_to_try<D>(result_.unexplained_forces, fit_, physics_, set_, options_.threads, looking)) {
-      UnnamedTrial trial = try_unnamed<D>(leftover, fit_, options_.base, physics_, set_, bank_,
-                                          options_.holdout, options_.seed, options_.threads, looking);
-      if (trial.worsening_ci95.empty()) {
-        budget_.leave("fitting a force without a name");
-        break;
-      }
-      leftover.worsening_ci95 = trial.worsening_ci95;
-      if (!result_.unexplained_forces.empty())
-        result_.unexplained_forces.front().worsening_ci95 = trial.worsening_ci95;
-      if (!trial.helps) continue;
-      physics_ = std::move(trial.physics);
-      fit_ = std::move(trial.fit);
-      set_ = trial.set;
-      result_.heldout.ahead = std::move(trial.ahead);
-      settle();
-      withdrawn = withdraw_what_does_not_help(result_);
-      result_.unexplained_forces.insert(result_.unexplained_forces.begin(),
-                                        as_fitted(leftover, leftover.law.exponent, fit_, set_));
-      result_.unexplained_forces.front().in_model = !withdrawn;
-      judge();
-      break;
-    }
     return withdrawn;
   }
 

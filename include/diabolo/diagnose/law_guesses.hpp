@@ -24,6 +24,7 @@ namespace diabolo {
 struct LawGuess {
   Law law;
   std::vector<Law> probes;
+  std::vector<double> named_powers{};  ///< with which it is a law that has a name
 };
 
 namespace diagnose_detail {
@@ -103,11 +104,12 @@ class Guesses {
 
   /// amplitude * factor * base^power, begun with `power`.
   void growing(Acts acts, const std::string& factor, const std::string& base, double power,
-               const std::string& words) {
+               const std::string& words, const std::vector<double>& named = {}) {
     const std::string begun = product(joined(factor, "(" + base + ")^" + shown(power)));
     const LawNumber free{"power", "1", 0.5, power, -4.0, 4.0};
     list.push_back({made(acts, product(joined(factor, "(" + base + ")^power")), words, {amplitude(acts), free}),
-                    {made(acts, begun, words, {amplitude(acts)})}});
+                    {made(acts, begun, words, {amplitude(acts)})},
+                    named});
   }
 
   /// amplitude * factor * sin(2 pi frequency t + phase).
@@ -182,10 +184,10 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
                     at_tips = " (at " + shown(usual.tips) + " m/s)";
   diagnose_detail::Guesses guesses;
   const auto in_all = [&](Acts acts, const std::string& factor) {
-    for (const double power : {1.0, 2.0, 3.0})
-      guesses.growing(acts, factor, speed, power, ", growing with the speed" + at_speed);
-    for (const double power : {0.5, 1.0, 2.0})
-      guesses.growing(acts, factor, spin, power, ", growing with the spin" + at_spin);
+    for (const double power : {1.0, 3.0})
+      guesses.growing(acts, factor, speed, power, ", growing with the speed" + at_speed,
+                      acts == kAgainst ? std::vector{1.0, 2.0} : std::vector<double>{});
+    guesses.growing(acts, factor, spin, 1.0, ", growing with the spin" + at_spin);
     guesses.growing(acts, factor, tips, 1.0, ", growing with the speed of the tips" + at_tips);
   };
   guesses.fixed(kAgainst, "", ", of constant size");
@@ -198,6 +200,8 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
     guesses.fixed(acts, "taut * pull / 10", ", growing with the string's pull (at 10 m/s^2)");
     in_all(acts, "taut");
   }
+  guesses.fixed(kUp, "(1 - taut)", " while off the string, of constant size");
+  guesses.growing(kUp, "(1 - taut)", speed, 1.0, " while off the string, growing with the speed" + at_speed);
   guesses.fixed(kLift, "", ", of constant size");
   in_all(kLift, "");
   for (const Acts acts : {kForward, kLeft, kUp}) {
@@ -207,8 +211,8 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
     guesses.growing(acts, "", tips, 1.0, ", growing with the speed of the tips" + at_tips);
   }
   const std::string slows = "tanh(-spin)";
-  for (const double power : {0.5, 1.0, 1.5, 3.0})
-    guesses.growing(kSpin, slows, spin, power, ", slowing it, growing with it" + at_spin);
+  for (const double power : {1.0, 3.0})
+    guesses.growing(kSpin, slows, spin, power, ", slowing it, growing with it" + at_spin, {0.0, 2.0});
   guesses.fixed(kSpin, slows + " * taut", ", slowing it while on the string");
   guesses.fixed(kSpin, slows + " * (1 - taut)", ", slowing it while off the string");
   guesses.fixed(kSpin, slows + " * pull / 10", ", slowing it, growing with the string's pull (at 10 m/s^2)");

@@ -19,9 +19,13 @@
 
 namespace diabolo {
 
-/// A law is learnt where chi^2 falls by so much, in units of the dispersion: the square of what a name needs.
+/// A law is learnt where chi^2 falls by so much, in units of the dispersion: twice what a name needs, since
+/// many guesses are asked about.
 /// (Beside that it must matter, explain windows that were left out, and help predictions of them.)
-inline constexpr double kGainOfLaw = kSignificance * kSignificance;
+inline constexpr double kGainOfLaw = 2.0 * kSignificance * kSignificance;
+
+/// A guess is fitted that promises so much: what stands in a law's place may hide some of it.
+inline constexpr double kGainOfGuess = kSignificance * kSignificance;
 
 /// A law that was learnt and the fit with it.
 struct LearntLaw {
@@ -31,7 +35,7 @@ struct LearntLaw {
   Fit fit;
   ActiveSet set = ActiveSet::Constant(false);
   double gain = 0.0;  ///< what chi^2 falls by, in units of the dispersion
-  std::vector<std::optional<Interval>> worsening_ci95{};  ///< see UnexplainedForce
+  std::vector<std::optional<Interval>> worsening_ci95{};  ///< see Finding
 };
 
 namespace diagnose_detail {
@@ -116,7 +120,7 @@ std::vector<ScoredGuess> best_guesses(const std::vector<LawGuess>& guesses, cons
     const bool tried = std::ranges::any_of(best, [&](const ScoredGuess& other) {
       return other.guess->law.acts == law.acts && other.guess->law.formula.text() == law.formula.text();
     });
-    if (best.size() < most && one.gain > kGainOfLaw && !tried && law.numbers.size() <= room)
+    if (best.size() < most && one.gain > kGainOfGuess && !tried && law.numbers.size() <= room)
       best.push_back(std::move(one));
   }
   return best;
@@ -165,6 +169,16 @@ inline bool is_sure_of_laws(const LearntLaw& learnt) {
   return sure;
 }
 
+/// Whether it may as well be a law that has a name: by its power, within two standard deviations.
+inline bool may_have_a_name(const LearntLaw& learnt, const std::vector<double>& named_powers) {
+  if (named_powers.empty()) return false;
+  const int u = index_of(own_number(learnt.first + 1));
+  const LawNumber& power = learnt.law.numbers[1];
+  const double value = power.expected + power.usual * learnt.fit.at[u],
+               reach = 2.0 * power.usual * estimates_of(Evidence(learnt.fit), learnt.set).deviation(u);
+  return std::ranges::any_of(named_powers, [&](double named) { return std::abs(value - named) < reach; });
+}
+
 /// Whether windows that were left out, fold by fold, fit better with a law. Position and spin count.
 inline bool explains_left_out(const LearntLaw& learnt) {
   const Evidence evidence(learnt.fit);
@@ -208,7 +222,8 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
     LearntLaw trial = diagnose_detail::fitted<D>(scored, fit, physics, set, bank, options.threads, watch);
     if (watch.is_enough()) return std::nullopt;  // it may not have settled
     if (trial.gain > kGainOfLaw && diagnose_detail::matters(trial) &&
-        diagnose_detail::is_sure_of_laws(trial) && diagnose_detail::explains_left_out(trial))
+        diagnose_detail::is_sure_of_laws(trial) && diagnose_detail::explains_left_out(trial) &&
+        !diagnose_detail::may_have_a_name(trial, scored.guess->named_powers))
       trials.push_back(std::move(trial));
   }
   std::ranges::stable_sort(trials, std::greater(), &LearntLaw::gain);

@@ -120,9 +120,7 @@ struct UnnamedStructure {
   std::string scalar, scalar_unit;
   double exponent = kNaN, exponent_deviation = kNaN;
   std::vector<std::array<double, 2>> curve;
-  std::optional<double> explained;
-  bool in_model = false;
-  IntervalByHorizon worse_without_ci95_m;
+  double explained = kNaN;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
@@ -138,11 +136,7 @@ struct UnnamedStructure {
     visit("exponent", &UnnamedStructure::exponent, "Power of the scalar.");
     visit("exponent_deviation", &UnnamedStructure::exponent_deviation, "Its standard deviation.");
     visit("curve", &UnnamedStructure::curve, "Scalar, and the mean around it.");
-    visit("explained", &UnnamedStructure::explained,
-          "Share of what is left over; null where it is in the model.");
-    visit("in_model", &UnnamedStructure::in_model, "Whether its law is part of the model.");
-    visit("worse_without_ci95_m", &UnnamedStructure::worse_without_ci95_m,
-          "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
+    visit("explained", &UnnamedStructure::explained, "Share of what is left over.");
   }
 };
 

@@ -195,9 +195,7 @@ inline UnnamedStructure unnamed_of(const UnexplainedForce& l) {
   found.exponent = law.exponent;
   found.exponent_deviation = law.deviation;
   for (const auto& [x, value] : law.curve) found.curve.push_back({x, value});
-  if (!l.in_model) found.explained = law.explained;
-  found.in_model = l.in_model;
-  found.worse_without_ci95_m = l.worsening_ci95;
+  found.explained = law.explained;
   const std::string along = " " + found.unit + " along " + found.where.direction;
   const bool told = !law.curve.empty() && law.deviation <= kVagueExponent;
   found.law = !told ? rounded(l.value) + along + "; how it grows cannot be told"

@@ -60,7 +60,6 @@ enum class Unknown : int {
   kSpinString,
   kSpinFree,
   kPlacebo,  ///< of a drag that acts along the recording's x alone, as nothing does [1/s]
-  kPower,    ///< by which a force without a name grows, less the base's [1]; counts where there is one
   kOwn,      ///< the first number of FormulaLaws, less the base's, in its usual size; the others follow
   kCount = kOwn + static_cast<int>(Law::kMostNumbers)
 };
@@ -138,7 +137,6 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos{{
     {"spin_on_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"spin_off_string", "rad/s^2", 1.0, 0.0, -100.0, 100.0},
     {"placebo", "1/s", 0.1, 0.0, -10.0, 10.0},
-    {"power", "1", 1.0, 2.0, -4.0, 4.0},
     {"own_1", "1", 1.0, 3.0, -1e3, 1e3},
     {"own_2", "1", 1.0, 3.0, -1e3, 1e3},
     {"own_3", "1", 1.0, 3.0, -1e3, 1e3},
