@@ -56,6 +56,7 @@ Recording played(const AllEffects<double>& effects, double seconds, std::uint64_
   const auto tips_at = [](double t) {
     Tips<double> tips = hands(t);
     const double h = 1e-5;
+    tips.time = t;
     tips.left_velocity = (hands(t + h).left - hands(t - h).left) / (2.0 * h);
     tips.right_velocity = (hands(t + h).right - hands(t - h).right) / (2.0 * h);
     return tips;
@@ -206,28 +207,27 @@ TEST_CASE("the turning of the axle is measured, and too small to claim") {
   }
 }
 
-TEST_CASE("a force that has no name is left, and its law predicts what was left out") {
+TEST_CASE("a force that has no name is learnt, and its law predicts what was left out") {
   AllEffects<double> effects;
   effects.get<UnnamedForce>().string_binormal = 0.8;
   effects.get<UnnamedForce>().speed_exponent = 2.0;
   const Diagnosis d = diagnose({played(effects, 14.0, 8)});  // later it is pushed off
   CAPTURE(d.sentence);
   CHECK(d.headline == Headline::kUnnamedStructure);
-  const auto left =
-      std::ranges::find(d.unexplained_forces, Unknown::kStringBinormal, &UnexplainedForce::unknown);
-  REQUIRE(left != d.unexplained_forces.end());
-  CAPTURE(left->law.scalar, left->law.exponent, left->law.deviation, left->law.at, left->law.value);
-  CHECK(left->law.scalar == "speed");
-  CHECK(std::abs(left->law.exponent - 2.0) < 3.0 * left->law.deviation + 0.1);
-  CHECK(left->in_model);
-  const auto& force = d.model.effects.get<UnnamedForce>();
-  CAPTURE(force.string_binormal, force.speed_exponent);
-  CHECK(force.string_binormal * std::pow(left->law.at, force.speed_exponent) ==
-        Approx(0.8 * std::pow(left->law.at, 2.0)).epsilon(0.2));
+  REQUIRE(d.learnt.size() == 1);
+  const Learnt& learnt = d.learnt.front();
+  CAPTURE(learnt.law.formula.text(), learnt.value, learnt.deviation);
+  CHECK(learnt.law.acts == Acts::kAcross);
+  CHECK(learnt.law.formula.text().find("speed /") != std::string::npos);
+  REQUIRE(learnt.value.size() == 2);
+  CHECK(std::abs(learnt.value[1] - 2.0) < 3.0 * learnt.deviation[1] + 0.1);
+  const auto& laws = d.model.effects.get<FormulaLaws>();
+  REQUIRE(laws.laws);
+  CHECK(laws.numbers[0] == Approx(learnt.value[0]));
   CHECK(d.heldout.augmented_error.back().value() < 0.5 * d.heldout.base_error.back().value());
 }
 
-TEST_CASE("a force that grows is found where a constant one, or a tilt, would stand for its mean") {
+TEST_CASE("a force that grows is learnt where a constant one, or a tilt, would stand for its mean") {
   AllEffects<double> effects;
   effects.get<UnnamedForce>().string_tangent = 1.0;
   effects.get<UnnamedForce>().spin_exponent = 2.0;
@@ -238,13 +238,31 @@ TEST_CASE("a force that grows is found where a constant one, or a tilt, would st
     CAPTURE(f.candidate->name, f.z);
     CHECK_FALSE(f.claimed);
   }
-  REQUIRE_FALSE(d.unexplained_forces.empty());
-  const UnexplainedForce& left = d.unexplained_forces.front();
-  CAPTURE(left.law.scalar, left.law.exponent, left.law.deviation, left.value, left.deviation);
-  CHECK(left.unknown == Unknown::kStringTangent);
-  CHECK(left.in_model);
-  CHECK(left.law.scalar == "spin");
-  CHECK(std::abs(left.value - std::pow(left.law.at / 100.0, 2.0)) < 4.0 * left.deviation);
+  REQUIRE_FALSE(d.learnt.empty());
+  const Learnt& learnt = d.learnt.front();
+  CAPTURE(learnt.law.formula.text(), learnt.value, learnt.deviation);
+  CHECK(learnt.law.acts == Acts::kAlong);
+  CHECK(learnt.law.formula.text().find("abs(spin)") != std::string::npos);
+}
+
+TEST_CASE("a law of one's own is named where it is at work, with its size, and not where it is not") {
+  const Law creep("creep", "a string that creeps", Acts::kString, "rate * t", {{"rate", "m/s", 1e-3, 0.0, 0.0, 0.1}});
+  for (const double rate : {0.0, 1e-3}) {
+    AllEffects<double> effects;
+    effects.get<FormulaLaws>() = FormulaLaws<double>({creep});
+    effects.get<FormulaLaws>().numbers[0] = rate;
+    DiagnosisOptions options;
+    options.laws = {creep};
+    const Diagnosis d = diagnose({played(effects, 14.0, 13)}, options);
+    CAPTURE(rate, d.sentence);
+    const auto f =
+        std::ranges::find_if(d.findings, [](const Finding& one) { return one.candidate->name == "creep"; });
+    REQUIRE(f != d.findings.end());
+    CHECK(f->claimed == (rate > 0.0));
+    const int u = f->candidate->unknowns.empty() ? 0 : index_of(f->candidate->unknowns.front());
+    CHECK(std::abs(1e-3 * f->estimate[u] - rate) < 4.0 * 1e-3 * f->deviation[u] + 2e-5);
+    CHECK((d.headline == Headline::kNamed) == (rate > 0.0));
+  }
 }
 
 TEMPLATE_TEST_CASE("by the unknowns that are carried, derivatives are as by all; by the others they are zero",
@@ -301,14 +319,6 @@ TEST_CASE("a fit that begins far off ends with the noise that it leaves") {
   CHECK(fit.noise.front().position > 0.7 * kNoise);
   CHECK(fit.noise.front().position < 1.5 * kNoise);
   CHECK(fit.iterations < 2 * kMostIterations);
-}
-
-TEST_CASE("what a base with a force that has no name kept from being asked is told") {
-  DiagnosisOptions options;
-  options.base.effects.get<UnnamedForce>().flight_against = 0.4;
-  const Diagnosis d = diagnose({played({}, 8.0, 11)}, options);
-  REQUIRE(d.not_done.size() == 1);
-  CHECK(d.not_done.front() == "looking for forces without a name beside the base's own");
 }
 
 TEST_CASE("a budget holds by what is predicted, and what it leaves is told") {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "diabolo/diagnose/adequacy.hpp"
+#include "diabolo/diagnose/answer.hpp"
 #include "diabolo/parameters.hpp"
 #include "diabolo/text/shown.hpp"
 

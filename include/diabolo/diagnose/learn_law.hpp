@@ -24,6 +24,9 @@ namespace diabolo {
 /// (Beside that it must matter, explain windows that were left out, and help predictions of them.)
 inline constexpr double kGainOfLaw = 2.0 * kSignificance * kSignificance;
 
+/// So much of it may stand alone where predictions cannot tell.
+inline constexpr double kGainAlone = 10.0 * kGainOfLaw;
+
 /// A guess is fitted that promises so much: what stands in a law's place may hide some of it.
 inline constexpr double kGainOfGuess = kSignificance * kSignificance;
 
@@ -191,19 +194,25 @@ inline bool explains_left_out(const LearntLaw& learnt) {
   return gain > 0.0;
 }
 
-/// Whether data that were left out are predicted better with a law, and nowhere worse; of one on the spin,
-/// which positions hardly show, that they are not predicted worse. Notes by how much.
-inline bool helps(LearntLaw& learnt, const Model& base, const std::vector<Recording>& holdout,
-                          std::uint64_t seed, int threads, const FitWatch& watch) {
-  const std::vector<HeldOutRecording> held =
-      leave_out(learnt.fit, Evidence(learnt.fit), learnt.set, {without(learnt)}, holdout);
-  learnt.worsening_ci95 =
-      compare_held_out(held, base, learnt.physics, seed, learnt.fit.most_windows, threads, watch)
-          .worsening_ci95.front();
+/// Whether data that were left out are predicted better with a law than by the fit `before`, of `set`, and
+/// nowhere worse. Where they are few and cannot tell, as of one on the spin, which positions hardly show, much
+/// of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
+inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set,
+                  const DiagnosisOptions& options, const FitWatch& watch) {
+  std::vector<HeldOutRecording> held =
+      leave_out(learnt.fit, Evidence(learnt.fit), learnt.set, {}, options.holdout);
+  const std::vector<HeldOutRecording> old = leave_out(before, Evidence(before), set, {}, options.holdout);
+  for (std::size_t i = 0; i < held.size(); ++i) held[i].without = {old[i].at};
+  const HeldOut compared = compare_held_out(held, options.base, learnt.physics, options.seed,
+                                            learnt.fit.most_windows, options.threads, watch);
+  if (compared.worsening_ci95.empty()) return false;
+  learnt.worsening_ci95 = compared.worsening_ci95.front();
   const auto any = [&](auto says) { return std::ranges::any_of(learnt.worsening_ci95, says); };
   const bool better = any([](const auto&i) { return i && i->low > 0.0; }),
-             worse = any([](const auto&i) { return i && i->high < 0.0; });
-  return !worse && (better || learnt.law.acts == Acts::kSpin);
+             worse = any([](const auto&i) { return i && i->high < 0.0; }),
+             leans_against = any([](const auto&i) { return i && i->low + i->high < 0.0; });
+  if (learnt.law.acts == Acts::kSpin) return !worse;
+  return !worse && (better || (learnt.gain > kGainAlone && !leans_against));
 }
 
 }  // namespace diagnose_detail
@@ -228,7 +237,7 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
   }
   std::ranges::stable_sort(trials, std::greater(), &LearntLaw::gain);
   for (LearntLaw& trial : trials)
-    if (diagnose_detail::helps(trial, options.base, options.holdout, options.seed, options.threads, watch))
+    if (diagnose_detail::helps(trial, fit, set, options, watch))
       return std::move(trial);
   return std::nullopt;
 }
