@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LeftOver', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LeftOver', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -883,6 +883,54 @@ class UnnamedForce:
     @string_tangent.setter
     def string_tangent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
+class FormulaLaws:
+    """
+    Laws by formulas: somebody's own, or learnt by a diagnosis.
+    
+        FormulaLaws([{"name": "creep", "plain": "a string that creeps", "acts": "string", "formula": "rate * t",
+                      "numbers": [{"name": "rate", "unit": "m/s", "usual": 0.001, "value": 0.002}]}])
+    
+    What a formula gives [m/s^2] acts forward, left, up, against (the velocity), along (the string), across (its plane) or
+    lift (along omega x v); or it is the rate of the spin (spin, [rad/s^2]) or a length added to the string (string, [m]).
+    It is made of its numbers, of `variables()`, of pi, + - * / ^ and of abs cos exp log max min sign sin sqrt tanh. The
+    first number is the amplitude: where it is zero there is nothing. A diagnosis needs `usual`, the usual size of a
+    number, and of the others `expected`, where it begins; `minimum` 0 says that a negative amplitude is against it.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> FormulaLaws:
+        """
+        Reads a file of the schema diabolo.laws/1.
+        """
+    @staticmethod
+    def variables() -> dict:
+        """
+        Name: (unit, meaning) of all that a formula may ask for.
+        """
+    def __copy__(self) -> FormulaLaws:
+        ...
+    def __deepcopy__(self, memo: dict) -> FormulaLaws:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, laws: typing.Any = []) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def to_json(self) -> str:
+        """
+        The text of their file.
+        """
+    def to_list(self) -> typing.Any:
+        """
+        The laws as the constructor takes them.
+        """
 class Model:
     """
     Everything that decides a prediction.
@@ -964,6 +1012,14 @@ class Model:
         """
         The text of its file.
         """
+    @property
+    def formula_laws(self) -> FormulaLaws:
+        """
+        Laws by formulas (FormulaLaws): a copy; set them anew to change them.
+        """
+    @formula_laws.setter
+    def formula_laws(self, arg1: FormulaLaws) -> None:
+        ...
     @property
     def interpolation(self) -> str:
         """
@@ -1507,14 +1563,15 @@ class Predictor:
         ...
     def __setstate__(self, arg0: tuple) -> None:
         ...
-    def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None) -> StepStatus:
+    def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> StepStatus:
         """
         Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
         each of the shape (3,) [m].
         
         `velocities` [m/s] are those of left0, right0, left1, right1; without them the tips go straight at constant
         speed. `directions`, unit vectors, are those of the sticks at the same four instants, zero where not known;
-        StickFlex alone looks at them. Raises FloatingPointError, and leaves the state as it was, where the result is not finite.
+        StickFlex alone looks at them. `time` [s] is that of left0, for FormulaLaws. Raises FloatingPointError, and
+        leaves the state as it was, where the result is not finite.
         """
     @property
     def parameters(self) -> Parameters:
@@ -2044,9 +2101,9 @@ class UnnamedStructure:
         Standard deviation of the mean.
         """
     @property
-    def explained(self) -> float | None:
+    def explained(self) -> float:
         """
-        Share of what is left over; null where it is in the model.
+        Share of what is left over.
         """
     @property
     def exponent(self) -> float:
@@ -2057,11 +2114,6 @@ class UnnamedStructure:
     def exponent_deviation(self) -> float:
         """
         Its standard deviation.
-        """
-    @property
-    def in_model(self) -> bool:
-        """
-        Whether its law is part of the model.
         """
     @property
     def law(self) -> str:
@@ -2095,14 +2147,57 @@ class UnnamedStructure:
         Where it acts.
         """
     @property
-    def worse_without_ci95_m(self) -> list[Interval | None]:
-        """
-        By how much held-out data is predicted worse without it, 95 % interval of each horizon.
-        """
-    @property
     def z(self) -> float:
         """
         Standard deviations from zero.
+        """
+class LearntLawFound:
+    """
+    A law that was learnt from what had no name; it is in the model.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def acts(self) -> str:
+        """
+        What the formula is the size of, see FormulaLaws.
+        """
+    @property
+    def formula(self) -> str:
+        """
+        Of the numbers and of FormulaLaws.variables().
+        """
+    @property
+    def gain(self) -> float:
+        """
+        In chi^2, of windows that were left out.
+        """
+    @property
+    def law(self) -> str:
+        """
+        In words.
+        """
+    @property
+    def name(self) -> str:
+        """
+        In the model's file.
+        """
+    @property
+    def numbers(self) -> list[Estimate]:
+        """
+        Of the formula, the size first.
+        """
+    @property
+    def worse_without_ci95_m(self) -> list[Interval | None]:
+        """
+        By how much held-out data is predicted worse without it, 95 % interval of each horizon.
         """
 class UpperLimit:
     """
@@ -2558,6 +2653,11 @@ class DiagnosisResult:
     def ladder(self) -> list[LadderRow]:
         """
         Every candidate, and why it was claimed or not.
+        """
+    @property
+    def learnt(self) -> list[LearntLawFound]:
+        """
+        Laws that were learnt from it.
         """
     @property
     def locate(self) -> Location:
@@ -3237,7 +3337,7 @@ def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: typing
     """
     Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.
     """
-def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
+def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
     """
     See diabolo.diagnose.
     """

@@ -60,7 +60,8 @@ def report_html(result: dict[str, Any]) -> str:
             fit=_fit(result.get("fit") or {}),
             effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
             adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
-            unnamed=[_unnamed(item, horizons) for item in _rows(result, "unnamed")],
+            learnt=[_learnt(item, horizons) for item in _rows(result, "learnt")],
+            unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
             strips=_strips(result.get("locate") or {}, thresholds["physics"]),
             first_strips=FIRST_RECORDINGS,
             ladder=_ladder(result, thresholds),
@@ -378,7 +379,15 @@ def _where(where: dict[str, Any]) -> list[str]:
     return [line for line in lines if line] or ["everywhere or not known"]
 
 
-def _unnamed(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
+def _learnt(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
+    return {
+        "law": item.get("law") or "a law",
+        "formula": item.get("formula") or "not given",
+        "facts": "; ".join(_without(item, horizons)),
+    }
+
+
+def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
     curve = [point for point in item.get("curve") or [] if point and None not in point]
     value, deviation, explained = item.get("value"), item.get("deviation"), item.get("explained")
     facts = ["; ".join(_where(item.get("where") or {}))]
@@ -387,9 +396,6 @@ def _unnamed(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
         facts.append(quantity(value, item.get("unit"), around) + (" (90 % interval)" if around else ""))
     facts += _sizes(item)
     facts += [] if explained is None else [f"explains {percent(explained)} of what is left over"]
-    if "in_model" in item:
-        facts += ["part of the model" if item["in_model"] else "not part of the model"]
-        facts += _without(item, horizons)
     return {
         "law": item.get("law") or "no law found",
         "facts": "; ".join(facts),

@@ -96,7 +96,8 @@ def verdict(answer: dict[str, Any]) -> str:
     if headline in ("NOTHING_MISSING", "ERROR"):
         return SILENT
     adequacy = answer.get("adequacy", {})
-    if headline == "UNNAMED_STRUCTURE" or adequacy.get("places") or adequacy.get("changes"):
+    left = adequacy.get("places") or adequacy.get("changes") or answer.get("learnt")
+    if headline == "UNNAMED_STRUCTURE" or left:
         return TOLD
     return TAKEN_FOR if adequacy.get("adequate") else SILENT
 
