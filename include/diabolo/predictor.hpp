@@ -121,7 +121,8 @@ class Predictor {
     const Scalar& dt = step.dt;
     const Scalar slipped =
         spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(parameters_, dt), parameters_);
-    Scalar spin = effects_.after_torques(select(result.taut, slipped, state.spin), state, step.begin, dt, parameters_);
+    Scalar spin =
+        effects_.after_torques(select(result.taut, slipped, state.spin), state, step.begin, dt, parameters_);
     Vector3<Scalar> velocity = result.velocity;
     Vector3<Scalar> position = result.position;
     const Mask<Scalar> pulled = result.taut || result.snapped_taut;

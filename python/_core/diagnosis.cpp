@@ -69,8 +69,8 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
 }  // namespace
 
 void bind_diagnosis(py::module_& module) {
-  module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "laws"_a, "budget"_a, "seed"_a,
-             "threads"_a, "progress"_a, "See diabolo.diagnose.");
+  module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "laws"_a, "budget"_a,
+             "seed"_a, "threads"_a, "progress"_a, "See diabolo.diagnose.");
 }
 
 }  // namespace diabolo::python

@@ -54,9 +54,8 @@ number, and of the others `expected`, where it begins; `minimum` 0 says that a n
   cls.def("to_json", &write_laws, "The text of their file.");
   cls.def("to_list", &list_of, "The laws as the constructor takes them.");
   cls.def("__len__", [](const Laws& laws) { return laws.laws ? laws.laws->size() : 0; });
-  cls.def("__repr__", [](const Laws& laws) {
-    return "FormulaLaws(" + std::string(py::repr(list_of(laws))) + ")";
-  });
+  cls.def("__repr__",
+          [](const Laws& laws) { return "FormulaLaws(" + std::string(py::repr(list_of(laws))) + ")"; });
   cls.def(
       "__eq__",
       [](const Laws& a, const py::object& other) {
@@ -64,7 +63,8 @@ number, and of the others `expected`, where it begins; `minimum` 0 says that a n
       },
       "other"_a);
   cls.def("__copy__", [](const Laws& laws) { return laws; });
-  cls.def("__deepcopy__", [](const Laws& laws, const py::dict&) { return laws; }, "memo"_a);
+  cls.def(
+      "__deepcopy__", [](const Laws& laws, const py::dict&) { return laws; }, "memo"_a);
   cls.def(py::pickle([](const Laws& laws) { return write_laws(laws); },
                      [](const std::string& text) { return read_laws(text, "pickle"); }));
   py::implicitly_convertible<py::list, Laws>();

@@ -83,8 +83,8 @@ def diagnose(
         `result.fit.holdout_unused`.
     bank: names of what may be claimed, such as "string_friction"; by default everything known but placebos.
         What no measurement is without stays free in every fit.
-    laws: of your own, by formulas (FormulaLaws, what makes it, or the name of its file): they are candidates as
-        all others are, and `bank` may name them.
+    laws: of your own, by formulas (FormulaLaws, what makes it, or the name of its file): they are candidates
+        as all others are, and `bank` may name them.
     budget: seconds after which it ends. Fewer windows are fitted where that takes longer, then trials are
         left out; `result.not_done` tells of it.
     seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.

@@ -246,7 +246,8 @@ TEST_CASE("a force that grows is learnt where a constant one, or a tilt, would s
 }
 
 TEST_CASE("a law of one's own is named where it is at work, with its size, and not where it is not") {
-  const Law creep("creep", "a string that creeps", Acts::kString, "rate * t", {{"rate", "m/s", 1e-3, 0.0, 0.0, 0.1}});
+  const Law creep("creep", "a string that creeps", Acts::kString, "rate * t",
+                  {{"rate", "m/s", 1e-3, 0.0, 0.0, 0.1}});
   for (const double rate : {0.0, 1e-3}) {
     AllEffects<double> effects;
     effects.get<FormulaLaws>() = FormulaLaws<double>({creep});

@@ -9,7 +9,8 @@ using namespace effect_scene;
 
 namespace {
 
-FormulaLaws<double> law(Acts acts, const std::string& formula, std::vector<LawNumber> numbers = {{"k", "1"}}) {
+FormulaLaws<double> law(Acts acts, const std::string& formula,
+                        std::vector<LawNumber> numbers = {{"k", "1"}}) {
   return FormulaLaws<double>({Law("own", "a law of one's own", acts, formula, std::move(numbers))});
 }
 
@@ -31,17 +32,19 @@ TEST_CASE("laws of amplitude zero change no bit") {
 }
 
 TEST_CASE("a law by a formula does what the same law of the library does") {
-  const TipMotion<double> motion({0.0, 0.5, 1.0}, {Vector(0.0, 0.3, 1.0), Vector(0.1, 0.4, 1.2), Vector(0.0, 0.3, 0.9)},
-                                 {Vector(0.0, -0.3, 1.0), Vector(0.0, -0.4, 0.8), Vector(0.1, -0.3, 1.1)},
-                                 Interpolation::kSpline);
+  const TipMotion<double> motion(
+      {0.0, 0.5, 1.0}, {Vector(0.0, 0.3, 1.0), Vector(0.1, 0.4, 1.2), Vector(0.0, 0.3, 0.9)},
+      {Vector(0.0, -0.3, 1.0), Vector(0.0, -0.4, 0.8), Vector(0.1, -0.3, 1.1)}, Interpolation::kSpline);
   State<double> start;
   start.position = Vector(0.05, 0.1, 0.4);
   start.spin = 90.0;
-  const auto after = [&](const Full& predictor) { return rollout(predictor, start, motion, {0.0, 1e-3, 1000}); };
+  const auto after = [&](const Full& predictor) {
+    return rollout(predictor, start, motion, {0.0, 1e-3, 1000});
+  };
   FormulaLaws<double> drag = law(Acts::kAgainst, "k * speed^2");
   drag.numbers[0] = 0.2;
   const State<double> own = after(with_law(drag)),
-                      ours = after(full<Air>([](auto& air) { air.quadratic_drag = 0.2; }));
+                      ours = after(full<Air>([](auto&air) { air.quadratic_drag = 0.2; }));
   // (The one's strands begin anew at each step, as where an effect moves the tips.)
   CHECK((own.position - ours.position).norm() < 2e-4);
   FormulaLaws<double> bearing = law(Acts::kSpin, "-k * sign(spin)");
@@ -59,7 +62,8 @@ TEST_CASE("a law may ask for the time, and a string may grow by it") {
   FormulaLaws<double> creep = law(Acts::kString, "k * (t - 5)", {{"k", "m/s"}});
   creep.numbers[0] = 2e-3;
   const State<double> at_end = rollout(with_law(creep), state, still, {5.0, 1e-3, 4000});
-  CHECK((left - at_end.position).norm() + (right - at_end.position).norm() == Approx(1.45 + 8e-3).margin(1e-4));
+  CHECK((left - at_end.position).norm() + (right - at_end.position).norm() ==
+        Approx(1.45 + 8e-3).margin(1e-4));
 }
 
 TEST_CASE("no step takes more than all of the velocity") {
@@ -72,7 +76,8 @@ TEST_CASE("no step takes more than all of the velocity") {
 }
 
 TEST_CASE("what is no law is told") {
-  const auto complaint = [](const std::string& name, const std::string& formula, std::vector<LawNumber> numbers) {
+  const auto complaint = [](const std::string& name, const std::string& formula,
+                            std::vector<LawNumber> numbers) {
     try {
       Law(name, "", Acts::kUp, formula, std::move(numbers));
     } catch (const std::invalid_argument& error) {
@@ -82,10 +87,12 @@ TEST_CASE("what is no law is told") {
   };
   CHECK(complaint("a b", "k", {{"k", "1"}}) == "law \"a b\": name; expected letters, digits and _");
   CHECK(complaint("own", "k", {}) == "law \"own\": 0 numbers; expected 1 to 6");
-  CHECK(complaint("own", "k * foo", {{"k", "1"}}).starts_with("law \"own\": formula \"k * foo\", character 5"));
+  CHECK(
+      complaint("own", "k * foo", {{"k", "1"}}).starts_with("law \"own\": formula \"k * foo\", character 5"));
   CHECK(complaint("own", "k", {{"k", "1"}, {"p", "1"}}) == "law \"own\": number \"p\" is not in the formula");
   CHECK(complaint("own", "speed", {{"speed", "1"}}) == "law \"own\": number \"speed\": the name is taken");
-  CHECK(complaint("own", "k", {{"k", "1", 0.0}}) == "law \"own\": number \"k\": usual 0; expected more than 0");
+  CHECK(complaint("own", "k", {{"k", "1", 0.0}}) ==
+        "law \"own\": number \"k\": usual 0; expected more than 0");
   CHECK(complaint("own", "k", {{"k", "1", 1.0, 0.0, 1.0, 2.0}}) ==
         "law \"own\": number \"k\": expected 0; expected within 1 and 2");
   const Law one("own", "", Acts::kUp, "k", {{"k", "1"}});

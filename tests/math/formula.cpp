@@ -88,12 +88,15 @@ TEST_CASE("its derivatives are those of its values") {
 TEST_CASE("what is no formula is told with its place") {
   CHECK(complaint("a +") == "formula \"a +\", character 4: it ends; expected a number, a name or \"(\"");
   CHECK(complaint("a b") == "formula \"a b\", character 3: \"b\" is found; expected an operator, or the end");
-  CHECK(complaint("2 * d") == "formula \"2 * d\", character 5: \"d\" is found; expected one of a, b, c, pi or a function");
+  CHECK(complaint("2 * d") ==
+        "formula \"2 * d\", character 5: \"d\" is found; expected one of a, b, c, pi or a function");
   CHECK(complaint("sin a") == "formula \"sin a\", character 5: \"a\" is found; expected \"(\"");
   CHECK(complaint("max(a)") == "formula \"max(a)\", character 6: \")\" is found; expected \",\"");
-  CHECK(complaint("1e999") == "formula \"1e999\", character 1: \"1\" is found; expected a number that is finite");
+  CHECK(complaint("1e999") ==
+        "formula \"1e999\", character 1: \"1\" is found; expected a number that is finite");
   CHECK(complaint("") == "formula \"\", character 1: it ends; expected a number, a name or \"(\"");
-  CHECK(complaint(std::string(100000, '(')).find("expected fewer signs and parentheses") != std::string::npos);
+  CHECK(complaint(std::string(100000, '(')).find("expected fewer signs and parentheses") !=
+        std::string::npos);
   CHECK(complaint(std::string(1000, '-').append("a")).find("expected fewer signs") != std::string::npos);
   std::string deep = "a", longer = "a";
   for (int i = 0; i < 20; ++i) deep = std::string("a + (").append(deep).append(")");

@@ -124,8 +124,8 @@ inline constexpr std::array kMayChange{
 /// A law by a formula that was learnt from what is left over, and is in the model.
 struct Learnt {
   Law law;
-  std::vector<double> value, deviation;                  ///< of its numbers, in their units
-  double gain = 0.0;                                     ///< of windows that were left out, in chi^2
+  std::vector<double> value, deviation;                 ///< of its numbers, in their units
+  double gain = 0.0;                                    ///< of windows that were left out, in chi^2
   std::vector<std::optional<Interval>> worsening_ci95;  ///< see Finding
 };
 

@@ -165,7 +165,8 @@ inline std::string plainly(Unknown latent) {
 inline std::string left_plainly(const Diagnosis& d) {
   if (!d.learnt.empty()) {
     std::string text = " law that has no name is at work: ";
-    for (std::size_t i = 0; i < d.learnt.size(); ++i) text += (i > 0 ? "; and " : "") + learnt_plainly(d.learnt[i]);
+    for (std::size_t i = 0; i < d.learnt.size(); ++i)
+      text += (i > 0 ? "; and " : "") + learnt_plainly(d.learnt[i]);
     return text + ". With it the simulator predicts better what was left out.";
   }
   return " force that has no name is left: " + plainly(d.unexplained_forces.front().unknown) +

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/own_laws.hpp"
 #include "diabolo/diagnose/result.hpp"
@@ -63,6 +64,21 @@ inline std::vector<Estimate> own_numbers_of(const Finding& f) {
                                     own.number->usual * f.deviation[index_of(u)], own.number->unit));
   }
   return result;
+}
+
+/// A learnt law as a result tells it.
+inline LearntLawFound learnt_of(const Learnt& learnt) {
+  LearntLawFound found;
+  found.name = learnt.law.name;
+  found.law = learnt_plainly(learnt);
+  found.acts = names_of(Acts{})[static_cast<std::size_t>(learnt.law.acts)];
+  found.formula = learnt.law.formula.text();
+  for (std::size_t i = 0; i < learnt.value.size(); ++i)
+    found.numbers.push_back(with_deviation(learnt.law.numbers[i].name, learnt.value[i], learnt.deviation[i],
+                                           learnt.law.numbers[i].unit));
+  found.gain = learnt.gain;
+  found.worse_without_ci95_m = learnt.worsening_ci95;
+  return found;
 }
 
 /// The parameters of a finding by their fixed names.

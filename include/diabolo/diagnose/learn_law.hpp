@@ -37,7 +37,7 @@ struct LearntLaw {
   Model physics;          ///< the base of the fit
   Fit fit;
   ActiveSet set = ActiveSet::Constant(false);
-  double gain = 0.0;  ///< what chi^2 falls by, in units of the dispersion
+  double gain = 0.0;                                      ///< what chi^2 falls by, in units of the dispersion
   std::vector<std::optional<Interval>> worsening_ci95{};  ///< see Finding
 };
 
@@ -80,7 +80,7 @@ inline ActiveSet without(const LearntLaw& learnt) {
 /// A guess with what the windows say of its probes, all else free that is.
 struct ScoredGuess {
   const LawGuess* guess;
-  double gain;  ///< see LearntLaw
+  double gain;                ///< see LearntLaw
   std::vector<double> sizes;  ///< of the probes, in SI units
 };
 
@@ -107,7 +107,8 @@ std::vector<ScoredGuess> best_guesses(const std::vector<LawGuess>& guesses, cons
     const Evidence evidence(looked);
     for (std::size_t own = used; begin < end; ++begin) {
       ActiveSet more = set;
-      for (std::size_t i = 0; i < guesses[begin].probes.size(); ++i) more[index_of(own_number(own + i))] = true;
+      for (std::size_t i = 0; i < guesses[begin].probes.size(); ++i)
+        more[index_of(own_number(own + i))] = true;
       const double gain = (evidence.cost(set) - evidence.cost(more)) / evidence.dispersion();
       ScoredGuess guess{&guesses[begin], gain, {}};
       const UnknownVector at = evidence.solve(more);
@@ -195,10 +196,10 @@ inline bool explains_left_out(const LearntLaw& learnt) {
 }
 
 /// Whether data that were left out are predicted better with a law than by the fit `before`, of `set`, and
-/// nowhere worse. Where they are few and cannot tell, as of one on the spin, which positions hardly show, much
-/// of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
-inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set,
-                  const DiagnosisOptions& options, const FitWatch& watch) {
+/// nowhere worse. Where they are few and cannot tell, as of one on the spin, which positions hardly show,
+/// much of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
+inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, const DiagnosisOptions& options,
+                  const FitWatch& watch) {
   std::vector<HeldOutRecording> held =
       leave_out(learnt.fit, Evidence(learnt.fit), learnt.set, {}, options.holdout);
   const std::vector<HeldOutRecording> old = leave_out(before, Evidence(before), set, {}, options.holdout);
@@ -226,8 +227,8 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
   constexpr std::size_t kMostFits = 4;
   const std::vector<LawGuess> guesses = law_guesses(fit, windows);
   std::vector<LearntLaw> trials;
-  for (const auto& scored : diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits,
-                                                             options.threads, watch)) {
+  for (const auto& scored :
+       diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits, options.threads, watch)) {
     LearntLaw trial = diagnose_detail::fitted<D>(scored, fit, physics, set, bank, options.threads, watch);
     if (watch.is_enough()) return std::nullopt;  // it may not have settled
     if (trial.gain > kGainOfLaw && diagnose_detail::matters(trial) &&
@@ -237,8 +238,7 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
   }
   std::ranges::stable_sort(trials, std::greater(), &LearntLaw::gain);
   for (LearntLaw& trial : trials)
-    if (diagnose_detail::helps(trial, fit, set, options, watch))
-      return std::move(trial);
+    if (diagnose_detail::helps(trial, fit, set, options, watch)) return std::move(trial);
   return std::nullopt;
 }
 

@@ -34,9 +34,10 @@ inline std::shared_ptr<const OwnCandidates> own_candidates(const FormulaLaws<dou
         result->laws.numbers[first + i] = base.numbers[first + i];
       return;
     }
-    Candidate candidate{law.name,  law.plain, CandidateKind::kPhysics, {own_number(first)}, 0.0,
-                        law.positive()};
-    for (std::size_t i = 1; i < law.numbers.size(); ++i) candidate.companions.push_back(own_number(first + i));
+    Candidate candidate{law.name, law.plain,     CandidateKind::kPhysics, {own_number(first)},
+                        0.0,      law.positive()};
+    for (std::size_t i = 1; i < law.numbers.size(); ++i)
+      candidate.companions.push_back(own_number(first + i));
     candidate.law = &law;
     result->list.push_back(std::move(candidate));
   });

@@ -52,7 +52,8 @@ inline std::string kind_of(const Candidate& candidate) {
 
 /// In which direction a candidate acts.
 inline std::string direction_of(const Candidate& candidate) {
-  if (candidate.law != nullptr) return std::string(names_of(Acts{})[static_cast<std::size_t>(candidate.law->acts)]);
+  if (candidate.law != nullptr)
+    return std::string(names_of(Acts{})[static_cast<std::size_t>(candidate.law->acts)]);
   switch (first_of(candidate)) {
     case Unknown::kCompliance:
     case Unknown::kStickCompliance:
@@ -202,20 +203,6 @@ inline UnnamedStructure unnamed_of(const UnexplainedForce& l) {
                     : rounded(law.value) + along + " at " + rounded(law.at) + " " + found.scalar_unit +
                           " of " + found.scalar + ", growing as " + found.scalar + "^(" +
                           rounded(law.exponent) + " ± " + rounded(law.deviation) + ")";
-  return found;
-}
-
-inline LearntLawFound learnt_of(const Learnt& learnt) {
-  LearntLawFound found;
-  found.name = learnt.law.name;
-  found.law = learnt_plainly(learnt);
-  found.acts = names_of(Acts{})[static_cast<std::size_t>(learnt.law.acts)];
-  found.formula = learnt.law.formula.text();
-  for (std::size_t i = 0; i < learnt.value.size(); ++i)
-    found.numbers.push_back(with_deviation(learnt.law.numbers[i].name, learnt.value[i], learnt.deviation[i],
-                                           learnt.law.numbers[i].unit));
-  found.gain = learnt.gain;
-  found.worse_without_ci95_m = learnt.worsening_ci95;
   return found;
 }
 

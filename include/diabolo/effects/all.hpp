@@ -21,7 +21,6 @@ namespace diabolo {
 template <class Scalar>
 using AllEffects =
     EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce,
-              FormulaLaws>;
+              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce, FormulaLaws>;
 
 }  // namespace diabolo

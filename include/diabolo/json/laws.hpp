@@ -22,13 +22,16 @@ inline constexpr const char* kLawsSchema = "diabolo.laws/1";
 namespace json_detail {
 
 /// A number of a law and, where it is told, its value.
-inline std::pair<LawNumber, double> law_number_from_json(const JsonFields& fields, const nlohmann::json& json) {
+inline std::pair<LawNumber, double> law_number_from_json(const JsonFields& fields,
+                                                         const nlohmann::json& json) {
   fields.expect_only({"name", "unit", "usual", "expected", "minimum", "maximum", "value"});
   LawNumber number;
   number.name = fields.text("name");
   number.unit = fields.has("unit") ? fields.text("unit") : "1";
-  for (const auto& [field, into] : {std::pair("usual", &number.usual), {"expected", &number.expected},
-                                    {"minimum", &number.minimum}, {"maximum", &number.maximum}})
+  for (const auto& [field, into] : {std::pair("usual", &number.usual),
+                                    {"expected", &number.expected},
+                                    {"minimum", &number.minimum},
+                                    {"maximum", &number.maximum}})
     if (fields.has(field)) *into = fields.number(field);
   return {number, json.contains("value") ? fields.number("value") : number.expected};
 }

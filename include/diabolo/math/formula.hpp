@@ -71,9 +71,25 @@ class Formula {
 
   /// What takes none, one and two numbers.
   enum class Code : std::uint8_t {
-    kNumber, kName,
-    kMinus, kWhole, kAbs, kCos, kExp, kLog, kSign, kSin, kSqrt, kTanh,
-    kAdd, kSubtract, kMultiply, kDivide, kPower, kMin, kMax
+    kNumber,
+    kName,
+    kMinus,
+    kWhole,
+    kAbs,
+    kCos,
+    kExp,
+    kLog,
+    kSign,
+    kSin,
+    kSqrt,
+    kTanh,
+    kAdd,
+    kSubtract,
+    kMultiply,
+    kDivide,
+    kPower,
+    kMin,
+    kMax
   };
   struct Step {
     Code code;
@@ -137,7 +153,8 @@ class Formula {
       case Code::kMultiply:
         return a * b;
       case Code::kDivide:
-        return a / select(b < Scalar(0), minimum(b, Scalar(-kLeastDivisor)), maximum(b, Scalar(kLeastDivisor)));
+        return a /
+               select(b < Scalar(0), minimum(b, Scalar(-kLeastDivisor)), maximum(b, Scalar(kLeastDivisor)));
       case Code::kPower: {
         const Scalar exponent = b * Scalar(log(maximum(a, Scalar(kLeastRoot))));
         return exp(minimum(exponent, Scalar(kMostExponent)));
