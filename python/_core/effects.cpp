@@ -111,21 +111,21 @@ void bind_effect(py::module_& module, const Effect& nominal) {
 void assign_effects(AllEffects<double>& effects, const py::kwargs& given) {
   for (const auto& [key, value] : given) {
     const std::string name = py::str(key);
-    std::string names = "formula_laws";
-    bool found = name == names;
+    std::string names;
+    bool found = name == FormulaLaws<double>::kName;
     if (found)
       effects.get<FormulaLaws>() =
           value.is_none() ? FormulaLaws<double>{}
                           : cast_to<FormulaLaws<double>>(value, name, "FormulaLaws, a list of laws or None");
     for_each_effect(effects, [&](auto& effect) {
       using Effect = std::remove_reference_t<decltype(effect)>;
-      names.append(", ").append(Effect::kName);
+      names.append(Effect::kName).append(", ");
       if (name != Effect::kName) return;
       const std::string expected = class_name(Effect::kName) + " or None";
       effect = value.is_none() ? Effect{} : cast_to<Effect>(value, name, expected.c_str());
       found = true;
     });
-    if (!found) throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names);
+    if (!found) throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names + "formula_laws");
   }
 }
 

@@ -11,7 +11,7 @@ from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import Model, Recording, load_recording
+from ._core import FormulaLaws, Model, Recording, load_recording
 
 Kind = TypeVar("Kind")
 
@@ -91,6 +91,17 @@ def model_of(name: str, given: object) -> Model:
     if not isinstance(given, Model):
         raise ValueError(f"{name}: {shown(given)}; expected a Model, or 'published', 'paper' or 'consistent'")
     return given
+
+
+def laws_of(name: str, given: object) -> FormulaLaws:
+    """Laws by formulas: themselves, a list that makes them, or the name of their file."""
+    expected = "expected FormulaLaws, a list of laws, or the name of their file"
+    try:
+        return FormulaLaws.load(given) if isinstance(given, str | os.PathLike) else FormulaLaws(given)
+    except (TypeError, RecursionError):
+        raise ValueError(f"{name}: {shown(given)}; {expected}") from None
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
 
 
 def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:

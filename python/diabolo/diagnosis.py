@@ -19,6 +19,7 @@ from .checks import (
     AnyRecording,
     RecordingWarning,
     callable_or_none,
+    laws_of,
     list_of,
     model_of,
     names_of,
@@ -106,7 +107,7 @@ def diagnose(
         raise ValueError(f"budget: {budget} s; must be positive")
     names = names_of("bank", bank, "string_friction")
     chosen = model_of("base", base)
-    own = FormulaLaws.load(laws) if isinstance(laws, str | PathLike) else FormulaLaws(laws)
+    own = laws_of("laws", laws)
     held = list_of("holdout", holdout)
     trimmed, overlaps = _core.trim_overlaps([*given, *held])
     for sentence in overlaps:

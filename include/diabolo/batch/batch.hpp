@@ -48,7 +48,8 @@ struct Batch {
         throw std::invalid_argument("batch: an initial state is not finite");
     const std::size_t models = initial.empty() ? 0 : std::max(parameters.size(), effects.size());
     for (std::size_t i = 0; i < models; ++i) {
-      FullPredictor<double>(parameters_of(i), effects_of(i));
+      parameters_of(i).validate();
+      effects_of(i).validate();
       if (!same_laws(effects_of(0).get<FormulaLaws>(), effects_of(i).get<FormulaLaws>()))
         throw std::invalid_argument("batch: effect set " + std::to_string(i) +
                                     " has other laws by formulas than the first; must be the same");

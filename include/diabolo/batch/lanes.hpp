@@ -71,7 +71,7 @@ Parameters<Pack> gather_parameters(const LaneBlock& block) {
 template <class Pack>
 AllEffects<Pack> gather_effects(const LaneBlock& block) {
   AllEffects<Pack> packed;
-  packed.template get<FormulaLaws>().laws = block.effects[0]->get<FormulaLaws>().laws;
+  packed.template get<FormulaLaws>().take_laws(block.effects[0]->get<FormulaLaws>());
   for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
     const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
       (gather_fields(std::get<I>(block.effects[lane]->members), std::get<I>(packed.members), lane), ...);

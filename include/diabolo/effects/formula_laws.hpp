@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,11 @@ struct FormulaLaws : NeutralEffect<Scalar> {
   static constexpr bool kHasText = true;
   static constexpr std::size_t kMost = Law::kMostNumbers;
 
-  std::shared_ptr<const std::vector<Law>> laws;  ///< none: nothing is at work
+  /// Lanes refer to the laws of what they were gathered from, which outlives them: what is compiled for some
+  /// processors alone must leave no function behind that others would call.
+  using Laws = std::conditional_t<ScalarTraits<Scalar>::kLanes == 1, std::shared_ptr<const std::vector<Law>>,
+                                  const std::vector<Law>*>;
+  Laws laws{};  ///< none: nothing is at work
   std::array<Scalar, kMost> numbers{};
 
   FormulaLaws() { numbers.fill(Scalar(0)); }
@@ -36,6 +41,15 @@ struct FormulaLaws : NeutralEffect<Scalar> {
     for (const Law& law : list)
       for (const LawNumber& number : law.numbers) numbers[i++] = Scalar(number.expected);
     if (!list.empty()) laws = std::make_shared<const std::vector<Law>>(std::move(list));
+  }
+
+  /// Takes over another Scalar's laws, not their numbers.
+  template <class Other>
+  void take_laws(const FormulaLaws<Other>& other) {
+    if constexpr (std::is_assignable_v<Laws&, const typename FormulaLaws<Other>::Laws&>)
+      laws = other.laws;
+    else
+      laws = other.laws.get();
   }
 
   bool neutral() const {

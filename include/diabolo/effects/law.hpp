@@ -96,6 +96,7 @@ struct Law {
       throw std::invalid_argument(here + std::to_string(numbers.size()) + " numbers; expected 1 to " +
                                   std::to_string(kMostNumbers));
     std::vector<std::string> names;
+    names.reserve(kLawVariables.size() + numbers.size());
     for (const LawVariable& variable : kLawVariables) names.emplace_back(variable.name);
     numbers.front().expected = 0.0;
     for (const LawNumber& number : numbers) {
