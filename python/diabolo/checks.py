@@ -101,7 +101,7 @@ def laws_of(name: str, given: object) -> FormulaLaws:
     except (TypeError, RecursionError):
         raise ValueError(f"{name}: {shown(given)}; {expected}") from None
     except ValueError as error:
-        raise ValueError(f"{name}: {error}") from None
+        raise ValueError(f"{name}: {str(error).removeprefix('laws: ')}") from None
 
 
 def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:

@@ -167,7 +167,7 @@ inline std::string left_plainly(const Diagnosis& d) {
     std::string text = " law that has no name is at work: ";
     for (std::size_t i = 0; i < d.learnt.size(); ++i)
       text += (i > 0 ? "; and " : "") + learnt_plainly(d.learnt[i]);
-    return text + ". With it the simulator predicts better what was left out.";
+    return text + ". Windows that were left out fit better with it.";
   }
   return " force that has no name is left: " + plainly(d.unexplained_forces.front().unknown) +
          "; no law of it was found that helps on data that were left out.";

@@ -49,9 +49,8 @@ class Inquiry : public ClaimSearch<D> {
   }
 
  private:
-  using Search::backwards_, Search::bank_, Search::budget_, Search::exchanged_, Search::fit_,
-      Search::numerical_, Search::options_, Search::physics_, Search::recordings_, Search::result_,
-      Search::set_, Search::step;
+  using Search::bank_, Search::budget_, Search::exchanged_, Search::fit_, Search::numerical_,
+      Search::options_, Search::physics_, Search::recordings_, Search::result_, Search::set_, Search::step;
 
   /// Claims what stands, and takes back, one after the other, what data that were left out deny.
   void settle() {

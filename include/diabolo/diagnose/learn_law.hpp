@@ -43,6 +43,12 @@ struct LearntLaw {
 
 namespace diagnose_detail {
 
+inline std::size_t numbers_of(const FormulaLaws<double>& laws) {
+  std::size_t count = 0;
+  laws.each([&](const Law& law, std::size_t) { count += law.numbers.size(); });
+  return count;
+}
+
 /// The model with more laws, which do nothing yet.
 inline Model with_laws(Model physics, const std::vector<Law>& more) {
   auto& own = physics.effects.get<FormulaLaws>();
@@ -54,19 +60,9 @@ inline Model with_laws(Model physics, const std::vector<Law>& more) {
     laws.push_back(std::move(law));
   }
   FormulaLaws<double> result(std::move(laws));
-  if (own.laws) {
-    std::size_t known = 0;
-    own.each([&](const Law& law, std::size_t) { known += law.numbers.size(); });
-    std::copy_n(own.numbers.begin(), known, result.numbers.begin());
-  }
+  std::copy_n(own.numbers.begin(), numbers_of(own), result.numbers.begin());
   own = std::move(result);
   return physics;
-}
-
-inline std::size_t numbers_of(const FormulaLaws<double>& laws) {
-  std::size_t count = 0;
-  laws.each([&](const Law& law, std::size_t) { count += law.numbers.size(); });
-  return count;
 }
 
 /// What is free beside a law.

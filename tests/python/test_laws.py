@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""Laws by formulas: in Python, in models and in a diagnosis."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from pathlib import Path
+from typing import Any
+
+import diabolo
+import numpy as np
+import pytest
+from diabolo import FormulaLaws, Model, TipMotion
+
+ROOT = Path(__file__).resolve().parents[2]
+DRAG: dict[str, Any] = {
+    "name": "own_drag",
+    "acts": "against",
+    "formula": "k * speed^2",
+    "numbers": [{"name": "k", "unit": "1/m", "usual": 0.1, "minimum": 0, "value": 0.2}],
+}
+
+
+def test_laws_copy_pickle_and_read_back(tmp_path: Path) -> None:
+    laws = FormulaLaws([DRAG])
+    assert len(laws) == 1 and FormulaLaws(laws) == laws and FormulaLaws(laws.to_list()) == laws
+    assert copy.deepcopy(laws) == laws and pickle.loads(pickle.dumps(laws)) == laws
+    file = tmp_path / "own.laws.json"
+    file.write_text(laws.to_json())
+    assert FormulaLaws.load(file) == laws
+    model = Model(formula_laws=[DRAG])
+    assert Model(**model.to_dict()) == model and pickle.loads(pickle.dumps(model)) == model
+    model.save(tmp_path / "m.json")
+    assert Model.load(tmp_path / "m.json").formula_laws == laws
+    assert "speed" in FormulaLaws.variables()
+
+
+def test_a_law_by_a_formula_acts_as_that_of_the_library_in_rollouts_of_one_and_of_many() -> None:
+    tips = TipMotion([0.0, 1.0], [[0.0, 0.3, 1.0], [0.1, 0.3, 1.1]], [[0.0, -0.3, 1.0], [0.1, -0.3, 0.9]])
+    states = np.array([[0.0, 0.1 * i, 0.4, 0.0, 0.0, 0.0, 50.0] for i in range(5)])
+    own = diabolo.rollout(Model(formula_laws=[DRAG]), states, tips, dt=1e-3, steps=900)
+    ours = diabolo.rollout(Model(air=diabolo.Air(quadratic_drag=0.2)), states, tips, dt=1e-3, steps=900)
+    one = diabolo.rollout(Model(formula_laws=[DRAG]), states[3], tips, dt=1e-3, steps=900)
+    a, b, c = (np.asarray(r.states) for r in (own, ours, one))
+    assert np.abs(a[..., :3] - b[..., :3]).max() < 5e-4
+    assert np.array_equal(a[3].reshape(-1), c.reshape(-1))
+
+
+def test_the_shipped_example_reads() -> None:
+    assert FormulaLaws.load(ROOT / "examples/laws/creep.laws.json").to_list()[0]["name"] == "creep"
+
+
+@pytest.mark.parametrize(
+    ("laws", "sentence"),
+    [
+        (3, "laws: 3; expected FormulaLaws, a list of laws, or the name of their file"),
+        ([3], 'laws: "laws[0]" is 3; expected an object'),
+        ([DRAG | {"formula": "k *"}], 'laws: law "own_drag": formula "k *", character 4: it ends; expected'),
+        ([DRAG | {"formula": "speed"}], 'laws: law "own_drag": number "k" is not in the formula'),
+        ([DRAG, DRAG], 'laws: law "own_drag": the name is there twice'),
+        ([DRAG | {"name": "wind"}], 'law "wind": the name is taken by one of the library'),
+        ("nothing.json", "laws: nothing.json: "),
+    ],
+)
+def test_what_is_no_law_is_told_in_a_sentence(laws: Any, sentence: str) -> None:
+    take = ROOT / "data/recordings/swing.csv"
+    with pytest.raises(ValueError) as error:
+        diabolo.diagnose(take, laws=laws)
+    assert str(error.value).startswith(sentence) and "\n" not in str(error.value)
