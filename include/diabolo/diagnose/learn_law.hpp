@@ -95,7 +95,10 @@ std::vector<ScoredGuess> best_guesses(const std::vector<LawGuess>& guesses, cons
       probes.insert(probes.end(), guesses[end].probes.begin(), guesses[end].probes.end());
       ++end;
     }
-    if (end == begin) break;
+    if (end == begin) {  // no room for it
+      ++begin;
+      continue;
+    }
     ActiveSet asked = set;
     for (std::size_t i = 0; i < probes.size(); ++i) asked[index_of(own_number(used + i))] = true;
     Fit looked = fit;
