@@ -13,6 +13,7 @@
 
 #include "diabolo/effects/effect.hpp"
 #include "diabolo/effects/law.hpp"
+#include "diabolo/math/soft_unit.hpp"
 
 namespace diabolo {
 
@@ -111,12 +112,6 @@ struct FormulaLaws : NeutralEffect<Scalar> {
  private:
   static constexpr double kHardest = 1e3, kLongest = 0.5;  ///< [m/s^2] or [rad/s^2], and [m]
 
-  /// Of length one; shorter than that below 1e-3, smoothly, down to nothing.
-  static Vector3<Scalar> unit(const Vector3<Scalar>& v) {
-    using std::sqrt;
-    return v * Scalar(Scalar(1) / sqrt(squared_norm(v) + Scalar(1e-6)));
-  }
-
   static Vector3<Scalar> direction(Acts acts, const State<Scalar>& state, const Tips<Scalar>& tips) {
     const Scalar zero(0), one(1);
     switch (acts) {
@@ -127,14 +122,14 @@ struct FormulaLaws : NeutralEffect<Scalar> {
       case Acts::kUp:
         return {zero, zero, one};
       case Acts::kAgainst:
-        return unit(state.velocity) * Scalar(-1);
+        return soft_unit<Scalar>(state.velocity) * Scalar(-1);
       case Acts::kLift:
-        return unit(cross(state.axis, state.velocity)) *
+        return soft_unit<Scalar>(cross(state.axis, state.velocity)) *
                Scalar(select(state.spin > Scalar(0), Scalar(-1), Scalar(1)));
       default: {
-        const Vector3<Scalar> left = unit(tips.left - state.position),
-                              right = unit(tips.right - state.position);
-        return acts == Acts::kAlong ? unit(right - left) : unit(cross(left, right));
+        const Vector3<Scalar> left = soft_unit<Scalar>(tips.left - state.position),
+                              right = soft_unit<Scalar>(tips.right - state.position);
+        return acts == Acts::kAlong ? soft_unit<Scalar>(right - left) : soft_unit<Scalar>(cross(left, right));
       }
     }
   }
@@ -186,7 +181,7 @@ struct FormulaLaws : NeutralEffect<Scalar> {
       case 18:
         return norm(tips.right_velocity);
       default: {
-        const Vector3<Scalar> to_tip = unit(tips.right - state.position);
+        const Vector3<Scalar> to_tip = soft_unit<Scalar>(tips.right - state.position);
         const Scalar passing = to_tip.dot(Vector3<Scalar>(tips.right_velocity - state.velocity));
         return name == 19 ? passing : Scalar(state.spin * parameters.axle_radius - passing);
       }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "diabolo/effects/effect.hpp"
+#include "diabolo/math/soft_unit.hpp"
 
 namespace diabolo {
 
@@ -32,17 +33,19 @@ struct UnnamedForce : NeutralEffect<Scalar> {
 
   Vector3<Scalar> acceleration(const State<Scalar>& state, const Tips<Scalar>& tips, const Scalar& dt,
                                const Parameters<Scalar>&) const {
-    const Vector3<Scalar> left = unit(tips.left - state.position), right = unit(tips.right - state.position);
-    const Vector3<Scalar> taut =
-        unit(right - left) * string_tangent + unit(cross(left, right)) * string_binormal;
+    const Vector3<Scalar> left = soft_unit<Scalar>(tips.left - state.position),
+                          right = soft_unit<Scalar>(tips.right - state.position);
+    const Vector3<Scalar> taut = soft_unit<Scalar>(right - left) * string_tangent +
+                                 soft_unit<Scalar>(cross(left, right)) * string_binormal;
     const Scalar sign = select(state.spin > Scalar(0), Scalar(-1), Scalar(1));
     const Scalar grown = growth(state);
     // No step takes more than all of the velocity.
     const Scalar against = minimum(Scalar(flight_against * grown), Scalar(norm(state.velocity) / dt));
-    const Vector3<Scalar> free = (unit(cross(state.axis, state.velocity)) * Scalar(flight_lift * sign) +
-                                  Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical)) *
-                                     grown -
-                                 unit(state.velocity) * against;
+    const Vector3<Scalar> free =
+        (soft_unit<Scalar>(cross(state.axis, state.velocity)) * Scalar(flight_lift * sign) +
+         Vector3<Scalar>(Scalar(0), Scalar(0), flight_vertical)) *
+            grown -
+        soft_unit<Scalar>(state.velocity) * against;
     return select<Scalar>(is(state.string_state, StringState::kOnString), Vector3<Scalar>(taut * grown),
                           free);
   }
@@ -72,12 +75,6 @@ struct UnnamedForce : NeutralEffect<Scalar> {
   }
 
  private:
-  /// Of length one; shorter than that below 1e-3, smoothly, down to nothing.
-  static Vector3<Scalar> unit(const Vector3<Scalar>& v) {
-    using std::sqrt;
-    return v * Scalar(Scalar(1) / sqrt(squared_norm(v) + Scalar(1e-6)));
-  }
-
   Scalar growth(const State<Scalar>& state) const {
     using std::exp, std::log;
     const auto power = [](const Scalar& x, const Scalar& exponent, double least, double most) {
