@@ -125,7 +125,8 @@ void assign_effects(AllEffects<double>& effects, const py::kwargs& given) {
       effect = value.is_none() ? Effect{} : cast_to<Effect>(value, name, expected.c_str());
       found = true;
     });
-    if (!found) throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names + "formula_laws");
+    if (!found)
+      throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names + "formula_laws");
   }
 }
 

@@ -33,6 +33,8 @@ struct Plain {
   friend Plain sqrt(Plain x) { return Plain(std::sqrt(x.number)); }
   friend Plain exp(Plain x) { return Plain(std::exp(x.number)); }
   friend Plain log(Plain x) { return Plain(std::log(x.number)); }
+  friend Plain sin(Plain x) { return Plain(std::sin(x.number)); }
+  friend Plain cos(Plain x) { return Plain(std::cos(x.number)); }
   friend Plain tanh(Plain x) { return Plain(std::tanh(x.number)); }
   friend Plain atan2(Plain y, Plain x) { return Plain(std::atan2(y.number, x.number)); }
 

@@ -18,7 +18,7 @@ namespace diabolo {
 /// - + - * / of two Scalars, unary -, += and -=;
 /// - < > <= >= == on the value, which give its `Mask`: bool, or a type of yours with construction from bool,
 ///   && || !, and `any(mask)`, `all(mask)`;
-/// - by argument-dependent lookup `sqrt exp`, and for the effects `log tanh atan2`;
+/// - by argument-dependent lookup `sqrt exp`, and for the effects `log tanh atan2 sin cos`;
 /// - likewise `select(mask, a, b)`, `is_finite(x)`, a Mask, and `is_constant_zero(x)`, a bool, as below;
 /// - specialisations of `ScalarTraits`, as below, and of Eigen::NumTraits.
 ///
