@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/best_guess.hpp"
+#include "diabolo/json/comparison_file.hpp"
 #include "diabolo/json/diagnosis_file.hpp"
 
 #include "bindings.hpp"
@@ -76,6 +77,9 @@ void bind_diagnosis_result(py::module_& module) {
           "from_json", [](const std::string& text) { return read_diagnosis(text, "diagnosis"); }, "text"_a,
           "Reads the text of such a file; what it lacks is as in an empty result.")
       .def_static("load", &load_diagnosis, "path"_a, Unlocked(), "Reads such a file.");
+  bind_record<ComparedLaw>(module);
+  bind_record<SimulatorComparison>(module).def("to_json", &write_comparison,
+                                               "The text of its file, schema diabolo.comparison/1.");
   module.attr("DIAGNOSIS_SCHEMA") = kDiagnosisSchema;
   module.def("diagnosis_schema", &diagnosis_schema, "The JSON schema of a diagnosis' file.");
   module.def("best_guess", &best_guess, "model"_a, "ladder"_a, "See diabolo.best_guess.");

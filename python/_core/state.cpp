@@ -39,6 +39,8 @@ S make_state(const Array& position, const Array& velocity, double spin, const py
   return state;
 }
 
+}  // namespace
+
 Array state_array(const S& state) {
   Array array(7);
   double* to = std::copy_n(state.position.data(), 3, array.mutable_data());
@@ -46,8 +48,6 @@ Array state_array(const S& state) {
   *to = state.spin;
   return array;
 }
-
-}  // namespace
 
 py::int_ string_state_to_python(StringState state) {
   return py::module_::import("diabolo.enums").attr("StringState")(static_cast<int>(state));

@@ -52,7 +52,7 @@ from ._core import (
     trim_overlaps,
 )
 from .checks import RecordingWarning
-from .diagnosis import Diagnosis, diagnose
+from .diagnosis import Comparison, Diagnosis, compare_simulator, diagnose
 from .enums import (
     FlightRule,
     Integrator,
@@ -73,6 +73,7 @@ __all__ = [
     "Air",
     "Calibration",
     "ClaimedEffect",
+    "Comparison",
     "Diagnosis",
     "DiagnosisResult",
     "DiaboloProperties",
@@ -131,6 +132,7 @@ __all__ = [
     "__version__",
     "baseline",
     "best_guess",
+    "compare_simulator",
     "diagnose",
     "evaluate",
     "hang_at_rest",

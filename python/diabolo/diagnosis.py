@@ -10,9 +10,20 @@ from os import PathLike
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._core import DIAGNOSIS_SCHEMA, ClaimedEffect, DiagnosisResult, FormulaLaws, Model, Recording
+from ._core import (
+    DIAGNOSIS_SCHEMA,
+    ClaimedEffect,
+    ComparedLaw,
+    DiagnosisResult,
+    FormulaLaws,
+    Model,
+    Recording,
+    SimulatorComparison,
+    TipMotion,
+)
 from .checks import (
     LARGEST_SEED,
     MOST_THREADS,
@@ -62,6 +73,35 @@ class Diagnosis(NamedTuple):
         return self.result.to_dict()
 
 
+Simulate = Callable[[NDArray[np.float64], TipMotion, NDArray[np.float64]], ArrayLike]
+"""A simulator: see `compare_simulator`."""
+
+
+class Comparison(NamedTuple):
+    """What `compare_simulator` gives."""
+
+    result: SimulatorComparison
+    """Everything that its file holds, of the schema diabolo.comparison/1 (docs/your_simulator.md)."""
+    real: Diagnosis
+    """Of the recordings; its model is what the simulator should be."""
+    simulated: Diagnosis
+    """Of what was simulated; its model is what the simulator is."""
+
+    @property
+    def sentence(self) -> str:
+        """The answer."""
+        return self.result.sentence
+
+    @property
+    def laws(self) -> list[ComparedLaw]:
+        """What differs, the largest first, and then what agrees."""
+        return self.result.laws
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return self.result.to_dict()
+
+
 def diagnose(
     recordings: AnyRecording | Iterable[AnyRecording],
     base: Model | str = "consistent",
@@ -97,6 +137,61 @@ def diagnose(
     recording that can decide nothing is an answer, INSUFFICIENT_DATA. Warns (RecordingWarning) of recordings
     that are odd, such as with rows that are missing.
     """
+    asked = _asked(recordings, base, holdout, bank, laws, budget, seed, threads, progress)
+    result, model = _core.diagnose(*asked)
+    return Diagnosis(result, asked[1] if result.headline == "INSUFFICIENT_DATA" else model)
+
+
+def compare_simulator(
+    recordings: AnyRecording | Iterable[AnyRecording],
+    simulated: AnyRecording | Iterable[AnyRecording] | Simulate,
+    base: Model | str = "consistent",
+    *,
+    holdout: AnyRecording | Iterable[AnyRecording] = (),
+    bank: Iterable[str] = (),
+    laws: FormulaLaws | Iterable[dict[str, Any]] | str | PathLike[str] = (),
+    budget: float = 1e9,
+    seed: int = 1,
+    threads: int = 0,
+    progress: Callable[[str, float], None] | None = None,
+) -> Comparison:
+    """Find what a simulator of your own lacks, and what it has and should not have, law by law.
+
+    simulated: recordings, or their files, that hold what the simulator makes of the recorded motion of the
+        sticks, at any rate. Or the simulator itself, a function of `start` (position [m], velocity [m/s] and
+        spin [rad/s], shape (7,)), `tips` (a TipMotion, time zero at the start) and `times` (N of them [s]):
+        it returns the states, shape (N, 7), or positions alone, (N, 3). It plays stretches of 1.5 s from
+        recorded starts, with the faults of the recordings taken out; `result.fit` tells its errors, and those
+        of it corrected by the difference of our models.
+    base: what both are compared with; the other arguments are as of `diagnose`, `budget` for each of the two.
+
+        compare_simulator("swing.csv", "simulated.csv").sentence
+
+    Ctrl-C ends it between and within diagnoses. Raises and warns as `diagnose`, and raises ValueError about a
+    simulator that returns something else.
+    """
+    asked = _asked(recordings, base, holdout, bank, laws, budget, seed, threads, progress)
+    simulate = simulated if callable(simulated) else None
+    takes = [] if callable(simulated) else list_of("simulated", simulated)
+    if simulate is None and not takes:
+        raise ValueError("simulated: none; at least one recording expected, or a function")
+    warn_of(takes)
+    result, real, theirs = _core.compare_simulator(asked[0], takes, simulate, *asked[1:])
+    return Comparison(result, Diagnosis(result.real, real), Diagnosis(result.simulated, theirs))
+
+
+def _asked(
+    recordings: AnyRecording | Iterable[AnyRecording],
+    base: Model | str,
+    holdout: AnyRecording | Iterable[AnyRecording],
+    bank: Iterable[str],
+    laws: FormulaLaws | Iterable[dict[str, Any]] | str | PathLike[str],
+    budget: float,
+    seed: int,
+    threads: int,
+    progress: Callable[[str, float], None] | None,
+) -> tuple[Any, ...]:
+    """The arguments as the core takes them, checked; warns of what is odd."""
     given = list_of("recordings", recordings)
     if not given:
         raise ValueError("recordings: none; at least one expected")
@@ -111,14 +206,13 @@ def diagnose(
     held = list_of("holdout", holdout)
     trimmed, overlaps = _core.trim_overlaps([*given, *held])
     for sentence in overlaps:
-        warnings.warn(sentence, RecordingWarning, stacklevel=2)
+        warnings.warn(sentence, RecordingWarning, stacklevel=4)
     if overlaps:
         given, held = trimmed[: len(given)], trimmed[len(given) :]
     _check_distinct([*given, *held])
-    warn_of([*given, *held])
+    warn_of([*given, *held], stacklevel=4)
     _warn_of_other_set_ups([*given, *held])
-    result, model = _core.diagnose(given, chosen, held, names, own, budget, seed, threads, progress)
-    return Diagnosis(result, chosen if result.headline == "INSUFFICIENT_DATA" else model)
+    return given, chosen, held, names, own, budget, seed, threads, progress
 
 
 def _warn_of_other_set_ups(recordings: Sequence[Recording]) -> None:
@@ -135,7 +229,7 @@ def _warn_of_other_set_ups(recordings: Sequence[Recording]) -> None:
                 f"'{least.name}' and '{most.name}' differ in {name}, {of(least):g} and {of(most):g}; "
                 "what is found is one value for all",
                 RecordingWarning,
-                stacklevel=3,
+                stacklevel=4,
             )
 
 

@@ -43,8 +43,11 @@ def check(path: str | Path) -> None:
         ) from error
 
 
-def report_html(result: dict[str, Any]) -> str:
-    """The page of a result of schema diabolo.diagnosis/1; what it lacks, the page says in words."""
+def report_html(result: dict[str, Any], comparison: dict[str, Any] | None = None) -> str:
+    """The page of a result of schema diabolo.diagnosis/1; what it lacks, the page says in words.
+
+    comparison: of somebody's simulator with what was recorded (diabolo.comparison/1), which it then begins with.
+    """
     check("report")
     if result.get("schema") != DIAGNOSIS_SCHEMA:
         raise ValueError(f"schema: found {result.get('schema')!r}; expected {DIAGNOSIS_SCHEMA!r}")
@@ -57,6 +60,7 @@ def report_html(result: dict[str, Any]) -> str:
     with matplotlib.rc_context(style):
         return _template().render(
             result=result,
+            simulator=None if comparison is None else _simulator(comparison),
             fit=_fit(result.get("fit") or {}),
             effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
             adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
@@ -317,6 +321,58 @@ def _change(row: dict[str, Any]) -> list[Any]:
     )
     size = quantity(row.get("size"), row.get("unit"))
     return [words(row.get("quantity")), size, how, _number(row.get("z"), 1)]
+
+
+def _simulator(comparison: dict[str, Any]) -> dict[str, Any]:
+    """What a simulator has and lacks, law by law."""
+    verdicts = {
+        "agrees": "agrees",
+        "cannot_tell": "cannot be told",
+        "lacks": "lacks it",
+        "too_little": "has too little",
+        "too_much": "has too much",
+        "should_not_have": "should not have it",
+    }
+
+    def numbers(law: dict[str, Any], key: str) -> list[str]:
+        return [
+            f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
+            for row in _rows(law, key)
+        ] or ["none"]
+
+    laws = [
+        [
+            {"words": law["what"], "key": law["name"]},
+            verdicts[law["verdict"]],
+            numbers(law, "real"),
+            numbers(law, "simulated"),
+            [] if law["verdict"] in ("agrees", "cannot_tell") else numbers(law, "difference"),
+            quantity(law.get("size_m"), "m") if law.get("size_m") is not None else "-",
+        ]
+        for law in _rows(comparison, "laws")
+    ]
+    fit = comparison.get("fit") or {}
+    errors = zip(
+        fit.get("horizons_s") or [],
+        fit.get("base_error_m") or [],
+        fit.get("augmented_error_m") or [],
+        fit.get("improvement_ci95_m") or [],
+        strict=False,
+    )
+    return {
+        "sentence": comparison["sentence"],
+        "laws": laws,
+        "errors": [
+            [
+                quantity(ahead, "s"),
+                _millimetres(alone),
+                _millimetres(better),
+                _millimetres(alone - better, interval),
+            ]
+            for ahead, alone, better, interval in errors
+            if alone is not None
+        ],
+    }
 
 
 def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:

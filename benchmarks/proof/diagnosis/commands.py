@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 import subprocess
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from diabolo import compare_simulator
+
 from .. import files, plant
-from . import answer, batch, draw, earlier, making, page, record, run, seal, strangers, tables, tools
+from . import answer, batch, draw, earlier, making, page, record, run, seal, simulators, strangers, tables, tools
 from .names import physics_among
 
 ARMS_WITH_ORACLE = ("single", "several", "with_fault", "tie", "outside")
@@ -246,6 +249,23 @@ def meet_strangers(places: Places, cases: int, seed: int, jobs: int, json_file: 
         files.write_json(json_file, {"seed": seed, "cases": rows})
     print(strangers.text_of(rows))
     return 1 if any(row["verdict"] == strangers.SILENT for row in rows) else 0
+
+
+def compare_simulators(places: Places, cases: int, seed: int, json_file: Path | None) -> int:
+    """Pairs of plants, the second with half of the physics; the exit status is 1 where all that was switched
+    off is named in less than nine of ten."""
+    plant.check(places.program)
+    rows = []
+    for number in range(1, cases + 1):
+        places.report(f"pair {number} of {cases}", (number - 1) / cases)
+        with tempfile.TemporaryDirectory() as folder:
+            pair, truth = simulators.make(places.program, seed, number, Path(folder))
+            comparison = compare_simulator(Path(folder) / "real.csv", Path(folder) / "simulated.csv")
+        rows.append(simulators.row(pair, truth, comparison))
+    if json_file is not None:
+        files.write_json(json_file, {"seed": seed, "pairs": rows})
+    print(simulators.text_of(rows))
+    return 1 if sum(set(one["off"]) <= set(one["found"]) for one in rows) < 0.9 * cases else 0
 
 
 def _drop_if_older(path: Path, than: Path) -> None:

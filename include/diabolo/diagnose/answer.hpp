@@ -185,6 +185,8 @@ struct OwnCandidates {
   std::vector<Candidate> list;
 };
 
+struct FinalFit;  // final_fit.hpp
+
 /// The answer.
 struct Diagnosis {
   Headline headline = Headline::kNothingMissing;
@@ -208,6 +210,7 @@ struct Diagnosis {
   std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
   std::size_t windows_seen = 0;       ///< in the recordings, of which `windows` were fitted
   std::shared_ptr<const OwnCandidates> own;  ///< to which findings may point
+  std::shared_ptr<const FinalFit> final_fit;  ///< that all of it was read from; null where nothing was fitted
 };
 
 /// Numbers of a window's start: position, velocity and spin.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "diabolo/diagnose/axle_motion.hpp"
 #include "diabolo/diagnose/claim_search.hpp"
 #include "diabolo/diagnose/conclude.hpp"
+#include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/learn_law.hpp"
@@ -42,6 +44,7 @@ class Inquiry : public ClaimSearch<D> {
       if (withdrawn || withdraw_what_explains_too_little(result_)) result_.model = options_.base;
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       finish();
+      result_.final_fit = std::make_shared<FinalFit>(FinalFit{physics_, std::move(fit_), set_});
     }
     std::ranges::copy(budget_.left(), std::back_inserter(result_.not_done));
     conclude(result_);

@@ -10,9 +10,9 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from .._core import Estimate, FormulaLaws, InputFile, Model, Recording
+from .._core import Estimate, FormulaLaws, InputFile, Model, Recording, load_recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
-from ..diagnosis import Diagnosis
+from ..diagnosis import Comparison, Diagnosis, compare_simulator
 from ..diagnosis import diagnose as run_diagnosis
 from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..report import check as check_report
@@ -30,6 +30,7 @@ from .arguments import (
 )
 
 MODEL_FILE, REPORT_FILE, RESULT_FILE = "model.json", "report.html", "diagnosis.json"
+COMPARISON_FILE, SIMULATOR_FILE = "comparison.json", "simulator.json"
 
 
 def add_parser(commands: Any) -> None:
@@ -68,12 +69,21 @@ def add_parser(commands: Any) -> None:
         metavar="FILE",
         help="laws of your own, by formulas, which are asked about as all others: see docs/your_law.md",
     )
+    parser.add_argument(
+        "--simulated",
+        nargs="+",
+        default=[],
+        metavar="FILE",
+        help="what your own simulator made of the same stick motion: it is compared with the recordings, law "
+        "by law (docs/your_simulator.md; `diabolo motion` writes the sticks for it)",
+    )
     parser.add_argument("--json", metavar="FILE", help="write the result as JSON; - is standard output")
     parser.add_argument(
         "--out",
         metavar="DIR",
         type=output_name,
-        help=f"folder for {REPORT_FILE}, {RESULT_FILE} and {MODEL_FILE}",
+        help=f"folder for {REPORT_FILE}, {RESULT_FILE} and {MODEL_FILE}; with --simulated also "
+        f"{COMPARISON_FILE} and {SIMULATOR_FILE}",
     )
     parser.add_argument(
         "--budget",
@@ -94,46 +104,87 @@ def run(arguments: argparse.Namespace) -> None:
     folder = None if arguments.out is None else Path(arguments.out)
     outputs: list[Path | str | None] = [arguments.json]
     if folder is not None:
-        outputs += [folder / name for name in (MODEL_FILE, REPORT_FILE, RESULT_FILE)]
+        names = [MODEL_FILE, REPORT_FILE, RESULT_FILE]
+        names += [COMPARISON_FILE, SIMULATOR_FILE] if arguments.simulated else []
+        outputs += [folder / name for name in names]
         check_report(folder / REPORT_FILE)
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
     settings = [arguments.calibration] if arguments.calibration else []
     settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
     settings += [arguments.law] if arguments.law else []
-    files.check_outputs(outputs, [*inputs, *settings], folder)
+    files.check_outputs(outputs, [*inputs, *settings, *arguments.simulated], folder)
     laws = FormulaLaws.load(arguments.law) if arguments.law else ()
     reading = reading_of(arguments)
     takes, held = (
         [_cut(read_excerpt(text, reading)) for text in given]
         for given in (arguments.recordings, arguments.holdout)
     )
+    simulated = [read_simulated(path, takes[0]) for path in arguments.simulated]
     hashes = [input_file(path) for path in inputs]
     begin = time.monotonic()
+    comparison = None
     with progress_steps() as report:
-        diagnosis = run_diagnosis(
-            takes,
-            read_model(arguments.base),
-            holdout=held,
-            laws=laws,
-            budget=arguments.budget,
-            seed=arguments.seed,
-            threads=arguments.threads,
-            progress=report,
-        )
+        settings_of_run: dict[str, Any] = {
+            "holdout": held,
+            "laws": laws,
+            "budget": arguments.budget,
+            "seed": arguments.seed,
+            "threads": arguments.threads,
+            "progress": report,
+        }
+        base = read_model(arguments.base)
+        if simulated:
+            comparison = compare_simulator(takes, simulated, base, **settings_of_run)
+            diagnosis = comparison.real
+        else:
+            diagnosis = run_diagnosis(takes, base, **settings_of_run)
     result = diagnosis.result.completed(
         seconds=time.monotonic() - begin, inputs=hashes, model=None if folder is None else MODEL_FILE
     ).to_dict()
-    texts = {} if folder is None else _texts(folder, diagnosis.model, result)
+    told = result if comparison is None else comparison.to_dict()
+    texts = {} if folder is None else _texts(folder, diagnosis.model, result, comparison)
     if arguments.json not in (None, files.STDOUT):
-        texts[Path(arguments.json)] = files.json_text(result)
+        texts[Path(arguments.json)] = files.json_text(told)
     with nullcontext() if folder is None else files.made_folder(folder):
         files.write_texts(texts)
     if arguments.json == files.STDOUT:
-        files.write_json(arguments.json, result)
+        files.write_json(arguments.json, told)
     if arguments.json != files.STDOUT:
-        print(text_of(diagnosis))
+        print(text_of(diagnosis) if comparison is None else comparison_text(comparison))
         if folder is not None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
+
+
+def read_simulated(path: str, like: Recording) -> Recording:
+    """What a simulator wrote: a tidy recording; without a JSON beside it, string and diabolo are as `like`'s."""
+    if Path(path).with_suffix(".json").exists():
+        return load_recording(path)
+    bare = load_recording(path, columns="time=time")
+    return Recording(
+        bare.time,
+        bare.left,
+        bare.right,
+        bare.diabolo,
+        bare.rate,
+        diabolo_orientation=bare.diabolo_orientation,
+        left_orientation=bare.left_orientation,
+        right_orientation=bare.right_orientation,
+        name=bare.name,
+        properties=like.properties,
+        string_length=like.string_length,
+    )
+
+
+def comparison_text(comparison: Comparison) -> str:
+    """The answer about a simulator in a few lines."""
+    lines = [comparison.sentence]
+    for law in comparison.laws:
+        lines.append(f"  {law.verdict.replace('_', ' '):15} {law.name}")
+        for name, numbers in (("reality", law.real), ("simulator", law.simulated), ("to add", law.difference)):
+            if numbers and not (law.verdict in ("agrees", "cannot_tell") and name == "to add"):
+                lines.append(f"    {name:10} {', '.join(_value(number) for number in numbers)}")
+    lines.append(f"Of the recordings alone: {text_of(comparison.real)}")
+    return "\n".join(lines)
 
 
 def text_of(diagnosis: Diagnosis) -> str:
@@ -173,9 +224,16 @@ def input_file(path: str | Path) -> InputFile:
     return InputFile(file=Path(path).name, sha256=hashlib.sha256(Path(path).read_bytes()).hexdigest())
 
 
-def _texts(folder: Path, model: Model, result: dict[str, Any]) -> dict[Path, str]:
-    return {
+def _texts(
+    folder: Path, model: Model, result: dict[str, Any], comparison: Comparison | None
+) -> dict[Path, str]:
+    told = None if comparison is None else comparison.to_dict()
+    texts = {
         folder / MODEL_FILE: model.to_json(),
-        folder / REPORT_FILE: report_html(result),
+        folder / REPORT_FILE: report_html(result, told),
         folder / RESULT_FILE: files.json_text(result),
     }
+    if comparison is not None:
+        texts[folder / COMPARISON_FILE] = files.json_text(told)
+        texts[folder / SIMULATOR_FILE] = comparison.simulated.model.to_json()
+    return texts

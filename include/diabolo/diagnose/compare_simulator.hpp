@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/final_fit.hpp"
+#include "diabolo/diagnose/result_of.hpp"
+#include "diabolo/diagnose/select.hpp"
+#include "diabolo/diagnose/simulator_comparison.hpp"
+
+// A simulator is a black box that left a motion behind. It is diagnosed as reality is, against the same base,
+// and what the two were found to have is held side by side.
+namespace diabolo {
+
+namespace diagnose_detail {
+
+/// A claim by its name; null where there is none.
+inline const Finding* claim_of(const Diagnosis& d, std::string_view name) {
+  const auto found = std::ranges::find_if(
+      d.findings, [&](const Finding& f) { return f.claimed && f.candidate->name == name; });
+  return found == d.findings.end() ? nullptr : &*found;
+}
+
+/// What is claimed of either, of the first in its order.
+inline std::vector<const Candidate*> claimed_of_either(const Diagnosis& real, const Diagnosis& simulated) {
+  std::vector<const Candidate*> result;
+  for (const Diagnosis* d : {&real, &simulated})
+    for (const Finding& f : d->findings)
+      if (f.claimed && f.swapped == 0 && (d == &real || claim_of(real, f.candidate->name) == nullptr))
+        result.push_back(f.candidate);
+  return result;
+}
+
+/// The estimates where what is claimed of either is free in both: like is held beside like.
+inline Estimates estimates_beside(const FinalFit& final_fit, const std::vector<const Candidate*>& claimed) {
+  ActiveSet free = final_fit.free;
+  for (const Candidate* candidate : claimed)
+    if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kWraps)
+      free = with(free, *candidate);
+  Estimates result = estimates_of(Evidence(final_fit.fit), free);
+  for (const Unknown tried : {Unknown::kWraps, Unknown::kLag})  // and never free
+    result.estimate[index_of(tried)] = final_fit.fit.at[index_of(tried)];
+  return result;
+}
+
+/// Of numbers that were estimated apart.
+inline Estimates less(const Estimates& a, const Estimates& b) {
+  return {a.estimate - b.estimate, a.noise + b.noise, a.spread + b.spread};
+}
+
+inline Finding finding_of(const Candidate& candidate, const Estimates& estimates) {
+  Finding f;
+  f.candidate = &candidate;
+  f.estimate = estimates.estimate;
+  for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = estimates.deviation(u);
+  return f;
+}
+
+/// Whether reality and simulator differ by more than is unsure, and by enough to matter.
+inline bool differs(const Candidate& candidate, const Estimates& difference, double size) {
+  const Unknown first = first_of(candidate);
+  if (!(difference.deviation(index_of(first)) > 0.0)) return difference.estimate[index_of(first)] != 0.0;
+  if (candidate.floor > 0.0) return is_beyond_floor(candidate, difference);
+  return std::abs(significance(candidate, difference)) > kSignificance &&
+         size > (is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach);
+}
+
+/// What the simulator has of it, where the two differ.
+inline const char* verdict_of(const Candidate& candidate, const Estimates& real, const Estimates& simulated,
+                              bool is_real, bool is_simulated) {
+  const auto length = [&](const Estimates& estimates) {
+    double square = 0.0;
+    for (const Unknown u : candidate.unknowns)
+      square += std::pow(estimates.estimate[index_of(u)] / info_of(u).scale, 2);
+    return candidate.unknowns.size() == 1 ? estimates.estimate[index_of(first_of(candidate))]
+                                          : std::sqrt(square);
+  };
+  const bool has_always = first_of(candidate) == Unknown::kStringLength ||
+                          candidate.name == "gravity_magnitude";  // more or less of it, and never none
+  if (is_real && !is_simulated && !has_always) return "lacks";
+  if (!is_real && is_simulated && !has_always) return "should_not_have";
+  const double a = length(real), b = length(simulated);
+  return (candidate.positive || has_always || a * b < 0.0 ? b > a : std::abs(b) > std::abs(a)) ? "too_much"
+                                                                                              : "too_little";
+}
+
+/// Real less simulated, number by number.
+inline std::vector<Estimate> difference_of(const Candidate& candidate, const Estimates& difference) {
+  std::vector<Estimate> numbers = parameters_of(finding_of(candidate, difference), 0.0, 1.0);
+  if (candidate.law == nullptr) return numbers;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {  // which tell values, not what lies between two
+    const double expected = candidate.law->numbers[i].expected;
+    numbers[i].value -= expected;
+    numbers[i].ci90 = Interval{numbers[i].ci90->low - expected, numbers[i].ci90->high - expected};
+  }
+  return numbers;
+}
+
+inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, const Diagnosis& simulated,
+                            const Estimates& in_real, const Estimates& in_simulated) {
+  const Estimates difference = less(in_real, in_simulated);
+  const Finding *const claim = claim_of(real, candidate.name), *const same = claim_of(simulated, candidate.name);
+  const double size = size_of(candidate, difference.estimate, real.final_fit->fit.systems);
+  ComparedLaw law;
+  law.name = candidate.name;
+  law.kind = kind_of(candidate);
+  law.what = candidate.plain;
+  const bool in_one = claim == nullptr || same == nullptr;
+  law.verdict = differs(candidate, difference, size)
+                    ? verdict_of(candidate, in_real, in_simulated, claim != nullptr, same != nullptr)
+                : in_one ? "cannot_tell"
+                         : "agrees";
+  if (claim != nullptr) law.tied_with = claim->tied_with;
+  law.p_value = family_wise(significance(candidate, difference));
+  law.real = parameters_of(finding_of(candidate, in_real), real.base_string_length, real.base_gravity);
+  law.simulated =
+      parameters_of(finding_of(candidate, in_simulated), simulated.base_string_length, simulated.base_gravity);
+  law.difference = difference_of(candidate, difference);
+  law.where = claim != nullptr ? place_of(*claim, real.windows) : place_of(*same, simulated.windows);
+  if (!is_of_spin(candidate) && candidate.kind == CandidateKind::kPhysics) law.size_m = size;
+  return law;
+}
+
+/// A law that was learnt from what one of the two leaves over.
+inline ComparedLaw compared(const Learnt& learnt, const char* verdict) {
+  ComparedLaw law;
+  const LearntLawFound found = learnt_of(learnt);
+  law.name = found.name;
+  law.kind = "learnt";
+  law.what = found.law;
+  law.verdict = verdict;
+  (std::string_view(verdict) == "lacks" ? law.real : law.simulated) = found.numbers;
+  law.where.direction = found.acts;
+  return law;
+}
+
+/// Laws that were learnt: the same form in both is told as that.
+inline std::vector<ComparedLaw> compared_learnt(const Diagnosis& real, const Diagnosis& simulated) {
+  std::vector<ComparedLaw> result, others;
+  for (const Learnt& learnt : real.learnt) result.push_back(compared(learnt, "lacks"));
+  for (const Learnt& learnt : simulated.learnt) {
+    const auto same = std::ranges::find_if(real.learnt, [&](const Learnt& other) {
+      return other.law.acts == learnt.law.acts && other.law.formula.text() == learnt.law.formula.text();
+    });
+    ComparedLaw law = compared(learnt, "should_not_have");
+    if (same == real.learnt.end()) {
+      others.push_back(std::move(law));
+      continue;
+    }
+    ComparedLaw& both = result[static_cast<std::size_t>(same - real.learnt.begin())];
+    both.verdict = "agrees";
+    both.simulated = std::move(law.simulated);
+  }
+  std::ranges::move(others, std::back_inserter(result));
+  return result;
+}
+
+/// Names of some verdict in a row: "a, b and c".
+inline std::string listed(const std::vector<ComparedLaw>& laws, std::string_view verdict) {
+  std::vector<std::string> names;
+  for (const ComparedLaw& law : laws) {
+    if (law.verdict != verdict) continue;
+    names.push_back(law.what);
+    for (std::size_t i = 0; i < law.tied_with.size(); ++i)
+      names.back() += (i == 0 ? " (or " : ", ") + std::string(candidate_of(law.tied_with[i]).plain) +
+                      (i + 1 == law.tied_with.size() ? ")" : "");
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+/// Whether something without a name is left that `camera`'s noise would not hide: a simulator has none of its
+/// own, and not every micrometre of it counts.
+inline bool has_left_over(const Diagnosis& d, const Diagnosis& camera) {
+  if (d.adequacy.adequate.value_or(true)) return false;
+  return std::ranges::any_of(d.adequacy.overall, [&](const LeftOver& left) {
+    const auto same = std::ranges::find_if(camera.adequacy.overall, [&](const LeftOver& other) {
+      return other.quantity == left.quantity && other.ahead_s == left.ahead_s;
+    });
+    return same == camera.adequacy.overall.end() || left.left > kTimesNoise * same->noise;
+  });
+}
+
+inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& real, const Diagnosis& simulated) {
+  if (!real.reason.empty()) return "Nothing can be compared: of the recordings, " + real.reason + ".";
+  if (!simulated.reason.empty())
+    return "Nothing can be compared: of what was simulated, " + simulated.reason + ".";
+  std::string text;
+  const auto say = [&](const char* verdict, const std::string& before, const std::string& after) {
+    const std::string names = listed(c.laws, verdict);
+    if (!names.empty()) text += (text.empty() ? "The simulator " : "; it ") + before + names + after;
+  };
+  say("lacks", "lacks ", "");
+  say("too_little", "has too little of ", "");
+  say("too_much", "has too much of ", "");
+  say("should_not_have", "has ", ", which reality has not");
+  text = text.empty() ? "The simulator has what reality has, as far as these recordings can show." : text + ".";
+  if (const std::string both = listed(c.laws, "agrees"); !both.empty())
+    text += " Reality and simulator agree in " + both + ".";
+  if (const std::string open = listed(c.laws, "cannot_tell"); !open.empty())
+    text += " Whether they do in " + open + " cannot be told.";
+  if (!c.recording_faults.empty()) {
+    text += " The recordings are off by ";
+    for (std::size_t i = 0; i < c.recording_faults.size(); ++i)
+      text += (i == 0 ? "" : " and ") + c.recording_faults[i];
+    text += ".";
+  }
+  const bool real_left = has_left_over(real, real), simulated_left = has_left_over(simulated, real);
+  if (real_left || simulated_left)
+    text += std::string(" Something without a name is left in ") +
+            (real_left && simulated_left ? "both" : real_left ? "reality" : "the simulator") + ".";
+  return text;
+}
+
+}  // namespace diagnose_detail
+
+/// Holds what reality was found to have beside what a simulator was found to have, both against the same base.
+/// `real_result` and `simulated_result` are what result_of() makes of them.
+inline SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& simulated,
+                                             DiagnosisResult real_result, DiagnosisResult simulated_result) {
+  using namespace diagnose_detail;
+  SimulatorComparison result;
+  result.real = std::move(real_result);
+  result.simulated = std::move(simulated_result);
+  if (real.final_fit && simulated.final_fit) {
+    const std::vector<const Candidate*> claimed = claimed_of_either(real, simulated);
+    const Estimates in_real = estimates_beside(*real.final_fit, claimed),
+                    in_simulated = estimates_beside(*simulated.final_fit, claimed);
+    for (const Candidate* candidate : claimed) {
+      ComparedLaw law = compared(*candidate, real, simulated, in_real, in_simulated);
+      if (law.kind == "measurement" && law.verdict == "lacks")
+        result.recording_faults.push_back(law.what);
+      else
+        result.laws.push_back(std::move(law));
+    }
+    std::ranges::move(compared_learnt(real, simulated), std::back_inserter(result.laws));
+    const auto is_open = [](const ComparedLaw& law) {
+      return law.verdict == "agrees" || law.verdict == "cannot_tell";
+    };
+    std::ranges::stable_sort(result.laws, [&](const ComparedLaw& a, const ComparedLaw& b) {
+      return is_open(a) != is_open(b) ? is_open(b) : a.size_m.value_or(0.0) > b.size_m.value_or(0.0);
+    });
+  }
+  result.sentence = sentence_of(result, real, simulated);
+  return result;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "diabolo/diagnose/fit.hpp"
+#include "diabolo/model.hpp"
+
+namespace diabolo {
+
+/// Where a diagnosis ended: what it fitted, and to what. Another question may go on from there.
+struct FinalFit {
+  Model physics;   ///< that the unknowns add to; learnt laws are in it
+  Fit fit;         ///< with the takes and the systems of their windows
+  ActiveSet free;  ///< which unknowns were
+};
+
+}  // namespace diabolo
