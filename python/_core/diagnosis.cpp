@@ -149,7 +149,7 @@ py::tuple compare(const std::vector<Recording>& recordings, std::vector<Recordin
     for (const Recording& recording : simulated) check_recording(recording);
     if (!simulated.empty()) theirs = diabolo::diagnose(simulated, options, watch);
     result = compare_simulator(real, theirs, result_of(real, recordings, std::move(unused)),
-                               result_of(theirs, simulated));
+                               result_of(theirs, simulated), threads, {{}, watch.cancelled});
     if (!played.empty()) result.fit = simulator_errors(takes, played, theirs.model, seed);
   });
   return py::make_tuple(result, real.model, theirs.model);
@@ -158,6 +158,16 @@ py::tuple compare(const std::vector<Recording>& recordings, std::vector<Recordin
 }  // namespace
 
 void bind_diagnosis(py::module_& module) {
+  module.def(
+      "stretch_starts",
+      [](const Recording& recording) {
+        check_recording(recording);
+        py::list starts;
+        for (const Stretch& stretch : stretches_of(recording))
+          starts.append(py::make_tuple(stretch.first, state_array(stretch.start)));
+        return starts;
+      },
+      "recording"_a, "Rows from which a simulator is asked to play, each with its state, shape (7,).");
   module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "laws"_a, "budget"_a,
              "seed"_a, "threads"_a, "progress"_a, "See diabolo.diagnose.");
   module.def("compare_simulator", &compare, "recordings"_a, "simulated"_a, "simulate"_a, "base"_a,

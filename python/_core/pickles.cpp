@@ -4,9 +4,12 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,7 +35,26 @@ void by_state(const ToState& to_state, const FromState& from_state) {
   cls.def("__copy__", [](const T& value) { return value; });
   cls.def(
       "__deepcopy__", [](const T& value, const py::dict&) { return value; }, py::arg("memo"));
-  cls.def(py::pickle(to_state, from_state));
+  cls.def(py::pickle(to_state, [from_state](const py::tuple& state) {
+    try {
+      return from_state(state);
+    } catch (const std::exception&) {
+      throw std::invalid_argument(std::string(py::str(py::type::of<T>().attr("__name__"))) +
+                                  ": a state that is none; expected what a pickle of it holds");
+    }
+  }));
+}
+
+/// For protocols 0 and 1 copyreg makes an instance of pybind11's own base class, which ends the interpreter:
+/// they get what protocol 2 does.
+void use_protocol_2() {
+  const py::object base = py::type::of<Waypoint>().attr("__base__"),
+                   object = py::module_::import("builtins").attr("object");
+  base.attr("__reduce_ex__") = py::cpp_function(
+      [object](const py::object& self, int protocol) {
+        return object.attr("__reduce_ex__")(self, std::max(2, protocol));
+      },
+      py::name("__reduce_ex__"), py::is_method(base), py::arg("protocol"));
 }
 
 /// Pickles it by its members.
@@ -223,6 +245,7 @@ void pickle_robots() {
 }  // namespace
 
 void bind_pickles() {
+  use_protocol_2();
   by_members(&Waypoint::position, &Waypoint::velocity, &Waypoint::position_weight, &Waypoint::velocity_weight,
              &Waypoint::direction_weight);
   by_state<Goals>(&state_of, &goals_of);

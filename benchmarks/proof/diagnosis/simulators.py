@@ -5,6 +5,7 @@ simulator: is all that was switched off named, and nothing else?"""
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +16,7 @@ import numpy as np
 import diabolo
 
 from . import base, making, sizes
+from .draw import CALM, CALMEST, TRIES
 from .sizes import either_sign, log_uniform
 
 # Laws that are seen at once; of each group one is at work.
@@ -35,6 +37,7 @@ GROUPS: tuple[dict[str, Callable[[np.random.Generator], sizes.Departure]], ...] 
     },
 )
 AT_WORK, OFF = 4, 2
+FASTEST_LOSS = 12.0  # a diabolo that stands still falls off [rad/s^2]
 CLEAN: dict[str, Any] = {
     name: 0.0
     for name in ("white_noise", "drift_noise", "attitude_noise", "dropout_share", "tilt_deg", "diabolo_delay")
@@ -52,16 +55,20 @@ class Pair:
 
 
 def draw(seed: int, number: int, attempt: int = 0) -> Pair:
-    """The scenarios of a case; another attempt has another motion."""
-    generator = np.random.default_rng([seed, number])
+    """The scenarios of a case; another attempt has another motion, and what no motion keeps in play is drawn
+    again."""
+    generator = np.random.default_rng([seed, number, attempt // TRIES])
     names, departures = [], {}
     for group in generator.choice(len(GROUPS), AT_WORK, replace=False):
         name = str(generator.choice(list(GROUPS[group])))
         names.append(name)
         departures[name] = GROUPS[group][name](generator)
     off = [str(name) for name in generator.choice(names, OFF, replace=False)]
-    scenario = base.body_and_camera(np.random.default_rng([seed, number, 1]), "springs")
-    play = base.play(np.random.default_rng([seed, number, 2, attempt]), "lively", attempt < 4)
+    scenario = base.body_and_camera(np.random.default_rng([seed, number, 0, 1]), "springs")
+    kind = "lively" if attempt % TRIES < CALMEST else "slow"
+    play = base.play(np.random.default_rng([seed, number, attempt, 2]), kind, attempt % TRIES < CALM)
+    spin = play["start"]["spin"]
+    play["start"]["spin"] = math.copysign(max(abs(spin), FASTEST_LOSS * play["duration"]), spin)
     scenario = sizes.merged(scenario, play)
     real, simulated = copy.deepcopy(scenario), copy.deepcopy(scenario)
     for name, departure in departures.items():

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/compare_learnt.hpp"
 #include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/result_of.hpp"
 #include "diabolo/diagnose/select.hpp"
@@ -128,40 +129,6 @@ inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, c
   return law;
 }
 
-/// A law that was learnt from what one of the two leaves over.
-inline ComparedLaw compared(const Learnt& learnt, const char* verdict) {
-  ComparedLaw law;
-  const LearntLawFound found = learnt_of(learnt);
-  law.name = found.name;
-  law.kind = "learnt";
-  law.what = found.law;
-  law.verdict = verdict;
-  (std::string_view(verdict) == "lacks" ? law.real : law.simulated) = found.numbers;
-  law.where.direction = found.acts;
-  return law;
-}
-
-/// Laws that were learnt: the same form in both is told as that.
-inline std::vector<ComparedLaw> compared_learnt(const Diagnosis& real, const Diagnosis& simulated) {
-  std::vector<ComparedLaw> result, others;
-  for (const Learnt& learnt : real.learnt) result.push_back(compared(learnt, "lacks"));
-  for (const Learnt& learnt : simulated.learnt) {
-    const auto same = std::ranges::find_if(real.learnt, [&](const Learnt& other) {
-      return other.law.acts == learnt.law.acts && other.law.formula.text() == learnt.law.formula.text();
-    });
-    ComparedLaw law = compared(learnt, "should_not_have");
-    if (same == real.learnt.end()) {
-      others.push_back(std::move(law));
-      continue;
-    }
-    ComparedLaw& both = result[static_cast<std::size_t>(same - real.learnt.begin())];
-    both.verdict = "agrees";
-    both.simulated = std::move(law.simulated);
-  }
-  std::ranges::move(others, std::back_inserter(result));
-  return result;
-}
-
 /// Names of some verdict in a row: "a, b and c".
 inline std::string listed(const std::vector<ComparedLaw>& laws, std::string_view verdict) {
   std::vector<std::string> names;
@@ -225,8 +192,10 @@ inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& re
 
 /// Holds what reality was found to have beside what a simulator was found to have, both against the same base.
 /// `real_result` and `simulated_result` are what result_of() makes of them.
-inline SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& simulated,
-                                             DiagnosisResult real_result, DiagnosisResult simulated_result) {
+template <class D = diagnose_detail::FitDual>
+SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& simulated,
+                                      DiagnosisResult real_result, DiagnosisResult simulated_result,
+                                      int threads, const Watch& watch = {}) {
   using namespace diagnose_detail;
   SimulatorComparison result;
   result.real = std::move(real_result);
@@ -242,7 +211,7 @@ inline SimulatorComparison compare_simulator(const Diagnosis& real, const Diagno
       else
         result.laws.push_back(std::move(law));
     }
-    std::ranges::move(compared_learnt(real, simulated), std::back_inserter(result.laws));
+    std::ranges::move(compared_learnt<D>(real, simulated, threads, watch), std::back_inserter(result.laws));
     const auto is_open = [](const ComparedLaw& law) {
       return law.verdict == "agrees" || law.verdict == "cannot_tell";
     };

@@ -64,7 +64,7 @@ inline UnknownVector within_bounds(const UnknownVector& scaled, const Fit& fit) 
 }
 
 /// What is predicted without having been fitted: `holdout`, by all evidence; or, where that is empty, each
-/// fold by the other folds' evidence. No window that touches a fold takes part. Free are `free` and, for each
+/// fold by the other folds' evidence. No window that touches a fold takes part; one without any is not asked. Free are `free` and, for each
 /// claim in turn, a set of `without`.
 inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& evidence,
                                                const ActiveSet& free, const std::vector<ActiveSet>& without,
@@ -84,7 +84,7 @@ inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& e
   if (!holdout.empty()) return result;
   for (const Fold& fold : folds_of(fit.fit_takes)) {
     const std::vector<bool> left_out = windows_in(fold, fit.fit_takes);
-    if (std::ranges::count(left_out, false) < 4) continue;
+    if (std::ranges::count(left_out, false) < 4 || std::ranges::count(left_out, true) == 0) continue;
     add(cut(fit.fit_takes[fold.fit_take].take->recording, fold.first, fold.last), left_out);
   }
   return result;

@@ -22,7 +22,8 @@ SimulatorComparison compare_simulator(const std::vector<Recording>& recordings,
   const Diagnosis real = diagnose<D>(recordings, options, watch);
   options.holdout.clear();
   const Diagnosis theirs = diagnose<D>(simulated, options, watch);
-  return compare_simulator(real, theirs, result_of(real, recordings), result_of(theirs, simulated));
+  return compare_simulator<D>(real, theirs, result_of(real, recordings), result_of(theirs, simulated),
+                              options.threads, {{}, watch.cancelled});
 }
 
 /// The same of a simulator that can be asked: it plays stretches from recorded starts, and its errors are told
@@ -37,7 +38,8 @@ SimulatorComparison compare_simulator(const std::vector<Recording>& recordings, 
   options.holdout.clear();
   const Diagnosis theirs = simulated.empty() ? Diagnosis{} : diagnose<D>(simulated, options, watch);
   SimulatorComparison result =
-      compare_simulator(real, theirs, result_of(real, recordings), result_of(theirs, simulated));
+      compare_simulator<D>(real, theirs, result_of(real, recordings), result_of(theirs, simulated),
+                           options.threads, {{}, watch.cancelled});
   if (!takes.empty()) result.fit = simulator_errors(takes, played, theirs.model, options.seed);
   return result;
 }

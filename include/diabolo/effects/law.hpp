@@ -79,6 +79,7 @@ struct LawNumber {
 /// A law by a formula of numbers and of kLawVariables. The first number is its amplitude: where that is zero,
 /// there is nothing.
 struct Law {
+  static constexpr double kLeastUsual = 1e-12;
   static constexpr std::size_t kMostNumbers = 6;  ///< of all laws of a model
 
   std::string name, plain;  ///< as in files, and in words
@@ -113,6 +114,7 @@ struct Law {
     for (std::size_t i = 0; i < numbers.size(); ++i)
       if (!formula.uses(kLawVariables.size() + i))
         throw std::invalid_argument(here + "number " + shown(numbers[i].name) + " is not in the formula");
+    check_amplitude(here);
   }
 
   bool operator==(const Law& other) const {
@@ -129,10 +131,23 @@ struct Law {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
     });
   }
+  /// Where the amplitude is zero there must be nothing: asked at some values of all variables.
+  void check_amplitude(const std::string& here) const {
+    for (const double variable : {0.3, -0.7, 2.0}) {
+      const double size = formula.value<double>([&](std::size_t i) {
+        return i < kLawVariables.size() ? variable : numbers[i - kLawVariables.size()].expected;
+      });
+      if (std::abs(size) > 1e-9)
+        throw std::invalid_argument(here + "the formula is " + shown(size) + " where " +
+                                    shown(numbers.front().name) +
+                                    " is 0; expected 0, since the first number is the amplitude");
+    }
+  }
   static void check(const LawNumber& number, const std::string& here) {
     if (!is_word(number.name)) throw std::invalid_argument(here + "name; expected letters, digits and _");
-    if (!(number.usual > 0.0) || !std::isfinite(number.usual))
-      throw std::invalid_argument(here + "usual " + shown(number.usual) + "; expected more than 0");
+    if (!(number.usual >= kLeastUsual && number.usual <= 1.0 / kLeastUsual))
+      throw std::invalid_argument(here + "usual " + shown(number.usual) + "; expected " +
+                                  shown(kLeastUsual) + " to " + shown(1.0 / kLeastUsual));
     if (!(number.minimum < number.maximum) || !std::isfinite(number.maximum - number.minimum))
       throw std::invalid_argument(here + "minimum " + shown(number.minimum) + " and maximum " +
                                   shown(number.maximum) + "; expected the one below the other");

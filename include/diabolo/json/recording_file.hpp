@@ -19,6 +19,7 @@
 #include "diabolo/recording/formats/tidy.hpp"
 #include "diabolo/recording/formats/up_axis.hpp"
 #include "diabolo/recording/plausibility/fall.hpp"
+#include "diabolo/recording/plausibility/frozen_tracks.hpp"
 #include "diabolo/recording/plausibility/marker_jumps.hpp"
 #include "diabolo/recording/plausibility/regular_times.hpp"
 #include "diabolo/text/file.hpp"
@@ -134,6 +135,7 @@ inline Recording load_recording(const std::filesystem::path& path,
   }
   regularise_times(recording);
   mask_jumps(recording);
+  mask_frozen(recording);
   if (!options.up) check_up(recording, is_motive ? calibration.world_yaw : 0.0, file_name);
   return recording;
 }

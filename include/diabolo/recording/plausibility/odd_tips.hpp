@@ -67,6 +67,24 @@ inline std::string odd_distance(const Recording& r) {
          std::to_string(std::lround(100.0 * share)) + " % of the rows: wrong units, or another string";
 }
 
+/// A clause about tips of which the left one lies before or behind the right one, where it is not clear which
+/// way an axle points; else empty.
+inline std::string odd_heading(const Recording& r) {
+  constexpr double kLeastAside = 0.4;  // share of what lies between the tips that is along y
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double length = 0.0;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!r.left.valid[i] || !r.right.valid[i]) continue;
+    const Eigen::Vector2d across = (r.left.position.col(i) - r.right.position.col(i)).head<2>();
+    sum += across;
+    length += across.norm();
+  }
+  if (!(sum.norm() > 0.5 * length) || std::abs(sum.y()) > kLeastAside * sum.norm()) return {};
+  return std::string("the left tip lies ") + (sum.x() > 0.0 ? "before" : "behind") +
+         " the right one, along x: the frame is turned by some 90 degrees about the vertical, and the spin's "
+         "sign is not sure; expected y to the left";
+}
+
 /// Longest shift that is looked for [s], the least that is told, and how much oftener the string has its
 /// usual length at a shift before it is.
 inline constexpr double kLongestShift = 1.0, kLeastShift = 0.05, kClearlyOftener = 1.5;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diabolo/recording/plausibility/fall.hpp"
+#include "diabolo/recording/plausibility/frozen_tracks.hpp"
 #include "diabolo/recording/plausibility/odd_stretches.hpp"
 #include "diabolo/recording/plausibility/odd_tips.hpp"
 #include "diabolo/recording/plausibility/odd_tracking.hpp"
@@ -20,9 +21,6 @@ namespace diabolo {
 /// Longest time [s] for which a tip may be unseen: half a beat of a player's hands, more than which no curve
 /// through what was seen before and after can make up for.
 inline constexpr double kLongestUnseen = 0.25;
-
-/// Longest time [s] for which a body may seem to rest to the last digit.
-inline constexpr double kLongestRest = 0.1;
 
 /// Longest time without rows [s] (beyond one period), and the largest share of rows that may be missing.
 inline constexpr double kLongestWithoutRows = 0.1, kMostMissingRows = 0.05;
@@ -45,6 +43,7 @@ inline std::vector<std::string> warnings(const Recording& recording) {
       !is_odd(odd_height(recording)) && !is_odd(odd_shift(recording)))
     is_odd(odd_fall(recording, fallen));
   is_odd(odd_axle(recording));
+  is_odd(odd_heading(recording));
   is_odd(odd_names(recording));
   const Track* const tips[2] = {&recording.left, &recording.right};
   const Track* const none[2] = {nullptr, nullptr};

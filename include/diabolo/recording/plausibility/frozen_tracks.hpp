@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "diabolo/recording/plausibility/odd_stretches.hpp"
+#include "diabolo/recording/plausibility/swapped_bodies.hpp"
+#include "diabolo/recording/recording.hpp"
+#include "diabolo/recording/track_noise.hpp"
+
+namespace diabolo {
+
+/// Longest time [s] for which a body may seem to rest to the last digit.
+inline constexpr double kLongestRest = 0.1;
+
+/// Noise [m] from which on a track cannot rest to the last digit.
+inline constexpr double kNoisyTrack = 1e-5;
+
+/// Rows of a track that repeat the one before for longer than kLongestRest.
+inline Marks repeated_rows(const Recording& r, const Track& track, Stretches& found) {
+  Marks marks = Marks::Constant(r.size(), false);
+  for (Eigen::Index first = 0, i = 1; i <= r.size(); ++i) {
+    if (i < r.size() && track.valid[i] && track.position.col(i) == track.position.col(first)) continue;
+    if (r.time[i - 1] - r.time[first] > kLongestRest) {
+      found.add(r.time[first], r.time[i - 1]);
+      marks.segment(first + 1, i - 1 - first).setConstant(true);
+    }
+    first = i;
+  }
+  return marks;
+}
+
+/// Makes dropouts of rows in which a track repeats itself for longer than kLongestRest although its noise moves
+/// it elsewhere: what tracked it held the last pose. Returns how many; a note tells of each body's longest.
+inline Eigen::Index mask_frozen(Recording& r) {
+  constexpr std::array<const char*, 3> kNames{"left tip", "right tip", "diabolo"};
+  const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(r);
+  Eigen::Index total = 0;
+  std::string told;
+  for (std::size_t b = 0; b < 3; ++b) {
+    Stretches found;
+    const Marks frozen = repeated_rows(r, *tracks[b], found);
+    if (found.count == 0) continue;
+    Track moving = *tracks[b];
+    moving.valid = moving.valid && !frozen;
+    if (!(track_noise(moving).deviation.maxCoeff() > kNoisyTrack)) continue;
+    total += frozen.count();
+    told += (told.empty() ? "the " : ", the ") + std::string(kNames[b]) + " for " + found.text();
+    OrientationTrack& turn = *recording_plausibility_detail::orientations_of(r)[b];
+    for (Eigen::Index i = 0; i < r.size(); ++i) {
+      if (!frozen[i]) continue;
+      tracks[b]->valid[i] = false;
+      tracks[b]->position.col(i).setConstant(kNaN);
+      if (turn.empty()) continue;
+      turn.valid[i] = false;
+      turn.quaternion.col(i).setConstant(kNaN);
+    }
+  }
+  if (total > 0) r.notes.push_back("frozen tracking, read as dropouts: " + told);
+  return total;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/simulator.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "catch.hpp"
+#include "diabolo/diagnose/compiled.hpp"
+
+#include "played.hpp"
+
+using namespace diabolo;
+using Catch::Matchers::Contains;
+
+namespace {
+
+AllEffects<double> rubbing(double friction, double drag = 0.0) {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = friction;
+  effects.get<Air>().linear_drag = drag;
+  return effects;
+}
+
+const ComparedLaw* law_of(const SimulatorComparison& c, std::string_view name) {
+  const auto found = std::ranges::find(c.laws, name, &ComparedLaw::name);
+  return found == c.laws.end() ? nullptr : &*found;
+}
+
+bool covers(const std::vector<Estimate>& numbers, double truth) {
+  return !numbers.empty() && numbers.front().ci90->low < truth && truth < numbers.front().ci90->high;
+}
+
+}  // namespace
+
+TEST_CASE("a recording of a simulator tells what it lacks, and what it has and reality has not") {
+  const std::vector<Recording> real{played(rubbing(0.2), 14.0, 1)},
+      theirs{played(rubbing(0.0, 0.2), 14.0, 2)};
+  const SimulatorComparison c = compare_simulator(real, theirs);
+  CAPTURE(c.sentence);
+  const ComparedLaw *friction = law_of(c, "string_friction"), *drag = law_of(c, "air_drag_linear");
+  REQUIRE(friction != nullptr);
+  REQUIRE(drag != nullptr);
+  CHECK(friction->verdict == "lacks");
+  CHECK(covers(friction->difference, 0.2));
+  CHECK(drag->verdict == "should_not_have");
+  CHECK(covers(drag->difference, -0.2));
+}
+
+TEST_CASE("half of a law is too little, twice of it too much, the same agrees") {
+  const std::vector<Recording> real{played(rubbing(0.15), 14.0, 3)};
+  for (const auto& [friction, verdict] : {std::pair{0.07, "too_little"}, {0.3, "too_much"}, {0.15, "agrees"}}) {
+    const SimulatorComparison c =
+        compare_simulator(real, std::vector<Recording>{played(rubbing(friction), 14.0, 4)});
+    CAPTURE(friction, c.sentence);
+    REQUIRE(law_of(c, "string_friction") != nullptr);
+    CHECK(law_of(c, "string_friction")->verdict == std::string_view(verdict));
+  }
+}
+
+TEST_CASE("a simulator that can be asked is corrected by what it lacks") {
+  const std::vector<Recording> real{played(rubbing(0.2), 14.0, 5)};
+  const Simulate simulate = [](const State<double>& start, const TipMotion<double>& tips,
+                               const Eigen::VectorXd& times) {
+    const Predictor<double> predictor{Parameters<double>{}};
+    std::vector<State<double>> states{start};
+    constexpr int kSteps = 8;
+    State<double> state = start;
+    std::size_t hint = 0;
+    for (Eigen::Index i = 1; i < times.size(); ++i) {
+      const double dt = (times[i] - times[i - 1]) / kSteps;
+      for (int s = 0; s < kSteps; ++s) {
+        const double t = times[i - 1] + s * dt;
+        const Tips<double> before = tips.at(t, hint), after = tips.at(t + dt, hint);
+        predictor.step(state, before, after, dt);
+      }
+      states.push_back(state);
+    }
+    return states;
+  };
+  const SimulatorComparison c = compare_simulator(real, simulate);
+  CAPTURE(c.sentence);
+  REQUIRE(law_of(c, "string_friction") != nullptr);
+  CHECK(law_of(c, "string_friction")->verdict == "lacks");
+  REQUIRE(c.fit.base_error_m.back());
+  CHECK(*c.fit.augmented_error_m.back() < 0.4 * *c.fit.base_error_m.back());
+  REQUIRE(c.fit.improvement_ci95_m.back());
+  CHECK(c.fit.improvement_ci95_m.back()->low > 0.0);
+}
+
+TEST_CASE("stretches follow each other, each from a state that is known") {
+  const Recording take = played({}, 10.0, 6);
+  const std::vector<Stretch> stretches = stretches_of(take);
+  CHECK(stretches.size() >= 5);
+  Eigen::Index last = -1;
+  for (const Stretch& stretch : stretches) {
+    CHECK(stretch.first > last);
+    CHECK(take.time[stretch.last] - take.time[stretch.first] <= kStretchTime + 1.0 / take.rate);
+    CHECK((stretch.start.position - take.diabolo.position.col(stretch.first)).norm() == 0.0);
+    CHECK(stretch.start.spin == Approx(180.0).margin(20.0));
+    last = stretch.last;
+  }
+}
+
+TEST_CASE("a levelled frame has gravity along -z, and all distances stay") {
+  const Recording take = played({}, 4.0, 7);
+  const double x = 0.03, y = -0.02;
+  const Recording level = levelled(take, x, y);
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
+      Eigen::Vector3d(x, y, -std::sqrt(1.0 - x * x - y * y)), -Eigen::Vector3d::UnitZ());
+  for (const Eigen::Index i : {Eigen::Index{0}, take.size() / 2, take.size() - 1}) {
+    CHECK((level.diabolo.position.col(i) - turn * take.diabolo.position.col(i)).norm() < 1e-12);
+    CHECK((level.left.position.col(i) - level.diabolo.position.col(i)).norm() ==
+          Approx((take.left.position.col(i) - take.diabolo.position.col(i)).norm()));
+  }
+}
+
+TEST_CASE("what a simulator gives is checked, and spins that it does not know are none") {
+  TakeToPlay take{played({}, 4.0, 8), consistent_model(), {}};
+  take.stretches = stretches_of(take.recording);
+  const auto states_of = [&](const Stretch& stretch) {
+    State<double> state = stretch.start;
+    state.spin = kNaN;
+    return std::vector<State<double>>(static_cast<std::size_t>(stretch.last - stretch.first + 1), state);
+  };
+  std::vector<std::vector<State<double>>> states;
+  for (const Stretch& stretch : take.stretches) states.push_back(states_of(stretch));
+  CHECK(with_diabolo(take, states).diabolo_orientation.empty());
+  states.front().pop_back();
+  CHECK_THROWS_WITH(check_played(states.front(), take, take.stretches.front()),
+                    Contains("one for each time"));
+  states.front() = states_of(take.stretches.front());
+  states.front().back().position.x() = kNaN;
+  CHECK_THROWS_WITH(check_played(states.front(), take, take.stretches.front()),
+                    Contains("not finite"));
+}
