@@ -113,13 +113,10 @@ Simulate simulate_by(const py::object& simulate) {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     const py::object given = simulate(state_array(start), std::make_shared<TipMotion<double>>(tips),
                                       Array(times.size(), times.data()));
-    Array rows;
-    try {
-      rows = given.cast<Array>();
-    } catch (const py::cast_error&) {
+    const Array rows = Array::ensure(given);
+    if (!rows)
       throw std::invalid_argument("simulate: it gave " + std::string(py::str(py::type::of(given))) +
                                   "; expected an array of the shape (N, 7) or (N, 3), a row for each time");
-    }
     return to_states(rows);
   };
 }

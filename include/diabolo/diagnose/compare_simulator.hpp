@@ -73,6 +73,11 @@ inline bool differs(const Candidate& candidate, const Estimates& difference, dou
          size > (is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach);
 }
 
+/// Whether everybody has more or less of it, and never none.
+inline bool has_always(const Candidate& candidate) {
+  return first_of(candidate) == Unknown::kStringLength || candidate.name == "gravity_magnitude";
+}
+
 /// What the simulator has of it, where the two differ.
 inline const char* verdict_of(const Candidate& candidate, const Estimates& real, const Estimates& simulated,
                               bool is_real, bool is_simulated) {
@@ -83,25 +88,29 @@ inline const char* verdict_of(const Candidate& candidate, const Estimates& real,
     return candidate.unknowns.size() == 1 ? estimates.estimate[index_of(first_of(candidate))]
                                           : std::sqrt(square);
   };
-  const bool has_always = first_of(candidate) == Unknown::kStringLength ||
-                          candidate.name == "gravity_magnitude";  // more or less of it, and never none
-  if (is_real && !is_simulated && !has_always) return "lacks";
-  if (!is_real && is_simulated && !has_always) return "should_not_have";
+  const bool always = has_always(candidate);
+  if (is_real && !is_simulated && !always) return "lacks";
+  if (!is_real && is_simulated && !always) return "should_not_have";
   const double a = length(real), b = length(simulated);
-  return (candidate.positive || has_always || a * b < 0.0 ? b > a : std::abs(b) > std::abs(a)) ? "too_much"
+  return (candidate.positive || always || a * b < 0.0 ? b > a : std::abs(b) > std::abs(a)) ? "too_much"
                                                                                               : "too_little";
 }
 
-/// Real less simulated, number by number.
-inline std::vector<Estimate> difference_of(const Candidate& candidate, const Estimates& difference) {
-  std::vector<Estimate> numbers = parameters_of(finding_of(candidate, difference), 0.0, 1.0);
-  if (candidate.law == nullptr) return numbers;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {  // which tell values, not what lies between two
-    const double expected = candidate.law->numbers[i].expected;
-    numbers[i].value -= expected;
-    numbers[i].ci90 = Interval{numbers[i].ci90->low - expected, numbers[i].ci90->high - expected};
+/// Real less simulated, number by number. Of springs it is what has to stand in series: their compliances add.
+inline std::vector<Estimate> difference_of(const Candidate& candidate, const Estimates& difference,
+                                           const std::vector<Estimate>& real,
+                                           const std::vector<Estimate>& simulated) {
+  if (first_of(candidate) == Unknown::kCompliance || first_of(candidate) == Unknown::kStickCompliance)
+    return parameters_of(finding_of(candidate, difference), 0.0, 1.0);
+  std::vector<Estimate> result;
+  for (std::size_t i = 0; i < std::min(real.size(), simulated.size()); ++i) {
+    const auto deviation = [](const Estimate& e) {
+      return e.ci90 ? (e.ci90->high - e.ci90->low) / (2.0 * kNormal95) : 0.0;
+    };
+    result.push_back(with_deviation(real[i].name, real[i].value - simulated[i].value,
+                                    std::hypot(deviation(real[i]), deviation(simulated[i])), real[i].unit));
   }
-  return numbers;
+  return result;
 }
 
 inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, const Diagnosis& simulated,
@@ -123,17 +132,19 @@ inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, c
   law.real = parameters_of(finding_of(candidate, in_real), real.base_string_length, real.base_gravity);
   law.simulated =
       parameters_of(finding_of(candidate, in_simulated), simulated.base_string_length, simulated.base_gravity);
-  law.difference = difference_of(candidate, difference);
+  law.difference = difference_of(candidate, difference, law.real, law.simulated);
   law.where = claim != nullptr ? place_of(*claim, real.windows) : place_of(*same, simulated.windows);
   if (!is_of_spin(candidate) && candidate.kind == CandidateKind::kPhysics) law.size_m = size;
   return law;
 }
 
-/// Names of some verdict in a row: "a, b and c".
-inline std::string listed(const std::vector<ComparedLaw>& laws, std::string_view verdict) {
+/// Names of some verdict in a row: "a, b and c"; of faults of measurement or of all else.
+inline std::string listed(const std::vector<ComparedLaw>& laws, std::string_view verdict,
+                          bool faults = false) {
   std::vector<std::string> names;
   for (const ComparedLaw& law : laws) {
-    if (law.verdict != verdict) continue;
+    const bool fault = law.kind == "measurement" && law.verdict == "should_not_have";
+    if (law.verdict != verdict || fault != faults) continue;
     names.push_back(law.what);
     for (std::size_t i = 0; i < law.tied_with.size(); ++i)
       names.back() += (i == 0 ? " (or " : ", ") + std::string(candidate_of(law.tied_with[i]).plain) +
@@ -170,11 +181,13 @@ inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& re
   say("too_little", "has too little of ", "");
   say("too_much", "has too much of ", "");
   say("should_not_have", "has ", ", which reality has not");
+  if (const std::string faults = listed(c.laws, "should_not_have", true); !faults.empty())
+    text += (text.empty() ? "The simulator" : "; it") + (" plays as with a fault of " + faults);
   text = text.empty() ? "The simulator has what reality has, as far as these recordings can show." : text + ".";
   if (const std::string both = listed(c.laws, "agrees"); !both.empty())
-    text += " Reality and simulator agree in " + both + ".";
+    text += " Reality and the simulator agree in " + both + ".";
   if (const std::string open = listed(c.laws, "cannot_tell"); !open.empty())
-    text += " Whether they do in " + open + " cannot be told.";
+    text += " Whether the two agree in " + open + " cannot be told.";
   if (!c.recording_faults.empty()) {
     text += " The recordings are off by ";
     for (std::size_t i = 0; i < c.recording_faults.size(); ++i)
@@ -206,7 +219,8 @@ SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& si
                     in_simulated = estimates_beside(*simulated.final_fit, claimed);
     for (const Candidate* candidate : claimed) {
       ComparedLaw law = compared(*candidate, real, simulated, in_real, in_simulated);
-      if (law.kind == "measurement" && law.verdict == "lacks")
+      const bool in_real_alone = claim_of(simulated, candidate->name) == nullptr;
+      if (law.kind == "measurement" && in_real_alone && !has_always(*candidate))
         result.recording_faults.push_back(law.what);
       else
         result.laws.push_back(std::move(law));

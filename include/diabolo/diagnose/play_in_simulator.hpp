@@ -82,16 +82,17 @@ inline std::vector<Stretch> stretches_of(const Recording& recording) {
   return stretches;
 }
 
-/// What a simulator is to play of the recordings, or of those that were held out. The spin's axle is as
-/// recorded, lengths and tips as they were found to be, and the frame is level.
+/// What a simulator is to play of the recordings, or of those that were held out. The axle is as recorded,
+/// lengths and tips as they were found to be by all recordings, so that all stretches are of one set-up, and
+/// the frame is level. The models' physics is that of the other takes, or parts.
 inline std::vector<TakeToPlay> takes_to_play(const Diagnosis& real, const std::vector<Recording>& holdout) {
   std::vector<TakeToPlay> takes;
   if (!real.final_fit) return takes;
   const auto& [physics, fit, free] = *real.final_fit;
   for (const HeldOutRecording& held : leave_out(fit, Evidence(fit), free, {}, holdout)) {
+    Recording level = levelled(corrected(held.recording, fit.at), fit.at[index_of(Unknown::kTiltX)],
+                               fit.at[index_of(Unknown::kTiltY)]);
     UnknownVector at = held.at;
-    Recording level = levelled(corrected(held.recording, at), at[index_of(Unknown::kTiltX)],
-                               at[index_of(Unknown::kTiltY)]);
     at[index_of(Unknown::kTiltX)] = at[index_of(Unknown::kTiltY)] = 0.0;
     std::vector<Stretch> stretches = stretches_of(level);
     takes.push_back({std::move(level), augmented_model(physics, at, "real"), std::move(stretches)});

@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace) -> None:
         raise ValueError(
             f"--rate: {arguments.rate:g} Hz would make {rows:.3g} rows; expected 2 to {MOST_ROWS}"
         )
-    times = tips.begin + np.arange(int(rows) + 1) / arguments.rate
+    times = tips.begin + np.arange(int(rows + 1e-6) + 1) / arguments.rate
     left, right, _, _ = tips.at(times)
     starts = [
         {
