@@ -23,7 +23,7 @@ namespace {
 using namespace py::literals;
 
 void bind_parts(py::module_& module) {
-  bind_record<LeftOver>(module);
+  bind_record<ResidualAndNoise>(module);
   bind_record<ChangeInTime>(module);
   bind_record<Adequacy>(module);
   bind_record<Estimate>(module);

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LeftOver', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LeftOver', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -2724,6 +2724,126 @@ class DiagnosisResult:
         """
         Of the tool.
         """
+class ComparedLaw:
+    """
+    A law in reality and in a simulator.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def difference(self) -> list[Estimate]:
+        """
+        Real less simulated: what the simulator has to get.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        physics, measurement or learnt.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Of the candidate, or of a law that was learnt.
+        """
+    @property
+    def p_value(self) -> float | None:
+        """
+        That the two are the same, over all candidates.
+        """
+    @property
+    def real(self) -> list[Estimate]:
+        """
+        What it comes out as in the recordings.
+        """
+    @property
+    def simulated(self) -> list[Estimate]:
+        """
+        What it comes out as in the simulated ones.
+        """
+    @property
+    def size_m(self) -> float | None:
+        """
+        How far the difference moves a free diabolo in 0.5 s; null where it does not act so.
+        """
+    @property
+    def tied_with(self) -> list[str]:
+        """
+        Candidates that explain the recordings as well.
+        """
+    @property
+    def verdict(self) -> str:
+        """
+        agrees, lacks, too_little, too_much or should_not_have, of the simulator; cannot_tell where one of the two shows it and the other is unsure.
+        """
+    @property
+    def what(self) -> str:
+        """
+        In words.
+        """
+    @property
+    def where(self) -> EffectPlace:
+        """
+        Where it matters.
+        """
+class SimulatorComparison:
+    """
+    What reality has and a simulator has not, law by law.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    def to_json(self) -> str:
+        """
+        The text of its file, schema diabolo.comparison/1.
+        """
+    @property
+    def fit(self) -> HeldOutErrors:
+        """
+        Errors of the simulator on data that was not fitted, alone and with the difference of our two models; without horizons where it was not asked to play from recorded starts.
+        """
+    @property
+    def laws(self) -> list[ComparedLaw]:
+        """
+        What differs, the largest first, and then what agrees.
+        """
+    @property
+    def real(self) -> DiagnosisResult:
+        """
+        Diagnosis of the recordings.
+        """
+    @property
+    def recording_faults(self) -> list[str]:
+        """
+        Faults of the recordings, which no simulator has to have.
+        """
+    @property
+    def schema(self) -> str:
+        """
+        diabolo.comparison/1.
+        """
+    @property
+    def sentence(self) -> str:
+        """
+        The answer in words.
+        """
+    @property
+    def simulated(self) -> DiagnosisResult:
+        """
+        Diagnosis of what was simulated.
+        """
 class Waypoint:
     """
     A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
@@ -3337,6 +3457,10 @@ def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: typing
     """
     Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.
     """
+def compare_simulator(recordings: collections.abc.Sequence[Recording], simulated: collections.abc.Sequence[Recording], simulate: typing.Any, base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
+    """
+    See diabolo.compare_simulator.
+    """
 def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
     """
     See diabolo.diagnose.
@@ -3440,6 +3564,10 @@ def score_horizons(recordings: collections.abc.Sequence[Recording], model: Model
 def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsIndex, start: str = 'fair', signed_spin: bool = True) -> State:
     """
     State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program.
+    """
+def stretch_starts(recording: Recording) -> list:
+    """
+    Rows from which a simulator is asked to play, each with its state, shape (7,).
     """
 def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> float:
     """

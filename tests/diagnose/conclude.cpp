@@ -81,8 +81,8 @@ TEST_CASE("what was not done ends the sentence") {
   d.not_done = {"this"};
   conclude(d);
   CHECK(d.sentence == "Nothing is missing that this recording could show. Not done: this.");
-  d.not_done.push_back("that (no time left)");
+  d.not_done.push_back("that (beyond the budget)");
   conclude(d);
   CHECK(d.sentence ==
-        "Nothing is missing that this recording could show. Not done: this; that (no time left).");
+        "Nothing is missing that this recording could show. Not done: this; that (beyond the budget).");
 }

@@ -55,7 +55,7 @@ TEST_CASE("a slight force that windows do not show is told by predictions of dat
   const auto ahead_of = [](double left) {
     diagnose_detail::Compared compared;
     for (int i = 0; i < 60; ++i) compared.add(0.02, left, 0.004);
-    LeftOver result = *diagnose_detail::left_over_of(compared, 1e-3, 2);
+    ResidualAndNoise result = *diagnose_detail::residual_and_noise_of(compared, 1e-3, 2);
     result.quantity = "position";
     result.unit = "m";
     result.ahead_s = 1.0;
@@ -89,7 +89,7 @@ TEST_CASE("the spin is judged by the spin") {
   CHECK(a.adequate == false);
   CHECK(*a.explained == Approx(1.0).margin(0.01));
   CHECK(*a.spin_explained == Approx(2.0 / 5.5).epsilon(0.1));
-  for (const LeftOver& place : a.places) CHECK(place.quantity == "spin");
+  for (const ResidualAndNoise& place : a.places) CHECK(place.quantity == "spin");
 }
 
 TEST_CASE("a stretch of time is found in a take that is right elsewhere") {

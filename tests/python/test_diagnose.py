@@ -279,7 +279,7 @@ def test_a_spent_budget_is_told(played: Recording) -> None:
 def test_with_little_time_few_windows_are_fitted() -> None:
     answer = diagnose(make_recording(seconds=20.0), budget=1e-3)
     (left,) = answer.result.not_done
-    assert re.fullmatch(r"fitting more than 20 of [0-9]+ windows \(no time left\)", left)
+    assert re.fullmatch(r"fitting more than 20 of [0-9]+ windows \(beyond the budget\)", left)
     assert answer.sentence.endswith(f"Not done: {left}.")
 
 

@@ -15,8 +15,8 @@ namespace diabolo {
 /// which nothing in a recording tells from motion: as much as it flickers would make a factor of 1.4.
 inline constexpr double kTimesNoise = 2.0;
 
-struct LeftOver {
-  static constexpr const char* kName = "LeftOver";
+struct ResidualAndNoise {
+  static constexpr const char* kName = "ResidualAndNoise";
   static constexpr const char* kDoc =
       "What windows of half a second, or predictions of data left out, leave over, and what noise would.";
 
@@ -28,22 +28,22 @@ struct LeftOver {
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
-    visit("quantity", &LeftOver::quantity, "position or spin.");
-    visit("unit", &LeftOver::unit, "m or rad/s.");
-    visit("mode", &LeftOver::mode, "State of the string; EVENT where it changes, ANY for all.");
-    visit("direction", &LeftOver::direction, "forward, left or up where one leads; else empty.");
-    visit("recording", &LeftOver::recording, "By its name; empty for all.");
-    visit("begin_s", &LeftOver::begin_s, "Of the stretch of time.");
-    visit("end_s", &LeftOver::end_s, "");
-    visit("ahead_s", &LeftOver::ahead_s,
+    visit("quantity", &ResidualAndNoise::quantity, "position or spin.");
+    visit("unit", &ResidualAndNoise::unit, "m or rad/s.");
+    visit("mode", &ResidualAndNoise::mode, "State of the string; EVENT where it changes, ANY for all.");
+    visit("direction", &ResidualAndNoise::direction, "forward, left or up where one leads; else empty.");
+    visit("recording", &ResidualAndNoise::recording, "By its name; empty for all.");
+    visit("begin_s", &ResidualAndNoise::begin_s, "Of the stretch of time.");
+    visit("end_s", &ResidualAndNoise::end_s, "");
+    visit("ahead_s", &ResidualAndNoise::ahead_s,
           "Of a prediction of data left out; null for windows that are fitted.");
-    visit("windows", &LeftOver::windows, "How many were looked at, of half a second each; or predictions.");
-    visit("base", &LeftOver::base,
+    visit("windows", &ResidualAndNoise::windows, "How many were looked at, of half a second each; or predictions.");
+    visit("base", &ResidualAndNoise::base,
           "Left by the base in the middle window, root mean square; ahead, the middle distance.");
-    visit("left", &LeftOver::left, "The same with what was found.");
-    visit("noise", &LeftOver::noise, "The same of noise alone.");
-    visit("times_noise", &LeftOver::times_noise, "How many times the noise the middle window leaves.");
-    visit("p_value", &LeftOver::p_value, "Chance that noise leaves more than noise in so many windows.");
+    visit("left", &ResidualAndNoise::left, "The same with what was found.");
+    visit("noise", &ResidualAndNoise::noise, "The same of noise alone.");
+    visit("times_noise", &ResidualAndNoise::times_noise, "How many times the noise the middle window leaves.");
+    visit("p_value", &ResidualAndNoise::p_value, "Chance that noise leaves more than noise in so many windows.");
   }
 };
 
@@ -72,7 +72,7 @@ struct Adequacy {
 
   std::optional<bool> adequate, base_adequate;
   std::optional<double> explained, spin_explained;
-  std::vector<LeftOver> overall, places;
+  std::vector<ResidualAndNoise> overall, places;
   std::vector<ChangeInTime> changes;
 
   template <class Visit>

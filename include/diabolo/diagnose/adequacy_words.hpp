@@ -24,7 +24,7 @@ inline std::string size_in_words(double value, const std::string& unit) {
 }
 
 /// Where most is left over, after a comma.
-inline std::string place_in_words(const LeftOver& left) {
+inline std::string place_in_words(const ResidualAndNoise& left) {
   std::string text;
   if (left.mode == "ON_STRING") text += ", mostly on the string";
   if (left.mode == "LOOSE") text += ", mostly on the slack string";
@@ -41,7 +41,7 @@ inline std::string place_in_words(const LeftOver& left) {
 
 /// What is left beyond noise: size and place.
 inline std::string left_in_words(const Adequacy& adequacy) {
-  const LeftOver& worst = adequacy.places.front();
+  const ResidualAndNoise& worst = adequacy.places.front();
   const std::string when = worst.ahead_s ? shown(*worst.ahead_s) + " s ahead, where the start's noise makes "
                                          : "within half a second, where noise leaves ";
   return size_in_words(worst.left, worst.unit) + " " + when + size_in_words(worst.noise, worst.unit) +

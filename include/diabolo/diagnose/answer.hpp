@@ -68,7 +68,7 @@ struct HeldOut {
   /// again: claim by claim, horizon by horizon [m].
   std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
   std::vector<std::optional<double>> augmented_median;  ///< of the distances [m]
-  std::vector<LeftOver> ahead;                          ///< at each horizon of kAhead and more
+  std::vector<ResidualAndNoise> ahead;                          ///< at each horizon of kAhead and more
   std::size_t windows = 0;
 };
 

@@ -160,8 +160,8 @@ inline std::string listed(const std::vector<ComparedLaw>& laws, std::string_view
 /// own, and not every micrometre of it counts.
 inline bool has_left_over(const Diagnosis& d, const Diagnosis& camera) {
   if (d.adequacy.adequate.value_or(true)) return false;
-  return std::ranges::any_of(d.adequacy.overall, [&](const LeftOver& left) {
-    const auto same = std::ranges::find_if(camera.adequacy.overall, [&](const LeftOver& other) {
+  return std::ranges::any_of(d.adequacy.overall, [&](const ResidualAndNoise& left) {
+    const auto same = std::ranges::find_if(camera.adequacy.overall, [&](const ResidualAndNoise& other) {
       return other.quantity == left.quantity && other.ahead_s == left.ahead_s;
     });
     return same == camera.adequacy.overall.end() || left.left > kTimesNoise * same->noise;

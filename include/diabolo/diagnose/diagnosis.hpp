@@ -58,7 +58,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
   bool by_friction = false;
   const bool backwards = inquiry.backwards() && !sides_are_right;
   if (backwards && budget.spent()) {
-    result.not_done.emplace_back("asking again with the sticks exchanged (no time left)");
+    result.not_done.emplace_back("asking again with the sticks exchanged (beyond the budget)");
     conclude(result);
   } else if (backwards) {
     for (std::vector<Recording>* list : {&recordings, &options.holdout})

@@ -80,6 +80,11 @@ using FitPredictor =
     Predictor<D, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
               StickFlex, StringMass, LandingRestitution, UnnamedForce, LatentForce, FormulaLaws>;
 
+// An effect that a base may have and a fit does not know would be left out of it without a word.
+// (GyroscopicTilt turns the axle alone, see find_axle_motion(); LatentForce stands in its place.)
+static_assert(std::tuple_size_v<decltype(FitPredictor<double>::Set::members)> ==
+              std::tuple_size_v<decltype(AllEffects<double>::members)>);
+
 /// The base with everything that may be missing, which carries its derivatives.
 template <class D>
 struct FitModel {

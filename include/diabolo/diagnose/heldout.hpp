@@ -12,7 +12,7 @@
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/evidence.hpp"
-#include "diabolo/diagnose/left_over.hpp"
+#include "diabolo/diagnose/residual_and_noise.hpp"
 #include "diabolo/evaluate/horizon_score.hpp"
 
 namespace diabolo {
@@ -207,8 +207,8 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     result.start_error.push_back(mean_if_any(errors.start));
     result.improvement_ci95.push_back(interval_of(errors.gain, options.horizons[h]));
     if (options.horizons[h] < kAhead) continue;
-    std::optional<LeftOver> left =
-        diagnose_detail::left_over_of(errors.compared, kImmaterialAhead, kStartsAlike);
+    std::optional<ResidualAndNoise> left =
+        diagnose_detail::residual_and_noise_of(errors.compared, kImmaterialAhead, kStartsAlike);
     if (!left) continue;
     left->quantity = "position";
     left->unit = "m";

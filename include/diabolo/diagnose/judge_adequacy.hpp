@@ -14,7 +14,7 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/change_in_time.hpp"
-#include "diabolo/diagnose/left_over.hpp"
+#include "diabolo/diagnose/residual_and_noise.hpp"
 
 namespace diabolo {
 
@@ -66,7 +66,7 @@ inline std::string leading_direction(const Windows& windows) {
 }
 
 /// What the middle one of some windows leaves; nothing where fewer than kStretch say anything.
-inline std::optional<LeftOver> left_over_in(const Windows& windows, const Channel& channel) {
+inline std::optional<ResidualAndNoise> residual_and_noise_in(const Windows& windows, const Channel& channel) {
   Compared compared;
   Windows seen;
   for (const WindowFinding* w : windows) {
@@ -74,7 +74,7 @@ inline std::optional<LeftOver> left_over_in(const Windows& windows, const Channe
     seen.push_back(w);
     compared.add(w->*channel.base, w->*channel.left, w->*channel.noise);
   }
-  std::optional<LeftOver> result = left_over_of(compared, channel.immaterial, 1);
+  std::optional<ResidualAndNoise> result = residual_and_noise_of(compared, channel.immaterial, 1);
   if (!result) return std::nullopt;
   result->quantity = channel.quantity;
   result->unit = channel.unit;
@@ -83,7 +83,7 @@ inline std::optional<LeftOver> left_over_in(const Windows& windows, const Channe
 }
 
 /// The share of the gap beyond noise that was closed; nothing where there is none.
-inline std::optional<double> explained_of(const LeftOver& left) {
+inline std::optional<double> explained_of(const ResidualAndNoise& left) {
   if (!(left.base > kTimesNoise * left.noise)) return std::nullopt;
   return std::min(1.0, (left.base - left.left) / (left.base - left.noise));
 }
@@ -94,7 +94,7 @@ inline const char* mode_of(const WindowFinding& w) {
 }
 
 /// Stretches of time without events in which more is left than noise leaves, joined where they touch.
-inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Channel& channel,
+inline std::vector<ResidualAndNoise> stretches_beyond(const Windows& windows, const Channel& channel,
                                               const std::vector<std::string>& names) {
   const auto part = [&](std::size_t first, std::size_t end) {
     return Windows(windows.begin() + static_cast<std::ptrdiff_t>(first),
@@ -104,7 +104,7 @@ inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Chan
   for (std::size_t first = 0; first + kStretch <= windows.size(); first += kStretch / 2) {
     const std::size_t end = first + kStretch;
     if (windows[first]->recording != windows[end - 1]->recording) continue;
-    const std::optional<LeftOver> left = left_over_in(part(first, end), channel);
+    const std::optional<ResidualAndNoise> left = residual_and_noise_in(part(first, end), channel);
     if (!left || !is_beyond_noise(*left)) continue;
     if (!ranges.empty() && first <= ranges.back().second &&
         windows[ranges.back().first]->recording == windows[first]->recording)
@@ -112,9 +112,9 @@ inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Chan
     else
       ranges.emplace_back(first, end);
   }
-  std::vector<LeftOver> result;
+  std::vector<ResidualAndNoise> result;
   for (const auto& [first, end] : ranges) {
-    result.push_back(*left_over_in(part(first, end), channel));
+    result.push_back(*residual_and_noise_in(part(first, end), channel));
     result.back().recording = names[windows[first]->recording];
     result.back().begin_s = windows[first]->begin;
     result.back().end_s = windows[end - 1]->end;
@@ -129,7 +129,7 @@ inline std::vector<LeftOver> stretches_beyond(const Windows& windows, const Chan
 /// that a window with a start of its own does not. `names` are the recordings'.
 inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
                                const std::vector<std::string>& names,
-                               const std::vector<LeftOver>& ahead = {}) {
+                               const std::vector<ResidualAndNoise>& ahead = {}) {
   namespace in = diagnose_detail;
   Adequacy result;
   in::Windows all, calm;
@@ -138,11 +138,11 @@ inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
     if (!w.eventful) calm.push_back(&w);
   }
   for (const in::Channel& channel : {in::kPositionChannel, in::kSpinChannel}) {
-    const std::optional<LeftOver> overall = in::left_over_in(all, channel);
+    const std::optional<ResidualAndNoise> overall = in::residual_and_noise_in(all, channel);
     if (!overall) continue;
     in::Channel of_base = channel;
     of_base.left = channel.base;
-    const std::optional<LeftOver> before = in::left_over_in(all, of_base);
+    const std::optional<ResidualAndNoise> before = in::residual_and_noise_in(all, of_base);
     result.adequate = result.adequate.value_or(true);
     result.base_adequate = result.base_adequate.value_or(true) && !(before && in::is_beyond_noise(*before));
     (channel.quantity == in::kPositionChannel.quantity ? result.explained : result.spin_explained) =
@@ -153,16 +153,16 @@ inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
       in::Windows part;
       for (const WindowFinding* w : all)
         if (std::string(in::mode_of(*w)) == mode) part.push_back(w);
-      std::optional<LeftOver> left = in::left_over_in(part, channel);
+      std::optional<ResidualAndNoise> left = in::residual_and_noise_in(part, channel);
       if (!left || !in::is_beyond_noise(*left)) continue;
       left->mode = mode;
       result.places.push_back(*left);
     }
     std::ranges::move(in::stretches_beyond(calm, channel, names), std::back_inserter(result.places));
   }
-  std::ranges::stable_sort(result.places, std::greater(), &LeftOver::times_noise);
+  std::ranges::stable_sort(result.places, std::greater(), &ResidualAndNoise::times_noise);
   result.changes = changes_in_time(windows);
-  for (const LeftOver& left : ahead) {
+  for (const ResidualAndNoise& left : ahead) {
     if (!result.adequate) break;
     result.overall.push_back(left);
     if (in::is_beyond_noise(left)) result.places.push_back(left);

@@ -126,7 +126,7 @@ inline void note_noise(std::vector<WindowFinding>& windows, const Fit& fit, cons
 /// data left out.
 template <class D>
 Adequacy adequacy_of(std::vector<WindowFinding>& windows, const Fit& fit, const Model& physics,
-                     const std::vector<LeftOver>& ahead, std::uint64_t seed, int threads,
+                     const std::vector<ResidualAndNoise>& ahead, std::uint64_t seed, int threads,
                      const FitWatch& watch) {
   note_noise(windows, fit, noise_trial<D>(fit, physics, seed, threads, watch));
   std::vector<std::string> names;

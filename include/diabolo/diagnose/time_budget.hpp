@@ -63,7 +63,7 @@ class TimeBudget {
   }
 
   /// Notes what is not done, or not to its end.
-  void leave(const std::string& what) { left_.push_back(what + " (no time left)"); }
+  void leave(const std::string& what) { left_.push_back(what + " (beyond the budget)"); }
   const std::vector<std::string>& left() const { return left_; }
 
  private:

@@ -75,7 +75,7 @@ struct NeutralEffect {
   }
   /// Wherever the diabolo is.
   Spring<Scalar> spring() const { return {}; }
-  /// Where it is at the beginning of a step; beside spring(), for effects that have a tip_shift().
+  /// Where it is at the beginning of a step; beside spring().
   Spring<Scalar> spring_at(const State<Scalar>&, const Tips<Scalar>&) const { return {}; }
   /// Share of the path's rate that a catch gives back, from 0 to 1.
   Scalar restitution() const { return Scalar(0); }
@@ -110,7 +110,13 @@ constexpr bool hides(Own, Neutral) {
 template <class Scalar, template <class> class... Effects>
 struct EffectSet {
   using Neutral = NeutralEffect<Scalar>;
-  static constexpr bool kChangesTips = (hides(&Effects<Scalar>::tip_shift, &Neutral::tip_shift) || ...);
+  /// Whether an effect says where the string begins, what of it is not in the strands, or how it gives in a
+  /// place: these are asked together, before a step.
+  template <class Effect>
+  static constexpr bool kChangesStrands = hides(&Effect::tip_shift, &Neutral::tip_shift) ||
+                                          hides(&Effect::bound_length, &Neutral::bound_length) ||
+                                          hides(&Effect::spring_at, &Neutral::spring_at);
+  static constexpr bool kChangesTips = (kChangesStrands<Effects<Scalar>> || ...);
 
   static constexpr bool kTouches = (hides(&Effects<Scalar>::contact, &Neutral::contact) || ...);
 
@@ -159,10 +165,10 @@ struct EffectSet {
     each([&](const auto&) { none = false; });
     return none;
   }
-  /// Whether any effect moves the tips.
+  /// Whether any effect that is at work changes the strands before a step.
   bool moves_tips() const {
     bool moves = false;
-    each([&]<class Effect>(const Effect&) { moves |= hides(&Effect::tip_shift, &Neutral::tip_shift); });
+    each([&]<class Effect>(const Effect&) { moves |= kChangesStrands<Effect>; });
     return moves;
   }
   /// Whether any effect has a contact impulse.

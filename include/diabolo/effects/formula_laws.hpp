@@ -73,11 +73,6 @@ struct FormulaLaws : NeutralEffect<Scalar> {
     return sum;
   }
 
-  /// (The strands begin where they did; the string is asked for its length with them.)
-  TipShift<Scalar> tip_shift(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
-    return {};
-  }
-
   Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& tips,
                       const Parameters<Scalar>& parameters) const {
     return -sum_of(Acts::kString, kLongest, state, tips, parameters);

@@ -126,6 +126,10 @@ inline Recording load_recording(const std::filesystem::path& path,
     MotiveTake take = read_motive(text, file_name);
     recording = apply(calibration, is_turned ? turned_to_z_up(std::move(take), up) : std::move(take));
   } else {
+    for (const char* const other : {";", "\t"})
+      if (first_line.find(',') == std::string_view::npos && first_line.find(other) != std::string_view::npos)
+        throw RecordingError(file_name + ", line 1: " + shown(other) +
+                             " separates the columns; expected commas, and decimal points");
     if (options.columns.empty() && (',' + std::string(first_line) + ',').find(",time,") == std::string::npos)
       throw RecordingError(file_name + ", line 1: starts with " + shown(first_line) +
                            "; expected a Motive export (\"Format Version,...\") or a tidy recording "

@@ -28,6 +28,7 @@ class RowTimes {
   double next(double read) {
     if (is_first_) start(read);
     const double time = read - origin_;
+    if (std::isnan(read)) csv_.fail("time is empty; expected a number of seconds");
     if (!(std::abs(time) <= kLargestTime))
       csv_.fail("time " + shown(read) + " s; expected a number within 1e9 s");
     if (!is_first_ && !(time > last_ && time - last_ <= kLongestGap && time - first_ <= kLongestRecording))

@@ -49,7 +49,7 @@ struct Compared {
 
 /// The middle ones; nothing where fewer than kStretch say anything. What is smaller than `immaterial` counts
 /// as that; so many neighbours as `overlap` are one to the test.
-inline std::optional<LeftOver> left_over_of(const Compared& compared, double immaterial,
+inline std::optional<ResidualAndNoise> residual_and_noise_of(const Compared& compared, double immaterial,
                                             std::size_t overlap) {
   const std::size_t count = compared.left.size();
   if (count / overlap < kStretch) return std::nullopt;
@@ -59,7 +59,7 @@ inline std::optional<LeftOver> left_over_of(const Compared& compared, double imm
     times.push_back(compared.left[i] / std::max(compared.noise[i], immaterial));
     above += compared.left[i] > compared.noise[i];
   }
-  LeftOver result;
+  ResidualAndNoise result;
   result.mode = "ANY";
   result.windows = count;
   result.base = middle_of(compared.base);
@@ -70,7 +70,7 @@ inline std::optional<LeftOver> left_over_of(const Compared& compared, double imm
   return result;
 }
 
-inline bool is_beyond_noise(const LeftOver& left) {
+inline bool is_beyond_noise(const ResidualAndNoise& left) {
   return left.times_noise > kTimesNoise && left.p_value < kNoiseMayDoIt;
 }
 
