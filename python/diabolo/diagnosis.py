@@ -192,9 +192,7 @@ def _asked(
     progress: Callable[[str, float], None] | None,
 ) -> tuple[Any, ...]:
     """The arguments as the core takes them, checked; warns of what is odd."""
-    given = list_of("recordings", recordings)
-    if not given:
-        raise ValueError("recordings: none; at least one expected")
+    given = list_of("recordings", recordings, least=1)
     threads = whole_number("threads", threads, 0, MOST_THREADS)
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,11 @@ from .checks import (
     callable_or_none,
     instance_of,
     list_of,
+    is_several,
     model_of,
     number,
     recording_of,
+    one_of,
     shown,
     warn_of,
     whole_number,
@@ -33,6 +35,9 @@ DEFAULT_HORIZONS = (0.1, 0.25, 0.5, 1.0, 2.0)
 SCHEMA = "diabolo.evaluation/1"
 
 ALL_RECORDINGS = "all recordings"
+Start: TypeAlias = Literal["fair", "published"]
+STARTS: tuple[str, ...] = get_args(Start)
+
 """The name under which HorizonRow gives the errors over several recordings together."""
 
 RESERVED_NAMES = ("baseline", "program", "printed")
@@ -95,7 +100,7 @@ def evaluate(
     *,
     starts_every: float | None = None,
     horizons: Sequence[float] = DEFAULT_HORIZONS,
-    start: Literal["fair", "published"] = "fair",
+    start: Start = "fair",
     seed: int = 1,
     threads: int = 0,
     progress: Callable[[float], None] | None = None,
@@ -116,13 +121,9 @@ def evaluate(
 
         evaluate("throw_1.csv").rows[0].error  # [m]
     """
-    given = list_of("recordings", recordings, (Recording, Excerpt))
-    if not given:
-        raise ValueError("recordings: none; at least one expected")
-    if start not in ("fair", "published"):
-        raise ValueError(f"start: '{start}'; expected 'fair' or 'published'")
-    wanted = [models] if isinstance(models, (Model, str)) or not isinstance(models, Iterable) else models
-    chosen = [model_of("models", model) for model in wanted]
+    given = list_of("recordings", recordings, (Recording, Excerpt), least=1)
+    one_of("start", start, STARTS)
+    chosen = [model_of("models", model) for model in (models if is_several(models) else [models])]
     if not chosen:
         raise ValueError("models: none; at least one expected")
     for index, model in enumerate(chosen):
@@ -138,7 +139,7 @@ def evaluate(
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
-    if not isinstance(horizons, Iterable) or isinstance(horizons, str):
+    if not is_several(horizons):
         raise ValueError(f"horizons: {shown(horizons)}; expected times in seconds")
     at = [number("horizons", time) for time in horizons]
     groups = [(label, [_whole(take)]) for label, take in zip(_labels(given), given, strict=True)]
@@ -162,7 +163,7 @@ def predict(
     model: Model | str = "consistent",
     *,
     row: int | None = None,
-    start: Literal["fair", "published"] = "published",
+    start: Start = "published",
 ) -> Rollout:
     """Predict the diabolo at each row of a recording from its state at one row and the recorded tips.
 
@@ -175,7 +176,8 @@ def predict(
     if row is not None:
         row = whole_number("row", row, 0, len(recording) - 1)
     warn_of([recording])
-    states, string_states = _core.predict(recording, model_of("model", model), row, start)
+    chosen = model_of("model", model)
+    states, string_states = _core.predict(recording, chosen, row, one_of("start", start, STARTS))
     return Rollout(np.asarray(recording.time), states, string_states)
 
 

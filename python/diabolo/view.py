@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Model, Recording, Waypoint
-from .checks import AnyRecording, RecordingWarning, list_of, recording_of, shown, warn_of
+from .checks import AnyRecording, RecordingWarning, instance_of, list_of, recording_of, shown, warn_of
 from .evaluation import predict
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
@@ -50,8 +50,8 @@ def view_html(
     if orientation is None:
         orientation = np.full((len(recording), 4), np.nan)
     data: dict[str, Any] = {
-        "title": title or recording.name,
-        "note": note,
+        "title": instance_of("title", recording.name if title is None else title, str),
+        "note": instance_of("note", note, str),
         "time": _numbers(recording.time[rows] - recording.time[0]),
         "left": _numbers(recording.left[rows]),
         "right": _numbers(recording.right[rows]),

@@ -120,8 +120,9 @@ def test_a_failing_progress_function_ends_the_work(played: Recording) -> None:
 def test_bad_input_is_named(played: Recording) -> None:
     with pytest.raises(ValueError, match="recordings: none"):
         evaluate([])
-    with pytest.raises(ValueError, match="start: 'x'"):
-        evaluate(played, start="x")  # type: ignore[arg-type]
+    for start in ("x", np.zeros(3)):
+        with pytest.raises(ValueError, match=r"^start: .*; expected one of fair, published$"):
+            evaluate(played, start=start)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="expected published, paper or consistent"):
         evaluate(played, "ours")
     with pytest.raises(ValueError, match="models: two are named 'paper'"):
