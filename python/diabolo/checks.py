@@ -6,8 +6,9 @@ from __future__ import annotations
 import operator
 import os
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
+from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 import numpy as np
@@ -93,6 +94,21 @@ def warn_of(recordings: Iterable[Recording], stacklevel: int = 3) -> None:
     sentences = [f"{recording.name}: {text}" for recording in recordings for text in recording.warnings()]
     for sentence in dict.fromkeys(sentences):
         warnings.warn(sentence, RecordingWarning, stacklevel)
+
+
+def check_distinct(recordings: Sequence[Recording], *, parts: bool) -> None:
+    """Raise ValueError where two hold the same samples, or, with `parts`, some that are the same."""
+    for a, b in combinations(recordings, 2):
+        times, in_a, in_b = np.intersect1d(a.time, b.time, assume_unique=True, return_indices=True)
+        least = 2 if parts else max(len(a), len(b))
+        if len(times) >= least and all(
+            np.array_equal(getattr(a, track)[in_a], getattr(b, track)[in_b], equal_nan=True)
+            for track in ("left", "right", "diabolo")
+        ):
+            raise ValueError(
+                f"recordings: '{a.name}' and '{b.name}' hold the same {len(times)} samples, from "
+                f"{times[0]:g} to {times[-1]:g} s; expected each once, since it would count twice"
+            )
 
 
 def callable_or_none(name: str, given: object) -> None:

@@ -17,13 +17,14 @@ from .checks import (
     MOST_THREADS,
     AnyRecording,
     callable_or_none,
+    check_distinct,
     instance_of,
-    list_of,
     is_several,
+    list_of,
     model_of,
     number,
-    recording_of,
     one_of,
+    recording_of,
     shown,
     warn_of,
     whole_number,
@@ -34,10 +35,10 @@ DEFAULT_MODELS = ("published", "paper", "consistent")
 DEFAULT_HORIZONS = (0.1, 0.25, 0.5, 1.0, 2.0)
 SCHEMA = "diabolo.evaluation/1"
 
-ALL_RECORDINGS = "all recordings"
 Start: TypeAlias = Literal["fair", "published"]
 STARTS: tuple[str, ...] = get_args(Start)
 
+ALL_RECORDINGS = "all recordings"
 """The name under which HorizonRow gives the errors over several recordings together."""
 
 RESERVED_NAMES = ("baseline", "program", "printed")
@@ -107,7 +108,7 @@ def evaluate(
 ) -> Evaluation:
     """Compare predictions with recordings.
 
-    recordings: Recording, Excerpt of one, or the name of a recording's file.
+    recordings: Recording, Excerpt of one, or the name of a recording's file; each is given once.
     models: Model, or "published", "paper", "consistent".
     starts_every: by default one prediction from the first row of each recording (and of the excerpt of it
         that the paper's table has), by the paper's recipe. Given [s], predictions from a start each so often,
@@ -135,16 +136,18 @@ def evaluate(
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
     report = progress or (lambda fraction: None)
-    warn_of(_whole(take) for take in given)
+    takes = [_whole(take) for take in given]
+    check_distinct(takes, parts=False)
+    warn_of(takes)
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
     if not is_several(horizons):
         raise ValueError(f"horizons: {shown(horizons)}; expected times in seconds")
     at = [number("horizons", time) for time in horizons]
-    groups = [(label, [_whole(take)]) for label, take in zip(_labels(given), given, strict=True)]
+    groups = [(label, [take]) for label, take in zip(_labels(given), takes, strict=True)]
     if len(groups) > 1:
-        groups.append((ALL_RECORDINGS, [take for _, takes in groups for take in takes]))
+        groups.append((ALL_RECORDINGS, takes))
     rows: list[HorizonRow] = []
     jobs = [(model, name, group) for model in chosen for name, group in groups]
     for index, (model, name, group) in enumerate(jobs):
