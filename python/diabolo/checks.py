@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import logging
 import operator
 import os
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
+from importlib import import_module
 from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard, TypeVar
 
@@ -145,6 +147,18 @@ def loaded(name: str, given: str | os.PathLike[str], load: Callable[[str | os.Pa
     if len(os.fspath(given)) > LONGEST_PATH:
         raise ValueError(f"{name}: {shown(given)}; expected the name of a file")
     return load(given)
+
+
+def check_drawing(path: str | os.PathLike[str], *libraries: str) -> None:
+    """Raise ValueError where a library is missing that this file is drawn with."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells where it caches, in lines of its own
+    try:
+        for library in libraries:
+            import_module(library)
+    except ModuleNotFoundError as error:
+        raise ValueError(
+            f"{path}: to draw it, install {error.name} (pip install '.[plot]' in the project's root)"
+        ) from error
 
 
 def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:
