@@ -34,8 +34,11 @@ def view_html(
     predictions: by name, positions [m] at the recording's rows, shape (N, 3), NaN where there is none. Each
         plays as a ghost, or in a scene of its own beside the others.
     goals: states that were wanted. note: a sentence below the title.
+
+    Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
     recording = recording_of("recording", recording)
+    warn_of([recording])
     goals = list_of("goals", goals, (Waypoint,))
     step = max(1, -(-len(recording) // MOST_FRAMES))
     rows = slice(None, None, step)

@@ -385,6 +385,13 @@ def test_the_name_of_a_file_does_for_its_recording(
 # ---- warnings ----
 
 
+def test_the_page_of_an_odd_recording_warns(played: Recording) -> None:
+    odd = Recording(played.time, played.left, played.right, played.diabolo, played.rate, string_length=3.0)
+    with pytest.warns(diabolo.RecordingWarning) as caught:
+        diabolo.view_html(odd)
+    assert len(caught) == len(odd.warnings()) and caught[0].filename == __file__
+
+
 def test_no_warning_comes_twice(played: Recording) -> None:
     feet = (track / 0.3048 for track in (played.left, played.right, played.diabolo))
     odd = Recording(played.time, *feet, played.rate)
