@@ -51,6 +51,12 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}; see {self.prog} --help\n")
 
+    def _print_message(self, message: str, file: Any = None) -> None:
+        if file is sys.stdout:  # where help cannot be printed, main() says so; argparse keeps silent
+            print(message, end="", file=file, flush=True)
+        else:
+            super()._print_message(message, file)
+
 
 def make_parser() -> argparse.ArgumentParser:
     parser = Parser(
