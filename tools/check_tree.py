@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Checks rules that no compiler knows: bands, licence lines, lengths of headers, words that stay out.
+"""Checks rules that no compiler knows: bands, licence lines, lengths of headers and of Python's functions,
+words that stay out.
 
 Prints one line for each fault, as FILE:LINE: what was found, and what was expected; exits with 1 when there
 is one.
@@ -7,6 +8,7 @@ is one.
 
 from __future__ import annotations
 
+import ast
 import re
 import subprocess
 import sys
@@ -14,6 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST_HEADER = 300  # lines
+LONGEST_FUNCTION = 80  # lines of Python, with its docstring
 LARGEST_TREE = 6 * 1024**2  # bytes of all files together
 
 # The bands of include/diabolo, from the lowest. A room is a folder, or some headers of the top level, which
@@ -158,6 +161,19 @@ def check_cpp_file(name: str, lines: list[str]) -> list[str]:
     return faults
 
 
+def check_python_file(name: str, lines: list[str]) -> list[str]:
+    functions = (
+        (node.lineno, node.name, (node.end_lineno or node.lineno) - node.lineno + 1)
+        for node in ast.walk(ast.parse("\n".join(lines)))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+    )
+    return [
+        f"{name}:{number}: {function} has {length} lines; expected at most {LONGEST_FUNCTION}"
+        for number, function, length in functions
+        if length > LONGEST_FUNCTION
+    ]
+
+
 def check_words(name: str, lines: list[str]) -> list[str]:
     return [
         f"{name}:{number}: '{match[0]}' is {why}"
@@ -184,6 +200,8 @@ def main() -> int:
             continue  # a picture or another binary file
         if name.endswith((".hpp", ".cpp")):
             faults += check_cpp_file(name, lines)
+        if name.endswith(".py"):
+            faults += check_python_file(name, lines)
         faults += check_words(name, lines)
     size = sum((ROOT / name).stat().st_size for name in names)
     if size > LARGEST_TREE:

@@ -66,7 +66,7 @@ from .enums import (
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
 from .player import best_guess, hang_at_rest, model_for, plan, plan_action, success_rate
-from .rollout import Rollout, RolloutGradient, rollout, rollout_gradient
+from .rollout import Rollout, RolloutGradient, RolloutWarning, rollout, rollout_gradient
 from .view import view_html
 
 __all__ = [
@@ -110,6 +110,7 @@ __all__ = [
     "RecordingWarning",
     "Rollout",
     "RolloutGradient",
+    "RolloutWarning",
     "SpinRule",
     "Spheroid",
     "SpinLoss",

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _core
-from .checks import numbers, recording_of, shown
+from .checks import LARGEST_SEED, number, numbers, recording_of, shown, whole_number
 
 NUMBERS = "an array of numbers"
 RECORDING = "diabolo._core.Recording"
@@ -146,19 +146,31 @@ def _fits_one(value: Any, kind: str) -> bool:
     if kind in ("str", "bool"):
         return isinstance(value, (str,) if kind == "str" else (bool, np.bool_))
     if kind in ("float", "typing.SupportsFloat"):
-        return hasattr(value, "__float__") and not isinstance(value, np.ndarray)
+        return _is_taken(lambda: number("", value))
     if kind in ("int", "typing.SupportsInt", "typing.SupportsIndex"):
-        return hasattr(value, "__index__") and not isinstance(value, np.ndarray)
+        return _is_taken(lambda: whole_number("", value, -LARGEST_SEED, LARGEST_SEED))
     if "ArrayLike" in kind or "NDArray" in kind or "numpy.ndarray" in kind:
         return _is_array(value, _extents(kind))
     if kind.startswith("diabolo._core."):
         return isinstance(value, getattr(_core, kind.rpartition(".")[2], object))
     if "PathLike" in kind:
         return isinstance(value, str) or hasattr(value, "__fspath__")
+    if "Mapping[" in kind:
+        return isinstance(value, Mapping) and all(
+            _fits(key, inner[0]) and _fits(item, inner[1]) for key, item in value.items()
+        )
     if re.match(r"(collections\.abc\.Sequence|list)\[", kind):
         return _is_sequence(value) and all(_fits(item, inner[0]) for item in value)
     if re.match(r"tuple\[", kind):
         return _is_sequence(value) and len(value) == len(inner) and all(map(_fits, value, inner))
+    return True
+
+
+def _is_taken(check: Callable[[], object]) -> bool:
+    try:
+        check()
+    except ValueError:
+        return False
     return True
 
 
@@ -169,7 +181,7 @@ def _is_sequence(value: Any) -> bool:
 def _is_array(value: Any, extents: list[int]) -> bool:
     try:
         array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
     return not extents or array.size == np.prod(extents)
 
@@ -213,6 +225,8 @@ def _expected_one(kind: str) -> str:
         return NUMBERS + (f" of the shape ({', '.join(map(str, extents))},)" if extents else "")
     if "PathLike" in kind:
         return "the name of a file"
+    if "Mapping[" in kind:
+        return "a dict, each {} to {}".format(*map(_expected, _inside(kind)))
     if re.match(r"(collections\.abc\.Sequence|list)\[", kind):
         return f"a list, each {_expected(_inside(kind)[0])}"
     if re.match(r"tuple\[", kind):

@@ -3,10 +3,15 @@
 
 from __future__ import annotations
 
+import logging
+import operator
 import os
 import warnings
-from collections.abc import Iterable
-from typing import Any, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from importlib import import_module
+from itertools import combinations
+from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +26,7 @@ AnyRecording: TypeAlias = Recording | str | os.PathLike[str]
 LARGEST_SEED = 2**63 - 1
 MOST_THREADS = 2**31 - 1
 LONGEST_SHOWN = 60
+LONGEST_PATH = 4096
 
 
 def shown(given: object) -> str:
@@ -34,18 +40,33 @@ def shown(given: object) -> str:
 
 def number(name: str, given: Any) -> float:
     """A number, finite or not; else raises ValueError."""
-    if np.ndim(given) > 0 or isinstance(given, str | bytes) or not isinstance(given, SupportsFloat):
-        raise ValueError(f"{name}: {shown(given)}; expected a number")
-    return float(given)
+    with suppress(TypeError, ValueError, OverflowError):
+        if np.ndim(given) == 0 and np.asarray(given).dtype.kind not in "SU":
+            return float(given)
+    raise ValueError(f"{name}: {shown(given)}; expected a number")
+
+
+def is_several(given: Any) -> TypeGuard[Iterable[Any]]:
+    """Whether it holds one thing after another, as no text and no array without an axis does."""
+    return (
+        isinstance(given, Iterable) and not isinstance(given, str | bytes) and getattr(given, "ndim", 1) > 0
+    )
 
 
 def names_of(name: str, given: Any, example: str) -> list[str]:
     """A list of names; else raises ValueError."""
-    if isinstance(given, Iterable) and not isinstance(given, str):
+    if is_several(given):
         names = list(given)
         if all(isinstance(one, str) for one in names):
             return names
     raise ValueError(f"{name}: {shown(given)}; expected a list of names, such as ['{example}']")
+
+
+def one_of(name: str, given: Any, choices: Iterable[str]) -> str:
+    """One of the choices; else raises ValueError."""
+    if not isinstance(given, str) or given not in choices:
+        raise ValueError(f"{name}: {shown(given)}; expected one of {', '.join(choices)}")
+    return given
 
 
 def numbers(name: str, given: Any) -> NDArray[np.float64]:
@@ -54,15 +75,16 @@ def numbers(name: str, given: Any) -> NDArray[np.float64]:
         raise ValueError(f"{name}: {masked} of {given.size} values are masked; expected none")
     try:
         return np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name}: {shown(given)}; expected an array of numbers") from None
 
 
 def whole_number(name: str, given: Any, least: int, most: int) -> int:
     """`given`, a whole number from `least` to `most`; else raises ValueError."""
-    if np.ndim(given) > 0 or not isinstance(given, SupportsIndex) or not least <= given.__index__() <= most:
-        raise ValueError(f"{name}: {shown(given)}; expected a whole number from {least} to {most}")
-    return given.__index__()
+    with suppress(TypeError, ValueError):
+        if np.ndim(given) == 0 and least <= operator.index(given) <= most:
+            return operator.index(given)
+    raise ValueError(f"{name}: {shown(given)}; expected a whole number from {least} to {most}")
 
 
 class RecordingWarning(UserWarning):
@@ -74,6 +96,21 @@ def warn_of(recordings: Iterable[Recording], stacklevel: int = 3) -> None:
     sentences = [f"{recording.name}: {text}" for recording in recordings for text in recording.warnings()]
     for sentence in dict.fromkeys(sentences):
         warnings.warn(sentence, RecordingWarning, stacklevel)
+
+
+def check_distinct(recordings: Sequence[Recording], *, parts: bool) -> None:
+    """Raise ValueError where two hold the same samples, or, with `parts`, some that are the same."""
+    for a, b in combinations(recordings, 2):
+        times, in_a, in_b = np.intersect1d(a.time, b.time, assume_unique=True, return_indices=True)
+        least = 2 if parts else max(len(a), len(b))
+        if len(times) >= least and all(
+            np.array_equal(getattr(a, track)[in_a], getattr(b, track)[in_b], equal_nan=True)
+            for track in ("left", "right", "diabolo")
+        ):
+            raise ValueError(
+                f"recordings: '{a.name}' and '{b.name}' hold the same {len(times)} samples, from "
+                f"{times[0]:g} to {times[-1]:g} s; expected each once, since it would count twice"
+            )
 
 
 def callable_or_none(name: str, given: object) -> None:
@@ -93,15 +130,35 @@ def model_of(name: str, given: object) -> Model:
     return given
 
 
-def laws_of(name: str, given: object) -> FormulaLaws:
+def laws_of(name: str, given: Any) -> FormulaLaws:
     """Laws by formulas: themselves, a list that makes them, or the name of their file."""
     expected = "expected FormulaLaws, a list of laws, or the name of their file"
     try:
-        return FormulaLaws.load(given) if isinstance(given, str | os.PathLike) else FormulaLaws(given)
+        is_file = isinstance(given, str | os.PathLike)
+        return loaded(name, given, FormulaLaws.load) if is_file else FormulaLaws(given)
     except (TypeError, RecursionError):
         raise ValueError(f"{name}: {shown(given)}; {expected}") from None
     except ValueError as error:
-        raise ValueError(f"{name}: {str(error).removeprefix('laws: ')}") from None
+        raise ValueError(f"{name}: {str(error).removeprefix(f'{name}: ')}") from None
+
+
+def loaded(name: str, given: str | os.PathLike[str], load: Callable[[str | os.PathLike[str]], Kind]) -> Kind:
+    """What is in a file; raises ValueError where no name of one is given, but such as its content."""
+    if len(os.fspath(given)) > LONGEST_PATH:
+        raise ValueError(f"{name}: {shown(given)}; expected the name of a file")
+    return load(given)
+
+
+def check_drawing(path: str | os.PathLike[str], *libraries: str) -> None:
+    """Raise ValueError where a library is missing that this file is drawn with."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells where it caches, in lines of its own
+    try:
+        for library in libraries:
+            import_module(library)
+    except ModuleNotFoundError as error:
+        raise ValueError(
+            f"{path}: to draw it, install {error.name} (pip install '.[plot]' in the project's root)"
+        ) from error
 
 
 def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:
@@ -114,25 +171,28 @@ def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:
 def recording_of(name: str, given: AnyRecording) -> Recording:
     """A recording, or what its file holds."""
     if isinstance(given, str | os.PathLike):
-        return load_recording(given)
+        return loaded(name, given, load_recording)
     return instance_of(name, given, Recording)
 
 
-def list_of(name: str, given: Any, kinds: tuple[type, ...] = (Recording,)) -> list[Any]:
-    """One of `kinds`, or any number of them, as a list; the name of a file counts as its recording."""
+def list_of(name: str, given: Any, kinds: tuple[type, ...] = (Recording,), *, least: int = 0) -> list[Any]:
+    """One of `kinds`, or `least` or more of them, as a list; the name of a file counts as its recording."""
     expected = " or ".join(kind.__name__ for kind in kinds)
     if Recording in kinds:
         expected += " or the name of a file"
 
     def one(place: str, item: Any) -> Any:
         if Recording in kinds and isinstance(item, str | os.PathLike):
-            return load_recording(item)
+            return loaded(place, item, load_recording)
         if not isinstance(item, kinds):
             raise ValueError(f"{place}: {shown(item)}; expected {expected}")
         return item
 
     if isinstance(given, (*kinds, str, os.PathLike)):
         return [one(name, given)]
-    if not isinstance(given, Iterable):
+    if not is_several(given):
         raise ValueError(f"{name}: {shown(given)}; expected {expected}, one or a list of them")
-    return [one(f"{name}[{index}]", item) for index, item in enumerate(given)]
+    several = [one(f"{name}[{index}]", item) for index, item in enumerate(given)]
+    if len(several) < least:
+        raise ValueError(f"{name}: none; at least one expected")
+    return several

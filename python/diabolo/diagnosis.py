@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from itertools import combinations
 from os import PathLike
 from typing import Any, NamedTuple
 
@@ -30,6 +29,7 @@ from .checks import (
     AnyRecording,
     RecordingWarning,
     callable_or_none,
+    check_distinct,
     laws_of,
     list_of,
     model_of,
@@ -192,9 +192,7 @@ def _asked(
     progress: Callable[[str, float], None] | None,
 ) -> tuple[Any, ...]:
     """The arguments as the core takes them, checked; warns of what is odd."""
-    given = list_of("recordings", recordings)
-    if not given:
-        raise ValueError("recordings: none; at least one expected")
+    given = list_of("recordings", recordings, least=1)
     threads = whole_number("threads", threads, 0, MOST_THREADS)
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
@@ -209,7 +207,7 @@ def _asked(
         warnings.warn(sentence, RecordingWarning, stacklevel=4)
     if overlaps:
         given, held = trimmed[: len(given)], trimmed[len(given) :]
-    _check_distinct([*given, *held])
+    check_distinct([*given, *held], parts=True)
     warn_of([*given, *held], stacklevel=4)
     _warn_of_other_set_ups([*given, *held])
     return given, chosen, held, names, own, budget, seed, threads, progress
@@ -230,18 +228,4 @@ def _warn_of_other_set_ups(recordings: Sequence[Recording]) -> None:
                 "what is found is one value for all",
                 RecordingWarning,
                 stacklevel=4,
-            )
-
-
-def _check_distinct(recordings: Sequence[Recording]) -> None:
-    """Raise ValueError where two hold the same samples, which would count as evidence twice."""
-    for a, b in combinations(recordings, 2):
-        times, in_a, in_b = np.intersect1d(a.time, b.time, assume_unique=True, return_indices=True)
-        if len(times) > 1 and all(
-            np.array_equal(getattr(a, track)[in_a], getattr(b, track)[in_b], equal_nan=True)
-            for track in ("left", "right", "diabolo")
-        ):
-            raise ValueError(
-                f"recordings: '{a.name}' and '{b.name}' hold the same {len(times)} samples, from "
-                f"{times[0]:g} to {times[-1]:g} s; expected each once, since it would count as evidence twice"
             )

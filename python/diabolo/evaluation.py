@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +17,13 @@ from .checks import (
     MOST_THREADS,
     AnyRecording,
     callable_or_none,
+    check_distinct,
     instance_of,
+    is_several,
     list_of,
     model_of,
     number,
+    one_of,
     recording_of,
     shown,
     warn_of,
@@ -31,6 +34,9 @@ from .rollout import Rollout
 DEFAULT_MODELS = ("published", "paper", "consistent")
 DEFAULT_HORIZONS = (0.1, 0.25, 0.5, 1.0, 2.0)
 SCHEMA = "diabolo.evaluation/1"
+
+Start: TypeAlias = Literal["fair", "published"]
+STARTS: tuple[str, ...] = get_args(Start)
 
 ALL_RECORDINGS = "all recordings"
 """The name under which HorizonRow gives the errors over several recordings together."""
@@ -95,14 +101,14 @@ def evaluate(
     *,
     starts_every: float | None = None,
     horizons: Sequence[float] = DEFAULT_HORIZONS,
-    start: Literal["fair", "published"] = "fair",
+    start: Start = "fair",
     seed: int = 1,
     threads: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> Evaluation:
     """Compare predictions with recordings.
 
-    recordings: Recording, Excerpt of one, or the name of a recording's file.
+    recordings: Recording, Excerpt of one, or the name of a recording's file; each is given once.
     models: Model, or "published", "paper", "consistent".
     starts_every: by default one prediction from the first row of each recording (and of the excerpt of it
         that the paper's table has), by the paper's recipe. Given [s], predictions from a start each so often,
@@ -116,13 +122,9 @@ def evaluate(
 
         evaluate("throw_1.csv").rows[0].error  # [m]
     """
-    given = list_of("recordings", recordings, (Recording, Excerpt))
-    if not given:
-        raise ValueError("recordings: none; at least one expected")
-    if start not in ("fair", "published"):
-        raise ValueError(f"start: '{start}'; expected 'fair' or 'published'")
-    wanted = [models] if isinstance(models, (Model, str)) or not isinstance(models, Iterable) else models
-    chosen = [model_of("models", model) for model in wanted]
+    given = list_of("recordings", recordings, (Recording, Excerpt), least=1)
+    one_of("start", start, STARTS)
+    chosen = [model_of("models", model) for model in (models if is_several(models) else [models])]
     if not chosen:
         raise ValueError("models: none; at least one expected")
     for index, model in enumerate(chosen):
@@ -134,16 +136,18 @@ def evaluate(
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
     report = progress or (lambda fraction: None)
-    warn_of(_whole(take) for take in given)
+    takes = [_whole(take) for take in given]
+    check_distinct(takes, parts=False)
+    warn_of(takes)
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
-    if not isinstance(horizons, Iterable) or isinstance(horizons, str):
+    if not is_several(horizons):
         raise ValueError(f"horizons: {shown(horizons)}; expected times in seconds")
     at = [number("horizons", time) for time in horizons]
-    groups = [(label, [_whole(take)]) for label, take in zip(_labels(given), given, strict=True)]
+    groups = [(label, [take]) for label, take in zip(_labels(given), takes, strict=True)]
     if len(groups) > 1:
-        groups.append((ALL_RECORDINGS, [take for _, takes in groups for take in takes]))
+        groups.append((ALL_RECORDINGS, takes))
     rows: list[HorizonRow] = []
     jobs = [(model, name, group) for model in chosen for name, group in groups]
     for index, (model, name, group) in enumerate(jobs):
@@ -162,7 +166,7 @@ def predict(
     model: Model | str = "consistent",
     *,
     row: int | None = None,
-    start: Literal["fair", "published"] = "published",
+    start: Start = "published",
 ) -> Rollout:
     """Predict the diabolo at each row of a recording from its state at one row and the recorded tips.
 
@@ -175,7 +179,8 @@ def predict(
     if row is not None:
         row = whole_number("row", row, 0, len(recording) - 1)
     warn_of([recording])
-    states, string_states = _core.predict(recording, model_of("model", model), row, start)
+    chosen = model_of("model", model)
+    states, string_states = _core.predict(recording, chosen, row, one_of("start", start, STARTS))
     return Rollout(np.asarray(recording.time), states, string_states)
 
 

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Literal, TypeAlias
+from collections.abc import Sequence
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,10 +29,12 @@ from .checks import (
     LARGEST_SEED,
     AnyRecording,
     instance_of,
+    is_several,
     list_of,
     model_of,
     number,
     numbers,
+    one_of,
     recording_of,
     warn_of,
     whole_number,
@@ -40,6 +42,7 @@ from .checks import (
 
 AnyModel: TypeAlias = Model | Parameters | str
 Solver: TypeAlias = Literal["gradient", "walk"]
+SOLVERS: tuple[str, ...] = get_args(Solver)
 
 ACTIONS: tuple[str, ...] = PLANNED_ACTIONS
 """What `plan_action` knows."""
@@ -82,7 +85,7 @@ def plan(
         goals,
         TipLimits() if limits is None else limits,
         Freedom() if freedom is None else freedom,
-        solver,
+        one_of("solver", solver, SOLVERS),
         whole_number("evaluations", evaluations, 1, 2**31 - 1),
         number("seconds", seconds),
         whole_number("random_seed", random_seed, 0, LARGEST_SEED),
@@ -127,7 +130,7 @@ def plan_action(
         plan_action("throw_and_catch", height=0.6).answer
     """
     return _core.plan_action(
-        name,
+        one_of("name", name, ACTIONS),
         _models(model),
         start,
         whole_number("cycles", cycles, 1, MOST_CYCLES),
@@ -138,7 +141,7 @@ def plan_action(
         sideways,
         spin_gain,
         TipLimits() if limits is None else limits,
-        solver,
+        one_of("solver", solver, SOLVERS),
         number("seconds", seconds),
         whole_number("random_seed", random_seed, 0, LARGEST_SEED),
         dt,
@@ -156,7 +159,9 @@ def hang_at_rest(
     """The diabolo at rest below resting tips [m], where the model lets it hang: friction leans it to the
     side, and what gives lowers it. sticks: as for `plan_action`."""
     (one,) = _models(model)
-    return _core.hang_at_rest(one, left, right, spin, _directions(sticks))
+    return _core.hang_at_rest(
+        one, numbers("left", left), numbers("right", right), number("spin", spin), _directions(sticks)
+    )
 
 
 def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
@@ -193,7 +198,7 @@ def _directions(sticks: ArrayLike | None) -> NDArray[np.float64]:
 
 
 def _models(given: AnyModel | Sequence[AnyModel]) -> list[Model]:
-    several = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    several = list(given) if is_several(given) else [given]
     if not several:
         raise ValueError("model: none; at least one expected")
     return [Model(one) if isinstance(one, Parameters) else model_of("model", one) for one in several]

@@ -9,11 +9,11 @@ import json
 import math
 from collections.abc import Iterable
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._core import DIAGNOSIS_SCHEMA, Thresholds
+from .checks import check_drawing
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -34,13 +34,7 @@ BEFORE, AFTER = "#6b7280", "#0b5fa5"
 
 def check(path: str | Path) -> None:
     """Raise ValueError where a report cannot be made for want of a library."""
-    try:
-        for name in ("jinja2", "matplotlib"):
-            import_module(name)
-    except ModuleNotFoundError as error:
-        raise ValueError(
-            f"{path}: to make a report, install {error.name} (pip install '.[plot]' in the project's root)"
-        ) from error
+    check_drawing(path, "jinja2", "matplotlib")
 
 
 def report_html(result: dict[str, Any], comparison: dict[str, Any] | None = None) -> str:

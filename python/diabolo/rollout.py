@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
 
@@ -11,7 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import Model, Parameters, TipMotion
-from .checks import MOST_THREADS, instance_of, list_of, names_of, number, numbers, whole_number
+from .checks import (
+    MOST_THREADS,
+    instance_of,
+    is_several,
+    list_of,
+    names_of,
+    number,
+    numbers,
+    shown,
+    whole_number,
+)
 from .enums import StringState
 
 AnyModel: TypeAlias = Model | Parameters
@@ -20,6 +31,16 @@ AnyStringState: TypeAlias = StringState | int | str
 MOST_STEPS = 10**12
 MOST_FRAMES = 10**8
 """Of all rollouts of a batch together: 6 GB."""
+FARTHEST = 100.0
+"""Where play may begin, from the origin along an axis [m]."""
+MOST_STRETCH = 1.05
+"""Of a string that gives, times its length."""
+LONGEST_STEP = 0.02
+"""Of the time [s], in which hands beating the string have barely moved."""
+
+
+class RolloutWarning(UserWarning):
+    """What a rollout is given can be used, but is odd, as in other units."""
 
 
 class Rollout(NamedTuple):
@@ -85,52 +106,33 @@ def rollout(
     threads: 0 takes all cores. The result does not depend on it.
 
     Ctrl-C ends it at once. Raises ValueError about bad input, and FloatingPointError where a state does not
-    stay finite.
+    stay finite. Warns (RolloutWarning) of input that is odd, such as in other units.
 
         tips = TipMotion([0.0], [[0.0, 0.3, 0.0]], [[0.0, -0.3, 0.0]])
         fall = rollout(Parameters(), [0, 0, -0.4, 0, 0, 0, 100], tips, steps=1000)
         fall.states[-1]  # a second later
     """
-    models = [_model(one) for one in list_of("model", model, (Model, Parameters))]
-    motions = list_of("tips", tips, (TipMotion,))
-    states = numbers("initial", initial)
+    models = [_model(one) for one in list_of("model", model, (Model, Parameters), least=1)]
+    motions = list_of("tips", tips, (TipMotion,), least=1)
+    states = _vectors("initial", initial, 7)
     codes = _codes(string_state)
-    if states.ndim not in (1, 2) or states.shape[-1] != 7 or states.size == 0:
-        raise ValueError(f"initial: shape {states.shape}; expected (7,) or (N, 7)")
-    axes = numbers("axis", axis)
-    if axes.ndim not in (1, 2) or axes.shape[-1] != 3:
-        raise ValueError(f"axis: shape {axes.shape}; expected (3,) or (N, 3)")
+    axes = _vectors("axis", axis, 3)
     if not np.allclose(np.linalg.norm(axes, axis=-1), 1.0, rtol=0.0, atol=1e-6):
         raise ValueError("axis: expected unit vectors")
-    if not models or not motions:
-        raise ValueError("rollout: an empty sequence of models or tip motions; expected one or N")
-    record_every = whole_number("record_every", record_every, 1, MOST_STEPS)
-
-    batched = (
-        states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or _is_sequence(model) or _is_sequence(tips)
+    size = _common_size(
+        initial=states.size // 7,
+        string_state=codes.size,
+        axis=axes.size // 3,
+        model=len(models),
+        tips=len(motions),
     )
-    sizes = {
-        "initial": len(states) if states.ndim == 2 else 1,
-        "string_state": codes.size,
-        "axis": len(axes) if axes.ndim == 2 else 1,
-        "model": len(models),
-        "tips": len(motions),
-    }
-    size = max(sizes.values())
-    for name, given in sizes.items():
-        if given not in (1, size):
-            raise ValueError(f"{name}: {given} given for {size} rollouts; expected 1 or {size}")
-
-    start = motions[0].begin if begin is None else number("begin", begin)
-    _check_times(start, dt, steps)
-    if steps is None:
-        steps = _steps_between(start, min(motion.end for motion in motions), dt, record_every)
-    if steps % record_every != 0:
-        raise ValueError(f"steps: {steps}; expected a multiple of record_every, which is {record_every}")
+    record_every = whole_number("record_every", record_every, 1, MOST_STEPS)
+    start, dt, steps = _times(motions, begin, dt, steps, record_every)
     if (frames := size * (steps // record_every)) > MOST_FRAMES:
         raise ValueError(
             f"rollout: {frames} frames; expected at most {MOST_FRAMES}, by a larger record_every"
         )
+    _warn_of_units(states, motions[0], models[0], dt)
 
     records, record_states = _core.rollout(
         models,
@@ -144,6 +146,7 @@ def rollout(
         whole_number("threads", threads, 0, MOST_THREADS),
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
+    batched = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or is_several(model) or is_several(tips)
     return Rollout(time, records, record_states) if batched else Rollout(time, records[0], record_states[0])
 
 
@@ -178,12 +181,11 @@ def rollout_gradient(
     state = numbers("initial", initial)
     if state.shape != (7,):
         raise ValueError(f"initial: shape {state.shape}; expected (7,)")
-    start = instance_of("tips", tips, TipMotion).begin if begin is None else number("begin", begin)
-    _check_times(start, dt, steps)
-    if steps is None:
-        steps = _steps_between(start, tips.end, dt, 1)
+    start, dt, steps = _times([instance_of("tips", tips, TipMotion)], begin, dt, steps)
+    chosen = _model(model)
+    _warn_of_units(state, tips, chosen, dt)
     final, final_string_state, derivatives = _core.rollout_gradient(
-        _model(model),
+        chosen,
         _core.State(state[:3], state[3:6], float(state[6]), string_state, numbers("axis", axis)),
         tips,
         names_of("with_respect_to", with_respect_to, "position"),
@@ -199,27 +201,60 @@ def _model(given: AnyModel) -> Model:
     return Model(given) if isinstance(given, Parameters) else instance_of("model", given, Model)
 
 
-def _is_sequence(given: object) -> bool:
-    return not isinstance(given, (Model, Parameters, TipMotion))
+def _vectors(name: str, given: ArrayLike, length: int) -> NDArray[np.float64]:
+    """One or N of them."""
+    vectors = numbers(name, given)
+    if vectors.ndim not in (1, 2) or vectors.shape[-1] != length or vectors.size == 0:
+        raise ValueError(f"{name}: shape {vectors.shape}; expected ({length},) or (N, {length})")
+    return vectors
 
 
-def _check_times(begin: float, dt: float, steps: int | None) -> None:
-    if not abs(begin) <= 1e9:
-        raise ValueError(f"begin: {begin} s; must be within 1e9 s")
-    if not 1e-9 <= number("dt", dt) <= 1e3:
+def _common_size(**sizes: int) -> int:
+    """Of a batch whose arguments hold one for all or one for each."""
+    size = max(sizes.values())
+    for name, given in sizes.items():
+        if given not in (1, size):
+            raise ValueError(f"{name}: {given} given for {size} rollouts; expected 1 or {size}")
+    return size
+
+
+def _times(
+    motions: Sequence[TipMotion], begin: float | None, dt: float, steps: int | None, record_every: int = 1
+) -> tuple[float, float, int]:
+    """Begin, time step and number of steps, a multiple of record_every; by default as many as fit."""
+    start = motions[0].begin if begin is None else number("begin", begin)
+    if not abs(start) <= 1e9:
+        raise ValueError(f"begin: {start} s; must be within 1e9 s")
+    dt = number("dt", dt)
+    if not 1e-9 <= dt <= 1e3:
         raise ValueError(f"dt: {dt} s; must be within 1e-9 and 1e3 s")
-    if steps is not None:
-        whole_number("steps", steps, 0, MOST_STEPS)
+    if steps is None:
+        end = min(motion.end for motion in motions)
+        steps = int((end - start) / dt + 1e-6)  # one that misses the end by rounding only does fit
+        if steps < record_every:
+            raise ValueError(
+                f"begin: {start} s; the tips end at {end} s, before the first frame; "
+                "give steps for tips at rest"
+            )
+        steps -= steps % record_every
+    steps = whole_number("steps", steps, 0, MOST_STEPS)
+    if steps % record_every != 0:
+        raise ValueError(f"steps: {steps}; expected a multiple of record_every, which is {record_every}")
+    return start, dt, steps
 
 
-def _steps_between(begin: float, end: float, dt: float, multiple: int) -> int:
-    """As many steps as fit, a multiple of `multiple`; one that misses the end by rounding only does fit."""
-    steps = int((end - begin) / dt + 1e-6)
-    if steps < multiple:
-        raise ValueError(
-            f"begin: {begin} s; the tips end at {end} s, before the first frame; give steps for tips at rest"
-        )
-    return steps - steps % multiple
+def _warn_of_units(states: NDArray[np.float64], tips: TipMotion, model: Model, dt: float) -> None:
+    """Warn of sizes that no play has; of a batch the first tips and model are looked at."""
+    farthest = float(np.abs(states[..., :3]).max())
+    apart = float(np.linalg.norm(tips.left - tips.right, axis=1).max())
+    length = model.parameters.string_length
+    for is_odd, sentence in (
+        (farthest > FARTHEST, f"initial: a coordinate of {farthest:g} m; are the positions in metres?"),
+        (apart > MOST_STRETCH * length, f"tips: {apart:g} m apart, but the string is {length:g} m long"),
+        (dt > LONGEST_STEP, f"dt: {dt:g} s; steps beyond {LONGEST_STEP:g} s leave out how the tips move"),
+    ):
+        if is_odd:
+            warnings.warn(sentence, RolloutWarning, stacklevel=3)
 
 
 def _codes(string_state: AnyStringState | ArrayLike) -> NDArray[np.uint8]:
@@ -229,10 +264,10 @@ def _codes(string_state: AnyStringState | ArrayLike) -> NDArray[np.uint8]:
         names = {state.name.lower(): int(state) for state in StringState}
         unknown = sorted(set(given.ravel().tolist()) - set(names))
         if unknown:
-            raise ValueError(f"string_state: '{unknown[0]}'; expected one of {', '.join(names)}")
+            raise ValueError(f"string_state: {shown(unknown[0])}; expected one of {', '.join(names)}")
         given = np.vectorize(names.__getitem__, otypes=[np.int64])(given)
     if given.ndim > 1:
         raise ValueError(f"string_state: shape {given.shape}; expected one or (N,)")
     if given.dtype.kind not in "iu" or np.any(given < 0) or np.any(given > max(StringState)):
-        raise ValueError(f"string_state: {given}; expected names or numbers of StringState")
+        raise ValueError(f"string_state: {shown(string_state)}; expected names or numbers of StringState")
     return given.astype(np.uint8)

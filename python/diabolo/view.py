@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Model, Recording, Waypoint
-from .checks import AnyRecording, RecordingWarning, list_of, recording_of, shown, warn_of
+from .checks import AnyRecording, RecordingWarning, instance_of, list_of, recording_of, shown, warn_of
 from .evaluation import predict
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
@@ -34,8 +34,11 @@ def view_html(
     predictions: by name, positions [m] at the recording's rows, shape (N, 3), NaN where there is none. Each
         plays as a ghost, or in a scene of its own beside the others.
     goals: states that were wanted. note: a sentence below the title.
+
+    Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
     recording = recording_of("recording", recording)
+    warn_of([recording])
     goals = list_of("goals", goals, (Waypoint,))
     step = max(1, -(-len(recording) // MOST_FRAMES))
     rows = slice(None, None, step)
@@ -50,8 +53,8 @@ def view_html(
     if orientation is None:
         orientation = np.full((len(recording), 4), np.nan)
     data: dict[str, Any] = {
-        "title": title or recording.name,
-        "note": note,
+        "title": instance_of("title", recording.name if title is None else title, str),
+        "note": instance_of("note", note, str),
         "time": _numbers(recording.time[rows] - recording.time[0]),
         "left": _numbers(recording.left[rows]),
         "right": _numbers(recording.right[rows]),

@@ -238,6 +238,68 @@ def test_info_reads_takes_that_the_calibration_does_not_fit(command: Command, mo
         "stick_lost" in done.stdout and "No tips and no spin: no rigid body for the left stick" in done.stdout
     )
     assert json_of(command("info", motive_file, "--json").stdout)["spin_rad_s"] is None
+    assert "nothing odd" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("hidden", "sentence"),
+    [
+        (slice(None), "not seen in 100.0 % of the samples, for up to 4.008 s at a time"),
+        (slice(100, 300), "not seen in 41.6 % of the samples, for up to 1.667 s at a time"),
+        (slice(None, None, 2), "not seen in 50.1 % of the samples, for up to 0.008 s at a time"),
+    ],
+)
+def test_info_tells_of_a_body_that_is_hardly_seen(
+    command: Command, played: Recording, tmp_path: Path, hidden: slice, sentence: str
+) -> None:
+    track = played.diabolo.copy()
+    track[hidden] = np.nan
+    Recording(played.time, played.left, played.right, track, played.rate).save(tmp_path / "holes.csv")
+    shown = command("info", "holes.csv").stdout
+    assert f"odd: diabolo: {sentence}\n" in shown and "nothing odd" not in shown
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["evaluate TIDY --plot e.png", "evaluate TIDY --starts every=0.5 --plot e.png", "view TIDY --out v.html"],
+)
+def test_each_warning_is_printed_once(command: Command, tidy: Path, line: str) -> None:
+    pytest.importorskip("matplotlib")
+    odd = Recording.load(tidy)
+    Recording(odd.time, odd.left, odd.right, odd.diabolo, odd.rate, string_length=3.0).save(tidy)
+    done = command(*line.replace("TIDY", str(tidy)).split())
+    assert done.returncode == 0 and done.stderr.count("diabolo: warning: played: ") == 1
+
+
+@pytest.mark.parametrize("rows", ["-1-5", "a-b", "3", "3-", "", "0-99999999999"])
+def test_rows_that_are_none_are_told(command: Command, tidy: Path, rows: str) -> None:
+    done = command("evaluate", f"{tidy}:{rows}")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert (
+        done.stderr == f"diabolo: {tidy}:{rows}: '{rows}'; expected the rows FIRST-LAST, as in {tidy}:0-180\n"
+    )
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("arguments", ["--help", "--version", "view --help"])
+def test_help_that_cannot_be_printed_is_told(arguments: str, unbuffered: str) -> None:
+    done = subprocess.run(
+        f"{sys.executable} -m diabolo {arguments} > /dev/full",
+        shell=True,
+        env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (2, "diabolo: standard output: No space left on device\n")
+
+
+def test_matplotlib_says_nothing_of_its_own(command: Command, tidy: Path) -> None:
+    pytest.importorskip("matplotlib")
+    homeless = {"HOME": "/proc/home", "MPLCONFIGDIR": "", "XDG_CONFIG_HOME": "", "XDG_CACHE_HOME": ""}
+    done = command("evaluate", tidy, "--plot", "errors.png", env=homeless)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_a_warning_that_cannot_be_printed_loses_nothing(tidy: Path) -> None:
@@ -280,7 +342,7 @@ def test_simulate_on_a_recording_gives_its_prediction(command: Command, tidy: Pa
     [
         ("convert", "feet.csv", "out.csv"),
         ("evaluate", "feet.csv", "--model", "paper"),
-        ("evaluate", "feet.csv", "feet.csv", "--model", "paper"),
+        ("evaluate", "feet.csv", "feet.csv:0-479", "--model", "paper"),
         ("evaluate", "feet.csv", "--starts", "every=0.5", "--model", "paper"),
         ("simulate", "out.csv", "--on", "feet.csv"),
         ("view", "feet.csv", "--model", "paper", "--out", "out.html"),
@@ -337,7 +399,8 @@ def test_a_recording_that_is_odd_is_warned_of(
         (("evaluate", "played.csv", "--json", "played.json"), "played.json: this file is read; choose"),
         (("evaluate", "played.csv:0-60", "--json", "played.csv:0-60"), "played.csv:0-60: this file is read"),
         (("info", "played.csv", "--json", "played.json"), "played.json: this file is read; choose"),
-        (("evaluate", "played.csv:0-99999999999999999999"), "played.csv:0-99999999999999999999: there is no"),
+        (("evaluate", "played.csv", "played.csv"), "'played' and 'played' hold the same 481 samples"),
+        (("evaluate", "nowhere.csv:0-180"), "nowhere.csv: there is no such file"),
         (
             ("evaluate", "played.csv", "--seed", str(10**20)),
             f"--seed: {10**20}; expected a whole number from 0",
@@ -465,9 +528,10 @@ def let_it_run(process: subprocess.Popen[Any]) -> None:
 
 
 def long_evaluation(tidy: Path) -> list[str | Path]:
-    """Takes far longer than a test would wait: the same recording, many times over, at many starts."""
+    """Takes far longer than a test would wait: many excerpts at many starts."""
     options = ["--starts", "every=0.001", "--json", "out.json", "--plot", "out.png"]
-    return [sys.executable, "-m", "diabolo", "evaluate", *[tidy] * 60, *options]
+    excerpts = [f"{tidy}:0-{480 - i}" for i in range(60)]
+    return [sys.executable, "-m", "diabolo", "evaluate", *excerpts, *options]
 
 
 def test_a_link_that_leads_to_itself_is_told(tmp_path: Path, command: Command) -> None:

@@ -82,13 +82,14 @@ def test_several_recordings_are_put_together(played: Recording) -> None:
 
 
 def test_recordings_of_the_same_name_are_told_apart(played: Recording) -> None:
-    rows = evaluate([played, played, played], "paper", starts_every=1.0, horizons=[0.5]).horizons
+    same = [played.cut(row, 480) for row in range(3)]
+    rows = evaluate(same, "paper", starts_every=1.0, horizons=[0.5]).horizons
     assert [row.recording for row in rows] == ["played", "played (2)", "played (3)", "all recordings"]
     together = make_recording(seconds=2.0, name="all recordings")
     rows = evaluate([played, together], "paper", starts_every=1.0, horizons=[0.5]).horizons
     assert [row.recording for row in rows] == ["played", "all recordings (2)", "all recordings"]
     numbered = make_recording(seconds=2.0, name="played (2)")
-    rows = evaluate([numbered, played, played], "paper", starts_every=1.0, horizons=[0.5]).horizons
+    rows = evaluate([numbered, *same[:2]], "paper", starts_every=1.0, horizons=[0.5]).horizons
     assert [row.recording for row in rows] == ["played (2)", "played", "played (3)", "all recordings"]
 
 
@@ -105,7 +106,7 @@ def test_seed_and_threads(played: Recording) -> None:
 def test_progress_comes_to_its_end(played: Recording) -> None:
     for starts_every in (None, 0.5):
         fractions: list[float] = []
-        evaluate([played, played], "paper", starts_every=starts_every, progress=fractions.append)
+        evaluate([played, played.cut(0, 300)], "paper", starts_every=starts_every, progress=fractions.append)
         assert fractions == sorted(fractions) and fractions[-1] == 1.0
 
 
@@ -117,11 +118,18 @@ def test_a_failing_progress_function_ends_the_work(played: Recording) -> None:
         evaluate(played, "paper", starts_every=0.1, progress=fail)
 
 
+def test_the_same_recording_does_not_count_twice(played: Recording) -> None:
+    with pytest.raises(ValueError, match=r"'played' and 'played' hold the same 481 samples, from 0 to 4 s; "):
+        evaluate([played, played.cut(0, 480)], "paper")
+    assert len(evaluate([played, played.cut(0, 300)], "paper").rows) == 2  # as in the paper's table
+
+
 def test_bad_input_is_named(played: Recording) -> None:
     with pytest.raises(ValueError, match="recordings: none"):
         evaluate([])
-    with pytest.raises(ValueError, match="start: 'x'"):
-        evaluate(played, start="x")  # type: ignore[arg-type]
+    for start in ("x", np.zeros(3)):
+        with pytest.raises(ValueError, match=r"^start: .*; expected one of fair, published$"):
+            evaluate(played, start=start)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="expected published, paper or consistent"):
         evaluate(played, "ours")
     with pytest.raises(ValueError, match="models: two are named 'paper'"):

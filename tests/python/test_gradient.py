@@ -147,5 +147,11 @@ def test_bad_input_is_named(change: dict[str, Any], text: str) -> None:
 def test_what_is_not_finite_does_not_travel_on() -> None:
     with pytest.raises(FloatingPointError, match="not finite"):
         rollout_gradient(
-            Parameters(), [0, 0, 0, 1e308, 0, 0, 0], TIPS, ["mass"], dt=1.0, steps=20, string_state="flying"
+            Parameters(),
+            [0, 0, 0, 1e308, 0, 0, 0],
+            TIPS,
+            ["mass"],
+            dt=0.02,
+            steps=1000,
+            string_state="flying",
         )

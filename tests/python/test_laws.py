@@ -11,7 +11,7 @@ from typing import Any
 import diabolo
 import numpy as np
 import pytest
-from diabolo import FormulaLaws, Model, TipMotion
+from diabolo import FormulaLaws, Model, TipMotion, cli
 
 ROOT = Path(__file__).resolve().parents[2]
 DRAG: dict[str, Any] = {
@@ -49,6 +49,24 @@ def test_a_law_by_a_formula_acts_as_that_of_the_library_in_rollouts_of_one_and_o
 
 def test_the_shipped_example_reads() -> None:
     assert FormulaLaws.load(ROOT / "examples/laws/creep.laws.json").to_list()[0]["name"] == "creep"
+
+
+def test_the_command_asks_about_the_laws_of_several_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    files = [tmp_path / f"{name}.laws.json" for name in ("first", "second")]
+    for file in files:
+        file.write_text(FormulaLaws([DRAG | {"name": file.name.split(".")[0]}]).to_json())
+    asked: list[str] = []
+
+    def stop(takes: Any, base: Any, *, laws: list[dict[str, Any]], **others: Any) -> None:
+        asked.extend(law["name"] for law in laws)
+        raise ValueError("enough")
+
+    monkeypatch.setattr(cli.diagnose, "run_diagnosis", stop)
+    take = ROOT / "data/recordings/swing.csv"
+    assert cli.main(["diagnose", str(take), "--law", str(files[0]), "--law", str(files[1])]) == 2
+    assert asked == ["first", "second"]
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ import pytest
 pytest.importorskip("jinja2")
 pytest.importorskip("matplotlib")
 
-from diabolo import report
+from diabolo import checks, report
 from diabolo.report import quantity, report_html
 
 DIRECTIONS = [
@@ -489,7 +489,7 @@ def test_without_its_libraries_a_sentence_says_so(monkeypatch: pytest.MonkeyPatc
         if name == library:
             raise ModuleNotFoundError(name=name)
 
-    monkeypatch.setattr(report, "import_module", absent)
+    monkeypatch.setattr(checks, "import_module", absent)
     with pytest.raises(ValueError, match=rf"out.html: .* install {library} \(pip install '.\[plot\]' "):
         report.check(Path("out.html"))
 

@@ -13,6 +13,7 @@ from diabolo import (
     Model,
     Parameters,
     Predictor,
+    RolloutWarning,
     State,
     StickFlex,
     StringElasticity,
@@ -32,6 +33,7 @@ STICKS = np.array([[0.8, 0.6, 0.0], [0.0, -0.6, 0.8]])
 POINTED = TipMotion(
     SWING.times, SWING.left, SWING.right, "spline", *(np.tile(stick, (len(SWING), 1)) for stick in STICKS)
 )
+UNITS_OF_MILLIMETRES = TipMotion([0.0], [[0.0, 300.0, 0.0]], [[0.0, -300.0, 0.0]])
 CENTRE = np.array([0.5, 0.0, 1.0])
 
 
@@ -178,7 +180,7 @@ def test_no_steps_give_no_frames() -> None:
         ({"string_state": [0, 1, 2]}, "string_state: 3 given for 3 rollouts|initial: 2 given for 3 rollouts"),
         ({"string_state": np.zeros((2, 2), int)}, r"string_state: shape \(2, 2\)"),
         ({"model": [Parameters()] * 3}, "initial: 2 given for 3 rollouts; expected 1 or 3"),
-        ({"tips": []}, "empty sequence"),
+        ({"tips": []}, "^tips: none; at least one expected$"),
         ({"begin": float("inf")}, "begin: inf s; must be within 1e9 s"),
         ({"begin": float("nan")}, "begin: nan s"),
         ({"dt": 1e-300}, "dt: 1e-300 s; must be within"),
@@ -197,6 +199,22 @@ def test_bad_input_is_named(change: dict[str, object], text: str) -> None:
         rollout(**arguments)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"initial": np.full((9, 7), 500.0)}, "initial: a coordinate of 500 m; are the positions in metres?"),
+        ({"tips": [UNITS_OF_MILLIMETRES]}, "tips: 600 m apart, but the string is 1.45 m long"),
+        ({"dt": 0.1}, "dt: 0.1 s; steps beyond 0.02 s leave out how the tips move"),
+    ],
+)
+def test_other_units_are_warned_of_once(change: dict[str, object], sentence: str) -> None:
+    arguments = {"model": Parameters(), "initial": np.zeros((9, 7)), "tips": SWING, "steps": 2, **change}
+    with pytest.warns(RolloutWarning) as caught:
+        rollout(**arguments)  # type: ignore[arg-type]
+    assert [str(one.message) for one in caught] == [sentence]
+    assert caught[0].filename == __file__
+
+
 def test_a_tip_motion_of_another_type_is_named() -> None:
     with pytest.raises(ValueError, match=r"tips\[1\]: None; expected TipMotion"):
         rollout(Parameters(), np.zeros((2, 7)), [SWING, None], steps=1)  # type: ignore[list-item]
@@ -206,7 +224,7 @@ def test_what_is_not_finite_does_not_travel_on() -> None:
     initial = np.zeros((3, 7))
     initial[1, 3] = 1e308
     with pytest.raises(FloatingPointError, match="rollout 1: the state is no longer finite at frame"):
-        rollout(Parameters(), initial, SWING, dt=1.0, steps=20, string_state="flying")
+        rollout(Parameters(), initial, SWING, dt=0.02, steps=1000, string_state="flying")
 
 
 def test_ctrl_c_ends_it_at_once_and_other_threads_run_on() -> None:

@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""The counting of sentences: what counts as one, and which pages it refuses."""
+"""The counting of sentences: what counts as one, and which pages it refuses. The lengths of functions."""
 
 from __future__ import annotations
 
 import importlib.util
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
-PROGRAM = Path(__file__).resolve().parents[2] / "tools" / "count_sentences.py"
-specification = importlib.util.spec_from_file_location("count_sentences", PROGRAM)
-assert specification is not None and specification.loader is not None
-count_sentences = importlib.util.module_from_spec(specification)
-specification.loader.exec_module(count_sentences)
+
+def program(name: str) -> ModuleType:
+    path = Path(__file__).resolve().parents[2] / "tools" / f"{name}.py"
+    specification = importlib.util.spec_from_file_location(name, path)
+    assert specification is not None and specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+check_tree, count_sentences = program("check_tree"), program("count_sentences")
 
 PAGE = """# A heading is no sentence. It is not.
 
@@ -60,3 +67,9 @@ def test_a_page_of_long_sentences_is_refused(
     page.write_text(" ".join("Word" + " word" * (length - 1) + "." for length in lengths))
     assert count_sentences.main([str(page)]) == status
     assert ("page.md: too long" in capsys.readouterr().out) == bool(status)
+
+
+def test_a_long_function_is_told() -> None:
+    lines = ["def short() -> None:", *["    pass"] * 79, "def long() -> None:", *["    pass"] * 80]
+    told = check_tree.check_python_file("a.py", lines)
+    assert told == ["a.py:81: long has 81 lines; expected at most 80"]

@@ -17,6 +17,7 @@ from typing import Any, NoReturn, TextIO
 
 from .. import __version__
 from ..checks import RecordingWarning
+from ..rollout import RolloutWarning
 from . import convert, demo, diagnose, evaluate, info, motion, plan, robot, simulate, view
 
 DESCRIPTION = """\
@@ -49,6 +50,12 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        if file is sys.stdout:  # where help cannot be printed, main() says so; argparse keeps silent
+            print(message, end="", file=file, flush=True)
+        else:
+            super()._print_message(message, file)
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -101,8 +108,9 @@ def _run(arguments: Sequence[str]) -> int:
             parser.error(f"{given}: expected a value, and a name that begins so as ./--")
     parsed = parser.parse_args(arguments)
     with warnings.catch_warnings():
-        warnings.simplefilter("once", RecordingWarning)
-        warnings.showwarning = _show_warning
+        for kind in (RecordingWarning, RolloutWarning):
+            warnings.simplefilter("always", kind)
+        warnings.showwarning = _WarningsOnce()
         status: int = parsed.run(parsed) or 0
     sys.stdout.flush()
     return status
@@ -138,18 +146,27 @@ def _end(sentence: str, status: int) -> int:
     return status
 
 
-def _show_warning(
-    message: Warning | str,
-    category: type[Warning],
-    filename: str,
-    lineno: int,
-    file: TextIO | None = None,
-    line: str | None = None,
-) -> None:
-    """As warnings.showwarning, in a sentence."""
-    with suppress(OSError):  # what is warned of is no reason to lose the result
-        if sys.stderr is not None:
-            print(f"diabolo: warning: {_line(str(message))}", file=sys.stderr, flush=True)
+class _WarningsOnce:
+    """Shows each in a sentence; the filter "once" forgets what was said where a library adds a filter."""
+
+    def __init__(self) -> None:
+        self.said: set[str] = set()
+
+    def __call__(
+        self,
+        message: Warning | str,
+        category: type[Warning],
+        filename: str,
+        lineno: int,
+        file: TextIO | None = None,
+        line: str | None = None,
+    ) -> None:
+        sentence = _line(str(message))
+        if sys.stderr is None or sentence in self.said:
+            return
+        self.said.add(sentence)
+        with suppress(OSError):  # what is warned of is no reason to lose the result
+            print(f"diabolo: warning: {sentence}", file=sys.stderr, flush=True)
 
 
 def _sentence(error: Exception) -> str:

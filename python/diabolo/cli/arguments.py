@@ -71,10 +71,14 @@ def output_name(text: str) -> str:
 
 def split_excerpt(text: str) -> tuple[str, tuple[int, int] | None]:
     """The file and the rows of NAME.csv:0-180; a file that has such a name itself comes first."""
-    match = re.fullmatch(r"(.+):(\d{1,9})-(\d{1,9})", text)
-    if match is None or Path(text).exists():
+    if Path(text).exists():
         return text, None
-    return match[1], (int(match[2]), int(match[3]))
+    file, _, rows = text.rpartition(":")
+    if match := re.fullmatch(r"(\d{1,9})-(\d{1,9})", rows):
+        return file, (int(match[1]), int(match[2]))
+    if Path(file).is_file():
+        raise ValueError(f"{text}: '{rows}'; expected the rows FIRST-LAST, as in {file}:0-180")
+    return text, None
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,10 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--law",
         metavar="FILE",
-        help="laws of your own, by formulas, which are asked about as all others: see docs/your_law.md",
+        action="append",
+        default=[],
+        help="laws of your own, by formulas, which are asked about as all others: see docs/your_law.md; "
+        "may be given several times",
     )
     parser.add_argument(
         "--simulated",
@@ -111,9 +114,9 @@ def run(arguments: argparse.Namespace) -> None:
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
     settings = [arguments.calibration] if arguments.calibration else []
     settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
-    settings += [arguments.law] if arguments.law else []
+    settings += arguments.law
     files.check_outputs(outputs, [*inputs, *settings, *arguments.simulated], folder)
-    laws = FormulaLaws.load(arguments.law) if arguments.law else ()
+    laws = [law for file in arguments.law for law in FormulaLaws.load(file).to_list()]
     reading = reading_of(arguments)
     takes, held = (
         [_cut(read_excerpt(text, reading)) for text in given]

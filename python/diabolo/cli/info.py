@@ -18,6 +18,8 @@ from .arguments import Reading, add_calibration, add_command, reading_of
 from .tables import format_table
 
 SCHEMA = "diabolo.info/1"
+MOST_DROPOUTS = 0.5  # of a body's samples
+LONGEST_GAP = 1.0  # [s]
 
 
 def add_parser(commands: Any) -> None:
@@ -80,6 +82,7 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
             "right": recording.right_valid,
             "diabolo": recording.diabolo_valid,
         }
+    seen = [_body(name, valid, rate) for name, valid in bodies.items()]
     return {
         "schema": SCHEMA,
         "file": path,
@@ -87,12 +90,12 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
         "samples": len(time),
         "rate_hz": rate,
         "duration_s": float(time[-1] - time[0]),
-        "bodies": [_body(name, valid, rate) for name, valid in bodies.items()],
+        "bodies": seen,
         "spin_rad_s": _spin(recording) if recording is not None else None,
         "not_calibrated": problem,
         "string_length_m": recording.string_length if recording is not None else None,
         "mass_kg": recording.properties.mass if recording is not None else None,
-        "warnings": _warnings(recording, refused) if recording is not None else [],
+        "warnings": _unseen(seen) + (_warnings(recording, refused) if recording is not None else []),
     }
 
 
@@ -130,7 +133,9 @@ def text_of(found: dict[str, Any]) -> str:
             f"spin: {spin['min']:.1f} to {spin['max']:.1f} rad/s, median {spin['median']:.1f} rad/s; "
             f"faster than {spin['aliases_beyond']:.0f} rad/s would alias"
         )
-    lines += [f"odd: {sentence}" for sentence in found["warnings"]] or ["nothing odd"]
+    lines += [f"odd: {sentence}" for sentence in found["warnings"]]
+    if not found["warnings"] and not found["not_calibrated"]:
+        lines.append("nothing odd")
     return "\n".join(lines)
 
 
@@ -138,6 +143,16 @@ def _warnings(recording: Recording, refused: str | None) -> list[str]:
     if refused is None:
         return recording.warnings()
     return [refused, *(sentence for sentence in recording.warnings() if "points up" not in sentence)]
+
+
+def _unseen(bodies: list[dict[str, Any]]) -> list[str]:
+    """A sentence for each body that is mostly, or for long, not seen."""
+    return [
+        f"{b['name']}: not seen in {100.0 * b['dropouts'] / b['samples']:.1f} % of the samples, "
+        f"for up to {b['longest_gap_s']:.3f} s at a time"
+        for b in bodies
+        if b["dropouts"] > MOST_DROPOUTS * b["samples"] or b["longest_gap_s"] > LONGEST_GAP
+    ]
 
 
 def _motive_take(path: str) -> MotiveTake | None:

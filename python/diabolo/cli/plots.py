@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import Model, PlannedPlay, baseline
+from ..checks import check_drawing
 from ..enums import StringState
 from ..evaluation import ALL_RECORDINGS, Evaluation, Excerpt, HorizonRow, position_errors, predict
 from .files import whole_file
@@ -26,12 +27,7 @@ LOST = 1.0
 
 def check(path: str | Path) -> None:
     """Raise ValueError where there is no matplotlib, or it cannot write such a file."""
-    try:
-        import matplotlib  # noqa: F401
-    except ModuleNotFoundError as error:
-        raise ValueError(
-            f"{path}: to draw it, install matplotlib (pip install '.[plot]' in the project's root)"
-        ) from error
+    check_drawing(path, "matplotlib")
     if Path(path).suffix not in (".png", ".pdf", ".svg"):
         raise ValueError(f"{path}: expected a name that ends in .png, .pdf or .svg")
 
