@@ -26,7 +26,9 @@ INERTIA = (5.6e-4, 6.6e-4, 6.6e-4)  # of the paper's red diabolo, about and acro
 
 
 def model_text(mass: float, string_length: float) -> str:
-    tips = "".join(f'<body name="{name}" mocap="true"><site name="{name}"/></body>' for name in ("left", "right"))
+    tips = "".join(
+        f'<body name="{name}" mocap="true"><site name="{name}"/></body>' for name in ("left", "right")
+    )
     inertia = " ".join(map(str, INERTIA))
     return f"""<mujoco>
   <option timestep="{DT}" gravity="0 0 -9.80665"/>
@@ -64,7 +66,9 @@ class Tendon:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("recordings", nargs="+", help="of one diabolo and string")
     parser.add_argument("--out", type=Path, help="the report, an HTML file")
     arguments = parser.parse_args()
@@ -77,7 +81,9 @@ def main() -> None:
         if alone is not None and better is not None:
             print(f"  {ahead:4g} s ahead: {1e3 * alone:6.1f} mm -> {1e3 * better:6.1f} mm")
     if arguments.out:
-        arguments.out.write_text(report_html(comparison.real.to_dict(), comparison.to_dict()), encoding="utf-8")
+        arguments.out.write_text(
+            report_html(comparison.real.to_dict(), comparison.to_dict()), encoding="utf-8"
+        )
 
 
 if __name__ == "__main__":

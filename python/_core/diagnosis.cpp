@@ -81,8 +81,7 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
                    const std::vector<Recording>& holdout, const std::vector<std::string>& bank,
                    const FormulaLaws<double>& laws, double budget, std::uint64_t seed, int threads,
                    const py::object& progress) {
-  const DiagnosisOptions options =
-      options_of(recordings, base, holdout, bank, laws, budget, seed, threads);
+  const DiagnosisOptions options = options_of(recordings, base, holdout, bank, laws, budget, seed, threads);
   std::vector<std::string> unused;
   Diagnosis result;
   run_watched(progress, 0.0, 1.0, [&](const DiagnosisWatch& watch) {

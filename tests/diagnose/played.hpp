@@ -27,7 +27,8 @@ inline Tips<double> hands(double t) {
 }
 
 /// What a camera sees of play that the full model with these effects predicts; not on the diagnosis' grid.
-inline Recording played(const AllEffects<double>& effects, double seconds, std::uint64_t seed, double wraps = 0.0) {
+inline Recording played(const AllEffects<double>& effects, double seconds, std::uint64_t seed,
+                        double wraps = 0.0) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> noise(0.0, kNoise);
   const Eigen::Index rows = static_cast<Eigen::Index>(seconds * kRate);
@@ -61,7 +62,9 @@ inline Recording played(const AllEffects<double>& effects, double seconds, std::
   };
   std::mt19937_64 attitude(seed + 1000);
   std::normal_distribution<double> normal;
-  const auto seen_axle = [&] { return Vector3<double>(normal(attitude), normal(attitude), normal(attitude)); };
+  const auto seen_axle = [&] {
+    return Vector3<double>(normal(attitude), normal(attitude), normal(attitude));
+  };
   double turned = 0.0;
   for (Eigen::Index i = 0; i < rows; ++i) {
     r.frame.push_back(i);
@@ -75,9 +78,10 @@ inline Recording played(const AllEffects<double>& effects, double seconds, std::
     r.right.position.col(i) = seen(tips.right);
     r.diabolo.position.col(i) = seen(state.position);
     const Vector3<double> axle = (state.axis + kAttitudeNoise * seen_axle()).normalized();
-    r.diabolo_orientation.quaternion.col(i) = (Eigen::Quaterniond::FromTwoVectors(Vector3<double>::UnitX(), axle) *
-                                               Eigen::AngleAxisd(-turned, Vector3<double>::UnitX()))
-                                                  .coeffs();
+    r.diabolo_orientation.quaternion.col(i) =
+        (Eigen::Quaterniond::FromTwoVectors(Vector3<double>::UnitX(), axle) *
+         Eigen::AngleAxisd(-turned, Vector3<double>::UnitX()))
+            .coeffs();
     for (int s = 0; s < kSteps; ++s) {
       const double t = r.time[i] + s * dt;
       turned += state.spin * dt;

@@ -49,7 +49,8 @@ TEST_CASE("a recording of a simulator tells what it lacks, and what it has and r
 
 TEST_CASE("half of a law is too little, twice of it too much, the same agrees") {
   const std::vector<Recording> real{played(rubbing(0.15), 14.0, 3)};
-  for (const auto& [friction, verdict] : {std::pair{0.07, "too_little"}, {0.3, "too_much"}, {0.15, "agrees"}}) {
+  for (const auto& [friction, verdict] :
+       {std::pair{0.07, "too_little"}, {0.3, "too_much"}, {0.15, "agrees"}}) {
     const SimulatorComparison c =
         compare_simulator(real, std::vector<Recording>{played(rubbing(friction), 14.0, 4)});
     CAPTURE(friction, c.sentence);
@@ -131,6 +132,5 @@ TEST_CASE("what a simulator gives is checked, and spins that it does not know ar
                     Contains("one for each time"));
   states.front() = states_of(take.stretches.front());
   states.front().back().position.x() = kNaN;
-  CHECK_THROWS_WITH(check_played(states.front(), take, take.stretches.front()),
-                    Contains("not finite"));
+  CHECK_THROWS_WITH(check_played(states.front(), take, take.stretches.front()), Contains("not finite"));
 }

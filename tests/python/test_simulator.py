@@ -19,7 +19,9 @@ States = NDArray[np.float64]
 SHIPPED = Path(__file__).parents[2] / "data" / "recordings"
 
 
-def simulator(model: diabolo.Model | diabolo.Parameters) -> Callable[[States, diabolo.TipMotion, States], States]:
+def simulator(
+    model: diabolo.Model | diabolo.Parameters,
+) -> Callable[[States, diabolo.TipMotion, States], States]:
     def simulate(start: States, tips: diabolo.TipMotion, times: States) -> States:
         steps = int(np.ceil(times[-1] / 1e-3))
         play = diabolo.rollout(model, start, tips, begin=0.0, steps=steps)
@@ -104,9 +106,7 @@ def test_no_simulated_recording_is_an_error(take: diabolo.Recording) -> None:
         diabolo.compare_simulator(take, [])
 
 
-def test_command_compares_files_and_writes_them(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_command_compares_files_and_writes_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     take, simulated, out = SHIPPED / "puzzle_1.csv", tmp_path / "sim.csv", tmp_path / "out"
     assert main(["simulate", str(simulated), "--on", str(take), "--model", "consistent"]) == 0
     simulated.with_suffix(".json").unlink()  # string and diabolo are then the recording's

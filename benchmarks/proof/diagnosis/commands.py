@@ -12,7 +12,21 @@ from typing import Any
 from diabolo import compare_simulator
 
 from .. import files, plant
-from . import answer, batch, draw, earlier, making, page, record, run, seal, simulators, strangers, tables, tools
+from . import (
+    answer,
+    batch,
+    draw,
+    earlier,
+    making,
+    page,
+    record,
+    run,
+    seal,
+    simulators,
+    strangers,
+    tables,
+    tools,
+)
 from .names import physics_among
 
 ARMS_WITH_ORACLE = ("single", "several", "with_fault", "tie", "outside")

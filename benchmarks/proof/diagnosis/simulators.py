@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import diabolo
+import numpy as np
 
 from . import base, making, sizes
 from .draw import CALM, CALMEST, TRIES
@@ -74,7 +73,9 @@ def draw(seed: int, number: int, attempt: int = 0) -> Pair:
     for name, departure in departures.items():
         real = sizes.merged(real, departure)
         simulated = simulated if name in off else sizes.merged(simulated, departure)
-    simulated = sizes.merged(simulated, {"camera": CLEAN, "string_length_error": 0.0, "axle_radius_error": 0.0})
+    simulated = sizes.merged(
+        simulated, {"camera": CLEAN, "string_length_error": 0.0, "axle_radius_error": 0.0}
+    )
     return Pair(real, simulated, names, off)
 
 
@@ -87,7 +88,9 @@ def make(program: Path, seed: int, number: int, folder: Path) -> tuple[Pair, dic
         if truth is None or making.play(program, pair.simulated, folder / "simulated.csv") is None:
             continue
         frames = making.SHORTEST_SHARE * pair.real["duration"] * pair.real["camera"]["rate"]
-        if all(len(diabolo.load_recording(folder / f"{name}.csv")) >= frames for name in ("real", "simulated")):
+        if all(
+            len(diabolo.load_recording(folder / f"{name}.csv")) >= frames for name in ("real", "simulated")
+        ):
             return pair, truth
     raise ValueError(f"case {number}: the plant missed the diabolo in all of {making.ATTEMPTS} attempts")
 

@@ -37,13 +37,16 @@ struct ResidualAndNoise {
     visit("end_s", &ResidualAndNoise::end_s, "");
     visit("ahead_s", &ResidualAndNoise::ahead_s,
           "Of a prediction of data left out; null for windows that are fitted.");
-    visit("windows", &ResidualAndNoise::windows, "How many were looked at, of half a second each; or predictions.");
+    visit("windows", &ResidualAndNoise::windows,
+          "How many were looked at, of half a second each; or predictions.");
     visit("base", &ResidualAndNoise::base,
           "Left by the base in the middle window, root mean square; ahead, the middle distance.");
     visit("left", &ResidualAndNoise::left, "The same with what was found.");
     visit("noise", &ResidualAndNoise::noise, "The same of noise alone.");
-    visit("times_noise", &ResidualAndNoise::times_noise, "How many times the noise the middle window leaves.");
-    visit("p_value", &ResidualAndNoise::p_value, "Chance that noise leaves more than noise in so many windows.");
+    visit("times_noise", &ResidualAndNoise::times_noise,
+          "How many times the noise the middle window leaves.");
+    visit("p_value", &ResidualAndNoise::p_value,
+          "Chance that noise leaves more than noise in so many windows.");
   }
 };
 

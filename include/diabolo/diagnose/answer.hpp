@@ -68,7 +68,7 @@ struct HeldOut {
   /// again: claim by claim, horizon by horizon [m].
   std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
   std::vector<std::optional<double>> augmented_median;  ///< of the distances [m]
-  std::vector<ResidualAndNoise> ahead;                          ///< at each horizon of kAhead and more
+  std::vector<ResidualAndNoise> ahead;                  ///< at each horizon of kAhead and more
   std::size_t windows = 0;
 };
 
@@ -209,7 +209,7 @@ struct Diagnosis {
   std::optional<double> numerical;    ///< share of the base's error that its numerical rules make
   std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
   std::size_t windows_seen = 0;       ///< in the recordings, of which `windows` were fitted
-  std::shared_ptr<const OwnCandidates> own;  ///< to which findings may point
+  std::shared_ptr<const OwnCandidates> own;   ///< to which findings may point
   std::shared_ptr<const FinalFit> final_fit;  ///< that all of it was read from; null where nothing was fitted
 };
 

@@ -27,7 +27,8 @@ struct SizeOfLaw {
 
 /// Nothing where there is no room for its numbers.
 template <class D>
-std::optional<SizeOfLaw> size_in(const FinalFit& other, const Learnt& learnt, int threads, const Watch& watch) {
+std::optional<SizeOfLaw> size_in(const FinalFit& other, const Learnt& learnt, int threads,
+                                 const Watch& watch) {
   const std::size_t used = numbers_of(other.physics.effects.get<FormulaLaws>());
   if (used + learnt.law.numbers.size() > Law::kMostNumbers) return std::nullopt;
   Law law = learnt.law;

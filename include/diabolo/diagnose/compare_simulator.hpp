@@ -93,10 +93,11 @@ inline const char* verdict_of(const Candidate& candidate, const Estimates& real,
   if (!is_real && is_simulated && !always) return "should_not_have";
   const double a = length(real), b = length(simulated);
   return (candidate.positive || always || a * b < 0.0 ? b > a : std::abs(b) > std::abs(a)) ? "too_much"
-                                                                                              : "too_little";
+                                                                                           : "too_little";
 }
 
-/// Real less simulated, number by number. Of springs it is what has to stand in series: their compliances add.
+/// Real less simulated, number by number. Of springs it is what has to stand in series: their compliances
+/// add.
 inline std::vector<Estimate> difference_of(const Candidate& candidate, const Estimates& difference,
                                            const std::vector<Estimate>& real,
                                            const std::vector<Estimate>& simulated) {
@@ -116,7 +117,8 @@ inline std::vector<Estimate> difference_of(const Candidate& candidate, const Est
 inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, const Diagnosis& simulated,
                             const Estimates& in_real, const Estimates& in_simulated) {
   const Estimates difference = less(in_real, in_simulated);
-  const Finding *const claim = claim_of(real, candidate.name), *const same = claim_of(simulated, candidate.name);
+  const Finding *const claim = claim_of(real, candidate.name), *const same =
+                                                                   claim_of(simulated, candidate.name);
   const double size = size_of(candidate, difference.estimate, real.final_fit->fit.systems);
   ComparedLaw law;
   law.name = candidate.name;
@@ -130,8 +132,8 @@ inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, c
   if (claim != nullptr) law.tied_with = claim->tied_with;
   law.p_value = family_wise(significance(candidate, difference));
   law.real = parameters_of(finding_of(candidate, in_real), real.base_string_length, real.base_gravity);
-  law.simulated =
-      parameters_of(finding_of(candidate, in_simulated), simulated.base_string_length, simulated.base_gravity);
+  law.simulated = parameters_of(finding_of(candidate, in_simulated), simulated.base_string_length,
+                                simulated.base_gravity);
   law.difference = difference_of(candidate, difference, law.real, law.simulated);
   law.where = claim != nullptr ? place_of(*claim, real.windows) : place_of(*same, simulated.windows);
   if (!is_of_spin(candidate) && candidate.kind == CandidateKind::kPhysics) law.size_m = size;
@@ -168,7 +170,8 @@ inline bool has_left_over(const Diagnosis& d, const Diagnosis& camera) {
   });
 }
 
-inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& real, const Diagnosis& simulated) {
+inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& real,
+                               const Diagnosis& simulated) {
   if (!real.reason.empty()) return "Nothing can be compared: of the recordings, " + real.reason + ".";
   if (!simulated.reason.empty())
     return "Nothing can be compared: of what was simulated, " + simulated.reason + ".";
@@ -183,7 +186,8 @@ inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& re
   say("should_not_have", "has ", ", which reality has not");
   if (const std::string faults = listed(c.laws, "should_not_have", true); !faults.empty())
     text += (text.empty() ? "The simulator" : "; it") + (" plays as with a fault of " + faults);
-  text = text.empty() ? "The simulator has what reality has, as far as these recordings can show." : text + ".";
+  text =
+      text.empty() ? "The simulator has what reality has, as far as these recordings can show." : text + ".";
   if (const std::string both = listed(c.laws, "agrees"); !both.empty())
     text += " Reality and the simulator agree in " + both + ".";
   if (const std::string open = listed(c.laws, "cannot_tell"); !open.empty())
@@ -197,14 +201,17 @@ inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& re
   const bool real_left = has_left_over(real, real), simulated_left = has_left_over(simulated, real);
   if (real_left || simulated_left)
     text += std::string(" Something without a name is left in ") +
-            (real_left && simulated_left ? "both" : real_left ? "reality" : "the simulator") + ".";
+            (real_left && simulated_left ? "both"
+             : real_left                 ? "reality"
+                                         : "the simulator") +
+            ".";
   return text;
 }
 
 }  // namespace diagnose_detail
 
-/// Holds what reality was found to have beside what a simulator was found to have, both against the same base.
-/// `real_result` and `simulated_result` are what result_of() makes of them.
+/// Holds what reality was found to have beside what a simulator was found to have, both against the same
+/// base. `real_result` and `simulated_result` are what result_of() makes of them.
 template <class D = diagnose_detail::FitDual>
 SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& simulated,
                                       DiagnosisResult real_result, DiagnosisResult simulated_result,

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include "diabolo/diagnose/answer.hpp"

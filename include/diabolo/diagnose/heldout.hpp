@@ -64,8 +64,8 @@ inline UnknownVector within_bounds(const UnknownVector& scaled, const Fit& fit) 
 }
 
 /// What is predicted without having been fitted: `holdout`, by all evidence; or, where that is empty, each
-/// fold by the other folds' evidence. No window that touches a fold takes part; one without any is not asked. Free are `free` and, for each
-/// claim in turn, a set of `without`.
+/// fold by the other folds' evidence. No window that touches a fold takes part; one without any is not asked.
+/// Free are `free` and, for each claim in turn, a set of `without`.
 inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& evidence,
                                                const ActiveSet& free, const std::vector<ActiveSet>& without,
                                                const std::vector<Recording>& holdout) {

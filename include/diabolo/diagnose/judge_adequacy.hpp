@@ -95,7 +95,7 @@ inline const char* mode_of(const WindowFinding& w) {
 
 /// Stretches of time without events in which more is left than noise leaves, joined where they touch.
 inline std::vector<ResidualAndNoise> stretches_beyond(const Windows& windows, const Channel& channel,
-                                              const std::vector<std::string>& names) {
+                                                      const std::vector<std::string>& names) {
   const auto part = [&](std::size_t first, std::size_t end) {
     return Windows(windows.begin() + static_cast<std::ptrdiff_t>(first),
                    windows.begin() + static_cast<std::ptrdiff_t>(end));

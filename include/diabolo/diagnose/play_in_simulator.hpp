@@ -17,15 +17,14 @@
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/recording/played_recording.hpp"
 
-// Somebody's simulator is asked to play what was recorded: stretch by stretch from recorded starts, so that it
-// never is far from reality.
+// Somebody's simulator is asked to play what was recorded: stretch by stretch from recorded starts, so that
+// it never is far from reality.
 namespace diabolo {
 
 /// What a simulator gives: the states at some times [s] of a motion of the tips, from a start at time zero. A
 /// spin of NaN is not known.
-using Simulate = std::function<std::vector<State<double>>(const State<double>& start,
-                                                          const TipMotion<double>& tips,
-                                                          const Eigen::VectorXd& times)>;
+using Simulate = std::function<std::vector<State<double>>(
+    const State<double>& start, const TipMotion<double>& tips, const Eigen::VectorXd& times)>;
 
 /// Length of a stretch [s], and what is left out between two.
 inline constexpr double kStretchTime = 1.5, kStretchGap = 0.15;
@@ -53,7 +52,8 @@ inline Recording levelled(Recording recording, double x, double y) {
   for (OrientationTrack* track :
        {&recording.left_orientation, &recording.right_orientation, &recording.diabolo_orientation})
     for (Eigen::Index i = 0; i < track->quaternion.cols(); ++i)
-      track->quaternion.col(i) = (turn * Eigen::Quaterniond(Eigen::Vector4d(track->quaternion.col(i)))).coeffs();
+      track->quaternion.col(i) =
+          (turn * Eigen::Quaterniond(Eigen::Vector4d(track->quaternion.col(i)))).coeffs();
   return recording;
 }
 
@@ -61,7 +61,8 @@ inline Recording levelled(Recording recording, double x, double y) {
 inline std::vector<Stretch> stretches_of(const Recording& recording) {
   const StartStates starts(recording, true);
   const Eigen::VectorXd times = row_times(recording);
-  const std::vector<bool> left = in_long_gap(recording.left, times), right = in_long_gap(recording.right, times);
+  const std::vector<bool> left = in_long_gap(recording.left, times),
+                          right = in_long_gap(recording.right, times);
   const auto goes_on = [&](Eigen::Index row) {
     const std::size_t i = static_cast<std::size_t>(row);
     return row + 1 < recording.size() && recording.steps_evenly(row) && !left[i] && !right[i];
@@ -124,8 +125,8 @@ inline void check_played(const std::vector<State<double>>& states, const TakeToP
       throw std::invalid_argument(where + "state " + std::to_string(i) + " is not finite; expected it to be");
 }
 
-/// A take as a simulator played it: the tips that it was given, and the diabolo where it put that, which turns
-/// where all spins are known.
+/// A take as a simulator played it: the tips that it was given, and the diabolo where it put that, which
+/// turns where all spins are known.
 inline Recording with_diabolo(const TakeToPlay& take, const std::vector<std::vector<State<double>>>& played) {
   std::vector<State<double>> states;
   std::vector<double> times;

@@ -50,7 +50,7 @@ struct Compared {
 /// The middle ones; nothing where fewer than kStretch say anything. What is smaller than `immaterial` counts
 /// as that; so many neighbours as `overlap` are one to the test.
 inline std::optional<ResidualAndNoise> residual_and_noise_of(const Compared& compared, double immaterial,
-                                            std::size_t overlap) {
+                                                             std::size_t overlap) {
   const std::size_t count = compared.left.size();
   if (count / overlap < kStretch) return std::nullopt;
   std::vector<double> times;

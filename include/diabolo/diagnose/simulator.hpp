@@ -26,8 +26,8 @@ SimulatorComparison compare_simulator(const std::vector<Recording>& recordings,
                               options.threads, {{}, watch.cancelled});
 }
 
-/// The same of a simulator that can be asked: it plays stretches from recorded starts, and its errors are told
-/// with what it lacks and without.
+/// The same of a simulator that can be asked: it plays stretches from recorded starts, and its errors are
+/// told with what it lacks and without.
 template <class D = diagnose_detail::FitDual>
 SimulatorComparison compare_simulator(const std::vector<Recording>& recordings, const Simulate& simulate,
                                       DiagnosisOptions options = {}, const DiagnosisWatch& watch = {}) {

@@ -27,9 +27,10 @@ struct ComparedLaw {
     visit("name", &ComparedLaw::name, "Of the candidate, or of a law that was learnt.");
     visit("kind", &ComparedLaw::kind, "physics, measurement or learnt.");
     visit("what", &ComparedLaw::what, "In words.");
-    visit("verdict", &ComparedLaw::verdict,
-          "agrees, lacks, too_little, too_much or should_not_have, of the simulator; cannot_tell where one of "
-          "the two shows it and the other is unsure.");
+    visit(
+        "verdict", &ComparedLaw::verdict,
+        "agrees, lacks, too_little, too_much or should_not_have, of the simulator; cannot_tell where one of "
+        "the two shows it and the other is unsure.");
     visit("tied_with", &ComparedLaw::tied_with, "Candidates that explain the recordings as well.");
     visit("p_value", &ComparedLaw::p_value, "That the two are the same, over all candidates.");
     visit("real", &ComparedLaw::real, "What it comes out as in the recordings.");

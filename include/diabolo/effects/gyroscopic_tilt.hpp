@@ -12,8 +12,8 @@ namespace diabolo {
 /// axle s at the radius r square to both and pulls with a torque whose part across s is r T (s.e) u, u the
 /// direction of e without its part along s, of one sign for the left strand and of the other for the right
 /// one. A gyroscope follows it slowly, ds/dt = torque / (I w): one hand forward and the other back tilts the
-/// axle, both forward yaw it. gain = m r / I, about 3 to 8 1/m for the paper's diabolos; some degrees a second
-/// in play.
+/// axle, both forward yaw it. gain = m r / I, about 3 to 8 1/m for the paper's diabolos; some degrees a
+/// second in play.
 ///
 /// For tips that are nearly square to the axle and for a spin that is fast: the nutation is left out, and
 /// below kSlowSpin the law fades. Moves nothing by itself; lift and whoever looks at the axle see it.

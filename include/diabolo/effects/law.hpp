@@ -146,8 +146,8 @@ struct Law {
   static void check(const LawNumber& number, const std::string& here) {
     if (!is_word(number.name)) throw std::invalid_argument(here + "name; expected letters, digits and _");
     if (!(number.usual >= kLeastUsual && number.usual <= 1.0 / kLeastUsual))
-      throw std::invalid_argument(here + "usual " + shown(number.usual) + "; expected " +
-                                  shown(kLeastUsual) + " to " + shown(1.0 / kLeastUsual));
+      throw std::invalid_argument(here + "usual " + shown(number.usual) + "; expected " + shown(kLeastUsual) +
+                                  " to " + shown(1.0 / kLeastUsual));
     if (!(number.minimum < number.maximum) || !std::isfinite(number.maximum - number.minimum))
       throw std::invalid_argument(here + "minimum " + shown(number.minimum) + " and maximum " +
                                   shown(number.maximum) + "; expected the one below the other");

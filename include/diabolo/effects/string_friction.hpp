@@ -16,8 +16,9 @@ namespace diabolo {
 /// Parameters::axle_radius times its spin: give it half the string's thickness more than the bare axle has.
 ///
 /// The same difference of tensions turns the axle: dw/dt = spin_gain (T_right - T_left) / m, spin_gain = m r
-/// / I (about 3 to 8 1/m for the paper's diabolos). It adds to the model's spin rule, which stands for the same
-/// torque as a rate: with a gain, Parameters::spin_coupling is zero or what else couples string and axle.
+/// / I (about 3 to 8 1/m for the paper's diabolos). It adds to the model's spin rule, which stands for the
+/// same torque as a rate: with a gain, Parameters::spin_coupling is zero or what else couples string and
+/// axle.
 template <class Scalar>
 struct StringFriction : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "string_friction";

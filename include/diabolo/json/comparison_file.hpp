@@ -10,8 +10,8 @@
 
 namespace diabolo {
 
-/// The text of a file of the schema diabolo.comparison/1 (docs/your_simulator.md). Throws RecordingError where
-/// a text in it is not UTF-8.
+/// The text of a file of the schema diabolo.comparison/1 (docs/your_simulator.md). Throws RecordingError
+/// where a text in it is not UTF-8.
 inline std::string write_comparison(const SimulatorComparison& comparison) {
   return json_text(record_to_json(comparison), "comparison");
 }

@@ -183,7 +183,11 @@ def comparison_text(comparison: Comparison) -> str:
     lines = [comparison.sentence]
     for law in comparison.laws:
         lines.append(f"  {law.verdict.replace('_', ' '):15} {law.name}")
-        for name, numbers in (("reality", law.real), ("simulator", law.simulated), ("to add", law.difference)):
+        for name, numbers in (
+            ("reality", law.real),
+            ("simulator", law.simulated),
+            ("to add", law.difference),
+        ):
             if numbers and not (law.verdict in ("agrees", "cannot_tell") and name == "to add"):
                 lines.append(f"    {name:10} {', '.join(_value(number) for number in numbers)}")
     lines.append(f"Of the recordings alone: {text_of(comparison.real)}")

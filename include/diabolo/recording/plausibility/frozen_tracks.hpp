@@ -33,8 +33,9 @@ inline Marks repeated_rows(const Recording& r, const Track& track, Stretches& fo
   return marks;
 }
 
-/// Makes dropouts of rows in which a track repeats itself for longer than kLongestRest although its noise moves
-/// it elsewhere: what tracked it held the last pose. Returns how many; a note tells of each body's longest.
+/// Makes dropouts of rows in which a track repeats itself for longer than kLongestRest although its noise
+/// moves it elsewhere: what tracked it held the last pose. Returns how many; a note tells of each body's
+/// longest.
 inline Eigen::Index mask_frozen(Recording& r) {
   constexpr std::array<const char*, 3> kNames{"left tip", "right tip", "diabolo"};
   const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(r);
