@@ -40,7 +40,7 @@ def check(path: str | Path) -> None:
 def report_html(result: dict[str, Any], comparison: dict[str, Any] | None = None) -> str:
     """The page of a result of schema diabolo.diagnosis/1; what it lacks, the page says in words.
 
-    comparison: of somebody's simulator with what was recorded (diabolo.comparison/1), which it then begins with.
+    comparison: of somebody's simulator with the recordings (diabolo.comparison/1), which comes first then.
     """
     check("report")
     if result.get("schema") != DIAGNOSIS_SCHEMA:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A plant that plays reality, and the same plant with half of its physics switched off, which plays somebody's
-simulator: is all that was switched off named, and nothing else?"""
+"""A plant that plays reality, and the same plant with half of its physics switched off, as somebody's simulator:
+is all that was switched off named, and nothing else?"""
 
 from __future__ import annotations
 
@@ -37,10 +37,9 @@ GROUPS: tuple[dict[str, Callable[[np.random.Generator], sizes.Departure]], ...] 
 )
 AT_WORK, OFF = 4, 2
 FASTEST_LOSS = 12.0  # a diabolo that stands still falls off [rad/s^2]
-CLEAN: dict[str, Any] = {
-    name: 0.0
-    for name in ("white_noise", "drift_noise", "attitude_noise", "dropout_share", "tilt_deg", "diabolo_delay")
-} | {"scale": 1.0, "left_tip_offset": [0.0] * 3, "right_tip_offset": [0.0] * 3, "centre_offset": [0.0] * 3}
+CLEAN: dict[str, Any] = dict.fromkeys(
+    ("white_noise", "drift_noise", "attitude_noise", "dropout_share", "tilt_deg", "diabolo_delay"), 0.0
+) | {"scale": 1.0, "left_tip_offset": [0.0] * 3, "right_tip_offset": [0.0] * 3, "centre_offset": [0.0] * 3}
 
 
 @dataclass(frozen=True)
@@ -80,8 +79,10 @@ def draw(seed: int, number: int, attempt: int = 0) -> Pair:
 
 
 def make(program: Path, seed: int, number: int, folder: Path) -> tuple[Pair, dict[str, Any]]:
-    """Plays both; returns what was drawn and the truth of the real one. Raises ValueError where the diabolo is
-    always missed."""
+    """Plays both; returns what was drawn and the truth of the real one.
+
+    Raises ValueError where the diabolo is always missed.
+    """
     for attempt in range(making.ATTEMPTS):
         pair = draw(seed, number, attempt)
         truth = making.play(program, pair.real, folder / "real.csv")
@@ -106,7 +107,7 @@ def row(pair: Pair, truth: dict[str, Any], comparison: diabolo.Comparison) -> di
         found += sorted(named)
         known = truth.get(law.name, {})
         first = law.difference[0]
-        if first.name in known and first.ci90.low <= known[first.name] <= first.ci90.high:
+        if first.name in known and first.ci90 and first.ci90.low <= known[first.name] <= first.ci90.high:
             inside.append(law.name)
     return {
         "at_work": pair.names,

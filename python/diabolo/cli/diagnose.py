@@ -159,7 +159,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def read_simulated(path: str, like: Recording) -> Recording:
-    """What a simulator wrote: a tidy recording; without a JSON beside it, string and diabolo are as `like`'s."""
+    """What a simulator wrote: a tidy recording; without a JSON string and diabolo are those of `like`."""
     if Path(path).with_suffix(".json").exists():
         return load_recording(path)
     bare = load_recording(path, columns="time=time")
@@ -241,6 +241,6 @@ def _texts(
         folder / RESULT_FILE: files.json_text(result),
     }
     if comparison is not None:
-        texts[folder / COMPARISON_FILE] = files.json_text(told)
+        texts[folder / COMPARISON_FILE] = comparison.result.to_json()
         texts[folder / SIMULATOR_FILE] = comparison.simulated.model.to_json()
     return texts

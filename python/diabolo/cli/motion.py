@@ -32,11 +32,11 @@ def add_parser(commands: Any) -> None:
         "motion",
         run=run,
         summary="write the stick motion and the starts of a recording, for a simulator of your own",
-        text="Write what a simulator needs to play a recording: MOTION.csv with the time and the stick tips,\n"
+        text="Write what a simulator needs to play a recording: MOTION.csv with the time and the tips,\n"
         "smoothed and at a rate of your choice, and beside it MOTION.json with the string's length, the\n"
-        "diabolo, and starts (position, velocity, spin) every 1.65 s. Let the simulator play it, add the\n"
-        "columns diabolo_x, diabolo_y, diabolo_z (m), and ask `diabolo diagnose TAKE.csv --simulated SIM.csv`\n"
-        "(docs/your_simulator.md).",
+        "diabolo, and starts (position, velocity, spin) every 1.65 s. Let the simulator play it and add the\n"
+        "columns diabolo_x, diabolo_y, diabolo_z (m). Then ask\n"
+        "`diabolo diagnose TAKE.csv --simulated SIM.csv` (docs/your_simulator.md).",
         example="  diabolo motion swing.csv motion.csv --rate 1000",
     )
     parser.add_argument("recording", metavar="RECORDING", help=RECORDING_HELP)
