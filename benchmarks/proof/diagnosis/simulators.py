@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A plant that plays reality, and the same plant with half of its physics switched off, as somebody's simulator:
-is all that was switched off named, and nothing else?"""
+"""A plant plays reality; with half of its physics switched off it plays somebody's simulator.
+
+Is all that was switched off named, and nothing else?
+"""
 
 from __future__ import annotations
 
