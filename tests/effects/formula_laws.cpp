@@ -92,7 +92,10 @@ TEST_CASE("what is no law is told") {
   CHECK(complaint("own", "k", {{"k", "1"}, {"p", "1"}}) == "law \"own\": number \"p\" is not in the formula");
   CHECK(complaint("own", "speed", {{"speed", "1"}}) == "law \"own\": number \"speed\": the name is taken");
   CHECK(complaint("own", "k", {{"k", "1", 0.0}}) ==
-        "law \"own\": number \"k\": usual 0; expected more than 0");
+        "law \"own\": number \"k\": usual 0; expected 1e-12 to 1e+12");
+  CHECK(
+      complaint("own", "k + 1", {{"k", "1"}}) ==
+      "law \"own\": the formula is 1 where \"k\" is 0; expected 0, since the first number is the amplitude");
   CHECK(complaint("own", "k", {{"k", "1", 1.0, 0.0, 1.0, 2.0}}) ==
         "law \"own\": number \"k\": expected 0; expected within 1 and 2");
   const Law one("own", "", Acts::kUp, "k", {{"k", "1"}});

@@ -239,7 +239,7 @@ TEST_CASE("Frames and times have to increase") {
   CHECK(says_of("\n42,", "\n42.5,") == "take.csv, line 10: frame 42.5; expected a whole number");
   CHECK(says_of("\n42,", "\n,") == "take.csv, line 10: frame nan; expected a whole number");
   CHECK(says_of("\n42,", "\n1e300,") == "take.csv, line 10: frame 1e+300; expected a whole number");
-  CHECK(says_of("42,0.350000", "42,") == "take.csv, line 10: time nan s; expected a number within 1e9 s");
+  CHECK(says_of("42,0.350000", "42,") == "take.csv, line 10: time is empty; expected a number of seconds");
   CHECK(says_of("42,0.350000", "42,1e10") ==
         "take.csv, line 10: time 1e+10 s; expected a number within 1e9 s");
 }

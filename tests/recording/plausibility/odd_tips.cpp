@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/recording/plausibility/odd_tips.hpp"
 
+#include <Eigen/Geometry>
+#include <numbers>
+#include <utility>
 #include "catch.hpp"
 #include "diabolo/recording/plausibility/warnings.hpp"
 #include "recording/played.hpp"
@@ -88,4 +91,20 @@ TEST_CASE("Tips farther apart than the string are told") {
   r.left.position.row(1).array() += 2.0;
   CHECK(odd_distance(r).find(
             "the tips are farther apart than the string is long, 1.45 m, in 100 % of the rows") == 0);
+}
+
+TEST_CASE(
+    "A frame that is turned by a right angle about the vertical is told, one turned by 30 degrees is not") {
+  for (const char* name : test::kShipped) {
+    const Recording given = test::shipped(name);
+    CAPTURE(name);
+    CHECK(odd_heading(given).empty());
+    for (const auto& [degrees, odd] : {std::pair{90.0, true}, {-90.0, true}, {30.0, false}}) {
+      Recording r = given;
+      const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
+      for (Track* track : {&r.left, &r.right, &r.diabolo})
+        track->position = turn.toRotationMatrix() * track->position;
+      CHECK(odd_heading(r).empty() != odd);
+    }
+  }
 }
