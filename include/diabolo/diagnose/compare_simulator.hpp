@@ -216,23 +216,24 @@ template <class D = diagnose_detail::FitDual>
 SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& simulated,
                                       DiagnosisResult real_result, DiagnosisResult simulated_result,
                                       int threads, const Watch& watch = {}) {
-  using namespace diagnose_detail;
+  namespace in = diagnose_detail;
   SimulatorComparison result;
   result.real = std::move(real_result);
   result.simulated = std::move(simulated_result);
   if (real.final_fit && simulated.final_fit) {
-    const std::vector<const Candidate*> claimed = claimed_of_either(real, simulated);
-    const Estimates in_real = estimates_beside(*real.final_fit, claimed),
-                    in_simulated = estimates_beside(*simulated.final_fit, claimed);
+    const std::vector<const Candidate*> claimed = in::claimed_of_either(real, simulated);
+    const Estimates in_real = in::estimates_beside(*real.final_fit, claimed),
+                    in_simulated = in::estimates_beside(*simulated.final_fit, claimed);
     for (const Candidate* candidate : claimed) {
-      ComparedLaw law = compared(*candidate, real, simulated, in_real, in_simulated);
-      const bool in_real_alone = claim_of(simulated, candidate->name) == nullptr;
-      if (law.kind == "measurement" && in_real_alone && !has_always(*candidate))
+      ComparedLaw law = in::compared(*candidate, real, simulated, in_real, in_simulated);
+      const bool in_real_alone = in::claim_of(simulated, candidate->name) == nullptr;
+      if (law.kind == "measurement" && in_real_alone && !in::has_always(*candidate))
         result.recording_faults.push_back(law.what);
       else
         result.laws.push_back(std::move(law));
     }
-    std::ranges::move(compared_learnt<D>(real, simulated, threads, watch), std::back_inserter(result.laws));
+    std::ranges::move(in::compared_learnt<D>(real, simulated, threads, watch),
+                      std::back_inserter(result.laws));
     const auto is_open = [](const ComparedLaw& law) {
       return law.verdict == "agrees" || law.verdict == "cannot_tell";
     };
@@ -240,7 +241,7 @@ SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& si
       return is_open(a) != is_open(b) ? is_open(b) : a.size_m.value_or(0.0) > b.size_m.value_or(0.0);
     });
   }
-  result.sentence = sentence_of(result, real, simulated);
+  result.sentence = in::sentence_of(result, real, simulated);
   return result;
 }
 
