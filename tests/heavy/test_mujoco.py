@@ -61,6 +61,23 @@ def test_example_runs_and_draws(tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_what_its_own_tendon_lacks_is_named(tmp_path):
+    """Friction and drag are at work in the recordings; MuJoCo's tendon knows neither."""
+    report = tmp_path / "mujoco.html"
+    takes = [str(ROOT / "data" / "recordings" / f"puzzle_{number}.csv") for number in (1, 2)]
+    done = subprocess.run(
+        [sys.executable, str(EXAMPLE.with_name("what_mujoco_lacks.py")), *takes, "--out", str(report)],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    lacks = done.stdout.split(";")[0]
+    assert "lacks friction of the string on the axle" in lacks and "drag" in lacks
+    alone, better = (float(part.split()[0]) for part in done.stdout.split("1 s ahead:")[1].split("->"))
+    assert better < 0.4 * alone
+    assert "Your simulator beside reality" in report.read_text(encoding="utf-8")
+
+
 def test_body_follows_the_predictor_until_it_touches_the_floor(example):
     fine = example.predicted(1e-4)[:, :3]
     to_fine = []
