@@ -73,7 +73,9 @@ def test_what_its_own_tendon_lacks_is_named(tmp_path):
     assert done.returncode == 0, done.stderr
     lacks = done.stdout.split(";")[0]
     assert "lacks friction of the string on the axle" in lacks and "drag" in lacks
-    alone, better = (float(part.split()[0]) for part in done.stdout.split("1 s ahead:")[1].split("->"))
+    ahead, errors = done.stdout.splitlines()[-1].split(" s ahead:")
+    alone, better = (float(part.split()[0]) for part in errors.split("->"))
+    assert float(ahead) == 1.0
     assert better < 0.4 * alone
     assert "Your simulator beside reality" in report.read_text(encoding="utf-8")
 
