@@ -143,7 +143,7 @@ py::tuple compare(const std::vector<Recording>& recordings, std::vector<Recordin
   SimulatorComparison result;
   run_watched(progress, 0.5, 1.0, [&](const DiagnosisWatch& watch) {
     for (const Recording& recording : simulated) check_recording(recording);
-    if (!simulated.empty()) theirs = diabolo::diagnose(simulated, options, watch);
+    theirs = simulated.empty() ? nothing_played() : diabolo::diagnose(simulated, options, watch);
     result = compare_simulator(real, theirs, result_of(real, recordings, std::move(unused)),
                                result_of(theirs, simulated), threads, {{}, watch.cancelled});
     if (!played.empty()) result.fit = simulator_errors(takes, played, theirs.model, seed);

@@ -176,6 +176,15 @@ inline Played play(const std::vector<TakeToPlay>& takes, const Simulate& simulat
   return played;
 }
 
+/// The answer about a simulator that was asked to play nothing: no stretch of the recordings is long enough.
+inline Diagnosis nothing_played() {
+  Diagnosis d;
+  d.headline = Headline::kInsufficientData;
+  d.reason = "nothing was played, since no stretch of the recordings is long enough to be";
+  d.sentence = "Nothing can be concluded: " + d.reason + ".";
+  return d;
+}
+
 /// The recordings that a camera in the simulator would have made; a take without a stretch gives none.
 inline std::vector<Recording> played_takes(const std::vector<TakeToPlay>& takes, const Played& played) {
   std::vector<Recording> result;

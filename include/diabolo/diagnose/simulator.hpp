@@ -36,7 +36,7 @@ SimulatorComparison compare_simulator(const std::vector<Recording>& recordings, 
   const Played played = play(takes, simulate);
   const std::vector<Recording> simulated = played_takes(takes, played);
   options.holdout.clear();
-  const Diagnosis theirs = simulated.empty() ? Diagnosis{} : diagnose<D>(simulated, options, watch);
+  const Diagnosis theirs = simulated.empty() ? nothing_played() : diagnose<D>(simulated, options, watch);
   SimulatorComparison result =
       compare_simulator<D>(real, theirs, result_of(real, recordings), result_of(theirs, simulated),
                            options.threads, {{}, watch.cancelled});

@@ -37,7 +37,6 @@ inline Marks repeated_rows(const Recording& r, const Track& track, Stretches& fo
 /// moves it elsewhere: what tracked it held the last pose. Returns how many; a note tells of each body's
 /// longest.
 inline Eigen::Index mask_frozen(Recording& r) {
-  constexpr std::array<const char*, 3> kNames{"left tip", "right tip", "diabolo"};
   const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(r);
   Eigen::Index total = 0;
   std::string told;
@@ -49,16 +48,9 @@ inline Eigen::Index mask_frozen(Recording& r) {
     moving.valid = moving.valid && !frozen;
     if (!(track_noise(moving).deviation.maxCoeff() > kNoisyTrack)) continue;
     total += frozen.count();
-    told += (told.empty() ? "the " : ", the ") + std::string(kNames[b]) + " for " + found.text();
-    OrientationTrack& turn = *recording_plausibility_detail::orientations_of(r)[b];
-    for (Eigen::Index i = 0; i < r.size(); ++i) {
-      if (!frozen[i]) continue;
-      tracks[b]->valid[i] = false;
-      tracks[b]->position.col(i).setConstant(kNaN);
-      if (turn.empty()) continue;
-      turn.valid[i] = false;
-      turn.quaternion.col(i).setConstant(kNaN);
-    }
+    told += (told.empty() ? "the " : ", the ") + std::string(recording_plausibility_detail::kBodies[b]) +
+            " for " + found.text();
+    recording_plausibility_detail::make_dropouts(r, b, frozen);
   }
   if (total > 0) r.notes.push_back("frozen tracking, read as dropouts: " + told);
   return total;

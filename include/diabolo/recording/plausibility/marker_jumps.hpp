@@ -142,24 +142,15 @@ inline Eigen::Index mask_jumps(Recording& r) {
         marks.segment(first, last - first + 1) = marks.segment(first, last - first + 1) &&
                                                  (left || right || diabolo).segment(first, last - first + 1);
   }
-  const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(r);
-  constexpr std::array<const char*, 3> kNames{"left tip", "right tip", "diabolo"};
   std::string counts;
   Eigen::Index total = 0;
   for (std::size_t b = 0; b < 3; ++b) {
     const Eigen::Index count = jumps[b].count();
     if (count == 0) continue;
     total += count;
-    counts += (counts.empty() ? "" : ", ") + std::string(kNames[b]) + " " + std::to_string(count);
-    OrientationTrack& turn = *recording_plausibility_detail::orientations_of(r)[b];
-    for (Eigen::Index i = 0; i < r.size(); ++i) {
-      if (!jumps[b][i]) continue;
-      tracks[b]->valid[i] = false;
-      tracks[b]->position.col(i).setConstant(kNaN);
-      if (turn.empty()) continue;
-      turn.valid[i] = false;
-      turn.quaternion.col(i).setConstant(kNaN);
-    }
+    counts += (counts.empty() ? "" : ", ") + std::string(recording_plausibility_detail::kBodies[b]) + " " +
+              std::to_string(count);
+    recording_plausibility_detail::make_dropouts(r, b, jumps[b]);
   }
   if (total > 0)
     r.notes.push_back(

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,21 @@ inline constexpr std::array<Assignment, 6> kAssignments{
 inline std::array<Track*, 3> tracks_of(Recording& r) { return {&r.left, &r.right, &r.diabolo}; }
 inline std::array<OrientationTrack*, 3> orientations_of(Recording& r) {
   return {&r.left_orientation, &r.right_orientation, &r.diabolo_orientation};
+}
+inline constexpr std::array<const char*, 3> kBodies{"left tip", "right tip", "diabolo"};
+
+/// Makes dropouts of a body's marked samples, with its orientation.
+inline void make_dropouts(Recording& r, std::size_t body, const Marks& marks) {
+  Track& track = *tracks_of(r)[body];
+  OrientationTrack& turn = *orientations_of(r)[body];
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!marks[i]) continue;
+    track.valid[i] = false;
+    track.position.col(i).setConstant(kNaN);
+    if (turn.empty()) continue;
+    turn.valid[i] = false;
+    turn.quaternion.col(i).setConstant(kNaN);
+  }
 }
 
 }  // namespace recording_plausibility_detail
