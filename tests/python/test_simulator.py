@@ -152,3 +152,10 @@ def test_motion_refuses_a_rate(
     assert main(["motion", str(SHIPPED / "swing.csv"), str(tmp_path / "m.csv"), *arguments]) == 2
     assert words in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_too_short_to_be_played_says_so() -> None:
+    short = diabolo.load_recording(SHIPPED / "swing.csv").cut(0, 60)
+    found = diabolo.compare_simulator(short, lambda *_: np.zeros((0, 7)))
+    assert found.sentence.startswith("Nothing can be compared: of the recordings, only 1 window")
+    assert found.simulated.headline == "INSUFFICIENT_DATA"
