@@ -33,6 +33,8 @@ void bind_parts(py::module_& module) {
   bind_record<UnnamedPlace>(module);
   bind_record<UnnamedStructure>(module);
   bind_record<LearntLawFound>(module);
+  bind_record<ParametersAlone>(module);
+  bind_record<DifferingEffect>(module);
   bind_record<UpperLimit>(module);
   bind_record<HeldOutErrors>(module);
   bind_record<ProposedMotion>(module);

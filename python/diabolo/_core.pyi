@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -2045,6 +2045,11 @@ class ClaimedEffect:
         How much it does to a free diabolo.
         """
     @property
+    def spin_worse_without_ci95_radps(self) -> list[Interval | None]:
+        """
+        The same of the spin; null where it was not seen.
+        """
+    @property
     def tied_with(self) -> list[str]:
         """
         Candidates that explain as much in its place.
@@ -2195,9 +2200,75 @@ class LearntLawFound:
         Of the formula, the size first.
         """
     @property
+    def spin_worse_without_ci95_radps(self) -> list[Interval | None]:
+        """
+        The same of the spin; null where it was not seen.
+        """
+    @property
     def worse_without_ci95_m(self) -> list[Interval | None]:
         """
         By how much held-out data is predicted worse without it, 95 % interval of each horizon.
+        """
+class ParametersAlone:
+    """
+    What something comes out as where one recording is fitted by itself.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def parameters(self) -> list[Estimate]:
+        """
+        As of a claimed effect.
+        """
+    @property
+    def recording(self) -> str:
+        """
+        By its name.
+        """
+class DifferingEffect:
+    """
+    Something of which recordings ask for different values.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def to_dict(self) -> dict:
+        """
+        The same as its file has it.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        physics or measurement.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Of the candidate.
+        """
+    @property
+    def recordings(self) -> list[ParametersAlone]:
+        """
+        Each by itself.
+        """
+    @property
+    def what(self) -> str:
+        """
+        In words.
+        """
+    @property
+    def z(self) -> float:
+        """
+        Standard deviations between the two that differ most.
         """
 class UpperLimit:
     """
@@ -2247,9 +2318,19 @@ class HeldOutErrors:
         The same with what was found.
         """
     @property
+    def augmented_spin_error_radps(self) -> list[float | None]:
+        """
+        The same with what was found.
+        """
+    @property
     def base_error_m(self) -> list[float | None]:
         """
         Mean position error of the base.
+        """
+    @property
+    def base_spin_error_radps(self) -> list[float | None]:
+        """
+        Mean spin error of the base; null where no spin was seen.
         """
     @property
     def fitted_windows(self) -> int:
@@ -2282,9 +2363,19 @@ class HeldOutErrors:
         Of so many; the others say least.
         """
     @property
+    def spin_improvement_ci95_radps(self) -> list[Interval | None]:
+        """
+        95 % interval of base less augmented.
+        """
+    @property
     def start_error_m(self) -> list[float | None]:
         """
         What the noise of the starts alone makes.
+        """
+    @property
+    def start_spin_error_radps(self) -> list[float | None]:
+        """
+        By how much the spins of the starts are off those around them.
         """
     @property
     def windows(self) -> int:
@@ -2628,6 +2719,11 @@ class DiagnosisResult:
     def base(self) -> str:
         """
         Name of the simulator that was asked about.
+        """
+    @property
+    def differing(self) -> list[DifferingEffect]:
+        """
+        What recordings ask different values of, the surest first.
         """
     @property
     def effects(self) -> list[ClaimedEffect]:

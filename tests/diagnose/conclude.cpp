@@ -46,6 +46,28 @@ TEST_CASE("physics stands unless what was left out is predicted better without i
   CHECK(withdraw_what_left_out_data_deny(d) == nullptr);
 }
 
+TEST_CASE("a claim on the spin is judged by the spin") {
+  const Worsening better_without{Interval{-3.0, -0.5}}, worse_without{Interval{0.5, 3.0}};
+  Finding helps = claim("spin_drag", 30.0, better_without), harms = claim("axle_drag", 20.0, worse_without);
+  helps.spin_worsening_ci95 = worse_without;
+  harms.spin_worsening_ci95 = better_without;
+  Diagnosis d;
+  d.findings = {helps, harms};
+  CHECK(withdraw_what_left_out_data_deny(d) == &candidate_of("axle_drag"));
+  CHECK(stands(d, "spin_drag"));
+  CHECK_FALSE(stands(d, "axle_drag"));
+}
+
+TEST_CASE("a spin that is predicted worse takes back what is claimed of it, and nothing else") {
+  Diagnosis d;
+  d.findings = {claim("spin_drag", 30.0, {}), claim("string_friction", 20.0, {})};
+  d.heldout.position.improvement_ci95 = {Interval{1e-3, 2e-3}};
+  d.heldout.spin.improvement_ci95 = {Interval{-2.0, -1.0}};
+  CHECK(withdraw_what_does_not_help(d));
+  CHECK_FALSE(stands(d, "spin_drag"));
+  CHECK(stands(d, "string_friction"));
+}
+
 TEST_CASE("of two that are denied the less sure goes first") {
   const Worsening better_without{Interval{-3e-3, -5e-4}};
   Diagnosis d;

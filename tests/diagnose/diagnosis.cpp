@@ -49,8 +49,8 @@ TEST_CASE("friction is named, sized and placed, and predicts what was left out")
   CHECK(friction->deviation[u] < 0.02);
   CHECK(friction->windows.size() > d.windows.size() / 2);
   CHECK(friction->p_value < 1e-3);
-  REQUIRE(d.heldout.base_error[2].has_value());
-  CHECK(*d.heldout.augmented_error[2] < 0.5 * *d.heldout.base_error[2]);
+  REQUIRE(d.heldout.position.base_error[2].has_value());
+  CHECK(*d.heldout.position.augmented_error[2] < 0.5 * *d.heldout.position.base_error[2]);
   CHECK(d.model.effects.get<StringFriction>().coefficient == Approx(friction->estimate[u]).margin(0.01));
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("a force that has no name is learnt, and its law predicts what was lef
   const auto& laws = d.model.effects.get<FormulaLaws>();
   REQUIRE(laws.laws);
   CHECK(laws.numbers[0] == Approx(learnt.value[0]));
-  CHECK(d.heldout.augmented_error.back().value() < 0.5 * d.heldout.base_error.back().value());
+  CHECK(d.heldout.position.augmented_error.back().value() < 0.5 * d.heldout.position.base_error.back().value());
 }
 
 TEST_CASE("a force that grows is learnt where a constant one, or a tilt, would stand for its mean") {

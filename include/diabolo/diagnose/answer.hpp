@@ -56,20 +56,38 @@ struct PowerLaw {
   std::vector<std::pair<double, double>> curve;  ///< x, and the mean of what the windows around it say
 };
 
-/// Errors on data that the model was not fitted to, of the base and with what was found.
+/// Errors of the base and with what was found, horizon by horizon: of positions [m], or of the spin [rad/s].
+struct ErrorsByHorizon {
+  std::vector<std::optional<double>> base_error, augmented_error;  ///< means
+  std::vector<std::optional<Interval>> improvement_ci95;           ///< of base less augmented
+  /// What the start's noise alone would put the augmented model off by, mean.
+  std::vector<std::optional<double>> start_error;
+  /// Of what the augmented model's error grows by where one claim is taken out of it and all else fitted
+  /// again: claim by claim, horizon by horizon.
+  std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
+};
+
+/// Errors on data that the model was not fitted to.
 struct HeldOut {
   bool whole_recordings = false;                      ///< left out one by one; else blocks of rows
   std::vector<double> horizons{0.1, 0.25, 0.5, 1.0};  ///< [s]
-  std::vector<std::optional<double>> base_error, augmented_error;  ///< mean distances [m]
-  std::vector<std::optional<Interval>> improvement_ci95;           ///< of base less augmented [m]
-  /// What the start's noise alone would put the augmented model off by, mean [m].
-  std::vector<std::optional<double>> start_error;
-  /// Of what the augmented model's error grows by where one claim is taken out of it and all else fitted
-  /// again: claim by claim, horizon by horizon [m].
-  std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
+  ErrorsByHorizon position, spin;
   std::vector<std::optional<double>> augmented_median;  ///< of the distances [m]
   std::vector<ResidualAndNoise> ahead;                  ///< at each horizon of kAhead and more
   std::size_t windows = 0;
+};
+
+/// What something comes out as where one recording is fitted by itself, SI units.
+struct FittedAlone {
+  std::string recording;
+  UnknownVector estimate, deviation;  ///< those of the candidate's unknowns count
+};
+
+/// Something of which recordings ask for different values.
+struct Differing {
+  const Candidate* candidate = nullptr;
+  double z = 0.0;  ///< of the two that differ most, in standard deviations
+  std::vector<FittedAlone> alone;
 };
 
 /// A candidate and what speaks for it and against it.
@@ -88,8 +106,8 @@ struct Finding {
   long swapped = 0;  ///< frames, of body_swap
   std::vector<std::string> tied_with;
   std::vector<std::size_t> windows;  ///< in which it matters
-  /// By how much what was left out is predicted worse without it, horizon by horizon [m]; of claims.
-  std::vector<std::optional<Interval>> worsening_ci95;
+  /// By how much what was left out is predicted worse without it, horizon by horizon [m], [rad/s]; of claims.
+  std::vector<std::optional<Interval>> worsening_ci95, spin_worsening_ci95;
   std::string reason;  ///< why it is claimed, or not
 };
 
@@ -126,7 +144,7 @@ struct Learnt {
   Law law;
   std::vector<double> value, deviation;                 ///< of its numbers, in their units
   double gain = 0.0;                                    ///< of windows that were left out, in chi^2
-  std::vector<std::optional<Interval>> worsening_ci95;  ///< see Finding
+  std::vector<std::optional<Interval>> worsening_ci95, spin_worsening_ci95;  ///< see Finding
 };
 
 /// What was seen in a window before anything was added, and what is left.
@@ -196,6 +214,7 @@ struct Diagnosis {
   std::vector<Finding> findings;           ///< of every candidate, the surest first
   std::vector<UnexplainedForce> unexplained_forces;
   std::vector<Learnt> learnt;  ///< in the order in which they were
+  std::vector<Differing> differing;  ///< the surest first
   std::vector<WindowFinding> windows;
   std::vector<std::pair<std::string, CameraNoise>> noise;
   UnknownVector at = UnknownVector::Zero();

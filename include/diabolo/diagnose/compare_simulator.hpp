@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/compare_learnt.hpp"
+#include "diabolo/diagnose/differing.hpp"
 #include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/result_of.hpp"
 #include "diabolo/diagnose/select.hpp"
@@ -51,26 +52,12 @@ inline Estimates estimates_beside(const FinalFit& final_fit, const std::vector<c
   return result;
 }
 
-/// Of numbers that were estimated apart.
-inline Estimates less(const Estimates& a, const Estimates& b) {
-  return {a.estimate - b.estimate, a.noise + b.noise, a.spread + b.spread};
-}
-
 inline Finding finding_of(const Candidate& candidate, const Estimates& estimates) {
   Finding f;
   f.candidate = &candidate;
   f.estimate = estimates.estimate;
   for (int u = 0; u < kUnknowns; ++u) f.deviation[u] = estimates.deviation(u);
   return f;
-}
-
-/// Whether reality and simulator differ by more than is unsure, and by enough to matter.
-inline bool differs(const Candidate& candidate, const Estimates& difference, double size) {
-  const Unknown first = first_of(candidate);
-  if (!(difference.deviation(index_of(first)) > 0.0)) return difference.estimate[index_of(first)] != 0.0;
-  if (candidate.floor > 0.0) return is_beyond_floor(candidate, difference);
-  return std::abs(significance(candidate, difference)) > kSignificance &&
-         size > (is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach);
 }
 
 /// Whether everybody has more or less of it, and never none.

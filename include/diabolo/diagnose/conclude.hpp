@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/adequacy_words.hpp"
+#include "diabolo/diagnose/differing_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
 #include "diabolo/diagnose/significance.hpp"
@@ -65,22 +66,35 @@ inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence,
   claims_first(d);
 }
 
-/// No claim stands whose model predicts worse than the base what it was not fitted to. Returns whether that
-/// was so.
-inline bool withdraw_what_does_not_help(Diagnosis& d) {
-  bool better = false, worse = false;
-  for (const std::optional<Interval>& interval : d.heldout.improvement_ci95) {
-    better = better || (interval && interval->low > 0.0);
-    worse = worse || (interval && interval->high < 0.0);
+/// What data that were left out say of something, over all horizons.
+struct LeftOutSays {
+  bool better = false, worse = false, anything = false;
+
+  explicit LeftOutSays(const std::vector<std::optional<Interval>>& gained_ci95) {
+    for (const std::optional<Interval>& interval : gained_ci95) {
+      if (!interval) continue;
+      anything = true;
+      better = better || interval->low > 0.0;
+      worse = worse || interval->high < 0.0;
+    }
   }
-  if (better || !worse) return false;
+  bool against() const { return worse && !better; }
+};
+
+/// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim on
+/// the spin; any, where positions are. Returns whether that was so.
+inline bool withdraw_what_does_not_help(Diagnosis& d) {
+  const LeftOutSays position(d.heldout.position.improvement_ci95), spin(d.heldout.spin.improvement_ci95);
+  if (!position.against() && !spin.against()) return false;
+  bool withdrawn = false;
   for (Finding& f : d.findings) {
-    if (!f.claimed) continue;
+    if (!f.claimed || (!position.against() && !is_of_spin(*f.candidate))) continue;
     f.claimed = false;
+    withdrawn = true;
     d.withdrawn = d.withdrawn || (f.candidate->kind == CandidateKind::kPhysics && std::abs(f.z) > kStrong);
     f.reason = kDenied;
   }
-  return true;
+  return position.against() || withdrawn;
 }
 
 /// Nothing is claimed that leaves the gap more than half open where the middle window still misses by far:
@@ -103,19 +117,16 @@ inline bool withdraw_what_explains_too_little(Diagnosis& d) {
 
 /// No physics is claimed without which what was left out is predicted better, nor tips somewhere else unless
 /// it is predicted worse without, where that can be said: six numbers explain much that nobody knows. (Of
-/// other faults this is not asked: what one of them does, tips elsewhere could do as well; nor of what acts
-/// on the spin, which positions hardly show.) Returns the least sure physics that was withdrawn, which the
+/// other faults this is not asked: what one of them does, tips elsewhere could do as well. What acts on the
+/// spin is judged by the spin.) Returns the least sure physics that was withdrawn, which the
 /// model has to do without; null where there is none.
 inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
   const Finding* weakest = nullptr;
   for (Finding& f : d.findings) {
-    const auto any = [&](auto says) { return std::ranges::any_of(f.worsening_ci95, says); };
-    const bool said = any([](const auto&interval) { return interval.has_value(); }),
-               helps = any([](const auto&interval) { return interval && interval->low > 0.0; }),
-               harms = any([](const auto&interval) { return interval && interval->high < 0.0; });
+    const LeftOutSays says(is_of_spin(*f.candidate) ? f.spin_worsening_ci95 : f.worsening_ci95);
     const bool physics = is_law(*f.candidate), tips = first_of(*f.candidate) == Unknown::kLeftX;
-    const bool denied = physics ? harms && !is_of_spin(*f.candidate) : tips && said;
-    if (!f.claimed || helps || !denied) continue;
+    const bool denied = physics ? says.worse : tips && says.anything;
+    if (!f.claimed || says.better || !denied) continue;
     f.claimed = false;
     f.reason = kDenied;
     if (!physics) continue;
@@ -249,6 +260,7 @@ inline void conclude(Diagnosis& d) {
   }
   if (d.reason.empty() && d.headline != Headline::kNumerical && d.headline != Headline::kNothingMissing)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
+  d.sentence += differing_in_words(d);
   for (std::size_t i = 0; i < d.not_done.size(); ++i)
     d.sentence += (i == 0 ? " Not done: " : "; ") + d.not_done[i] + (i + 1 == d.not_done.size() ? "." : "");
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/adequacy.hpp"
+#include "diabolo/diagnose/differing_effect.hpp"
 #include "diabolo/diagnose/location.hpp"
 #include "diabolo/diagnose/result.hpp"
 #include "diabolo/diagnose/significance.hpp"
@@ -59,6 +60,7 @@ struct DiagnosisResult {
   Adequacy adequacy;
   std::vector<UnnamedStructure> unnamed;
   std::vector<LearntLawFound> learnt;
+  std::vector<DifferingEffect> differing;
   std::vector<UpperLimit> upper_limits;
   std::vector<Estimate> nuisances;
   HeldOutErrors fit;
@@ -85,6 +87,7 @@ struct DiagnosisResult {
     visit("adequacy", &DiagnosisResult::adequacy, "Whether it leaves no more than noise would.");
     visit("unnamed", &DiagnosisResult::unnamed, "What is there and has no name.");
     visit("learnt", &DiagnosisResult::learnt, "Laws that were learnt from it.");
+    visit("differing", &DiagnosisResult::differing, "What recordings ask different values of, the surest first.");
     visit("upper_limits", &DiagnosisResult::upper_limits, "What may be there unseen.");
     visit("nuisances", &DiagnosisResult::nuisances, "What was measured on the way.");
     visit("fit", &DiagnosisResult::fit, "Errors on data that was not fitted.");

@@ -78,6 +78,7 @@ inline LearntLawFound learnt_of(const Learnt& learnt) {
                                            learnt.law.numbers[i].unit));
   found.gain = learnt.gain;
   found.worse_without_ci95_m = learnt.worsening_ci95;
+  found.spin_worse_without_ci95_radps = learnt.spin_worsening_ci95;
   return found;
 }
 

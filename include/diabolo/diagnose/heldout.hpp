@@ -114,11 +114,21 @@ inline constexpr std::size_t kStartsAlike = 2;
 
 namespace diagnose_detail {
 
-/// What predictions are wrong by at one horizon [m], a number for each start.
-struct ErrorsAhead {
+/// What predictions are wrong by at one horizon, a number for each start.
+struct Errors {
   std::vector<double> base, augmented, gain, start;
-  Compared compared;
   std::vector<std::vector<double>> losses;  ///< for each claim: more than with it
+
+  void add(double of_base, double of_augmented) {
+    base.push_back(of_base);
+    augmented.push_back(of_augmented);
+    gain.push_back(of_base - of_augmented);
+  }
+};
+
+struct ErrorsAhead {
+  Errors position, spin;
+  Compared compared;  ///< positions
 };
 
 inline bool both_predicted(const WindowError& a, const WindowError& b) {
@@ -153,21 +163,42 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
     for (std::size_t h = 0; h < ahead.size(); ++h) {
       const WindowError &a = without[i][h], &b = with[i][h];
       if (!both_predicted(a, b)) continue;
-      ahead[h].base.push_back(a.model);
-      ahead[h].augmented.push_back(b.model);
-      ahead[h].gain.push_back(a.model - b.model);
+      ahead[h].position.add(a.model, b.model);
+      if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.add(a.spin, b.spin);
+      if (std::isfinite(b.spin) && std::isfinite(better.spin_noise(i)))
+        ahead[h].spin.start.push_back(better.spin_noise(i));
       if (!std::isfinite(scatter[i][h])) continue;
-      ahead[h].start.push_back(scatter[i][h]);
+      ahead[h].position.start.push_back(scatter[i][h]);
       ahead[h].compared.add(a.model, b.model, scatter[i][h]);
     }
   for (std::size_t c = 0; c < held.without.size(); ++c) {
     const std::vector<std::vector<WindowError>> poorer =
         errors_of(task_at(held.without[c]), options.threads, watch);
     for (std::size_t i = 0; i < with.size(); ++i)
-      for (std::size_t h = 0; h < ahead.size(); ++h)
-        if (both_predicted(poorer[i][h], with[i][h]))
-          ahead[h].losses[c].push_back(poorer[i][h].model - with[i][h].model);
+      for (std::size_t h = 0; h < ahead.size(); ++h) {
+        const WindowError &a = poorer[i][h], &b = with[i][h];
+        if (!both_predicted(a, b)) continue;
+        ahead[h].position.losses[c].push_back(a.model - b.model);
+        if (std::isfinite(a.spin) && std::isfinite(b.spin))
+          ahead[h].spin.losses[c].push_back(a.spin - b.spin);
+      }
   }
+}
+
+inline std::optional<double> mean_if_any(const std::vector<double>& errors) {
+  return errors.empty() ? std::nullopt : std::optional(mean_of(errors));
+}
+
+/// Takes down one horizon's errors; `interval_of` is that of a mean.
+template <class IntervalOf>
+void add_horizon(const Errors& errors, ErrorsByHorizon& result, const IntervalOf& interval_of) {
+  result.base_error.push_back(mean_if_any(errors.base));
+  result.augmented_error.push_back(mean_if_any(errors.augmented));
+  result.start_error.push_back(mean_if_any(errors.start));
+  result.improvement_ci95.push_back(interval_of(errors.gain));
+  result.worsening_ci95.resize(errors.losses.size());
+  for (std::size_t c = 0; c < errors.losses.size(); ++c)
+    result.worsening_ci95[c].push_back(interval_of(errors.losses[c]));
 }
 
 }  // namespace diagnose_detail
@@ -183,42 +214,38 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
   options.threads = threads;
   const std::size_t claims = recordings.empty() ? 0 : recordings.front().without.size();
   std::vector<diagnose_detail::ErrorsAhead> ahead(options.horizons.size());
-  for (diagnose_detail::ErrorsAhead& errors : ahead) errors.losses.resize(claims);
+  for (diagnose_detail::ErrorsAhead& errors : ahead) {
+    errors.position.losses.resize(claims);
+    errors.spin.losses.resize(claims);
+  }
   for (const HeldOutRecording& held : recordings)
     diagnose_detail::add_errors(held, base, physics, options, seed, watch, ahead);
 
   std::mt19937_64 generator(seed);
-  const auto interval_of = [&](const std::vector<double>& differences, double horizon) {
-    const std::size_t overlap = 1 + static_cast<std::size_t>(std::ceil(horizon / options.starts_every));
-    const std::optional<ErrorSummary> summary = summarize(differences, overlap, generator);
-    return summary ? std::optional(summary->mean_ci95) : std::nullopt;
-  };
-  const auto mean_if_any = [](const std::vector<double>& errors) {
-    return errors.empty() ? std::nullopt : std::optional(mean_of(errors));
-  };
   for (std::size_t h = 0; h < ahead.size(); ++h) {
+    const double horizon = options.horizons[h];
+    const auto interval_of = [&](const std::vector<double>& differences) {
+      const std::size_t overlap = 1 + static_cast<std::size_t>(std::ceil(horizon / options.starts_every));
+      const std::optional<ErrorSummary> summary = summarize(differences, overlap, generator);
+      return summary ? std::optional(summary->mean_ci95) : std::nullopt;
+    };
     diagnose_detail::ErrorsAhead& errors = ahead[h];
-    result.windows = std::max(result.windows, errors.gain.size());
-    result.base_error.push_back(mean_if_any(errors.base));
-    result.augmented_error.push_back(mean_if_any(errors.augmented));
-    std::ranges::sort(errors.augmented);
-    result.augmented_median.push_back(
-        errors.augmented.empty() ? std::nullopt : std::optional(quantile(errors.augmented, 0.5)));
-    result.start_error.push_back(mean_if_any(errors.start));
-    result.improvement_ci95.push_back(interval_of(errors.gain, options.horizons[h]));
-    if (options.horizons[h] < kAhead) continue;
+    result.windows = std::max(result.windows, errors.position.gain.size());
+    diagnose_detail::add_horizon(errors.position, result.position, interval_of);
+    diagnose_detail::add_horizon(errors.spin, result.spin, interval_of);
+    std::vector<double>& distances = errors.position.augmented;
+    std::ranges::sort(distances);
+    result.augmented_median.push_back(distances.empty() ? std::nullopt
+                                                        : std::optional(quantile(distances, 0.5)));
+    if (horizon < kAhead) continue;
     std::optional<ResidualAndNoise> left =
         diagnose_detail::residual_and_noise_of(errors.compared, kImmaterialAhead, kStartsAlike);
     if (!left) continue;
     left->quantity = "position";
     left->unit = "m";
-    left->ahead_s = options.horizons[h];
+    left->ahead_s = horizon;
     result.ahead.push_back(*left);
   }
-  result.worsening_ci95.resize(claims);
-  for (std::size_t c = 0; c < claims; ++c)
-    for (std::size_t h = 0; h < ahead.size(); ++h)
-      result.worsening_ci95[c].push_back(interval_of(ahead[h].losses[c], options.horizons[h]));
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include "diabolo/diagnose/axle_motion.hpp"
 #include "diabolo/diagnose/claim_search.hpp"
 #include "diabolo/diagnose/conclude.hpp"
+#include "diabolo/diagnose/differing.hpp"
 #include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
@@ -43,6 +44,7 @@ class Inquiry : public ClaimSearch<D> {
       withdrawn = learn_laws(withdrawn);
       if (withdrawn || withdraw_what_explains_too_little(result_)) result_.model = options_.base;
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
+      compare_takes();
       finish();
       result_.final_fit = std::make_shared<FinalFit>(FinalFit{physics_, std::move(fit_), set_});
     }
@@ -105,8 +107,10 @@ class Inquiry : public ClaimSearch<D> {
         leave_out(fit_, Evidence(fit_), set_, without, options_.holdout);
     result_.heldout = compare_held_out(held, options_.base, physics_, options_.seed, fit_.most_windows,
                                        options_.threads, step("comparing on data left out", 0.85, 0.9));
-    for (std::size_t i = 0; i < without.size(); ++i)  // claims come first
-      result_.findings[i].worsening_ci95 = result_.heldout.worsening_ci95[i];
+    for (std::size_t i = 0; i < without.size() && !held.empty(); ++i) {  // claims come first
+      result_.findings[i].worsening_ci95 = result_.heldout.position.worsening_ci95[i];
+      result_.findings[i].spin_worsening_ci95 = result_.heldout.spin.worsening_ci95[i];
+    }
     return withdraw_what_left_out_data_deny(result_);
   }
 
@@ -127,7 +131,8 @@ class Inquiry : public ClaimSearch<D> {
       fit_.noise_is_known = false;  // what was not known was taken for noise
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, looking);
       fit_.noise_is_known = true;
-      result_.learnt.push_back({std::move(law->law), {}, {}, law->gain, std::move(law->worsening_ci95)});
+      result_.learnt.push_back({std::move(law->law), {}, {}, law->gain, std::move(law->worsening_ci95),
+                                std::move(law->spin_worsening_ci95)});
       settle();
       withdrawn = withdraw_what_does_not_help(result_);
       judge();
@@ -145,13 +150,22 @@ class Inquiry : public ClaimSearch<D> {
                                       options_.threads, step(asking, 0.95, 0.96, kRulesShare));
   }
 
+  /// Asks each of several recordings by itself.
+  void compare_takes() {
+    const char* const comparing = "comparing recordings";
+    if (fit_.fit_takes.size() < 2 || !budget_.allows(comparing, kRulesShare)) return;
+    const FitWatch looking = step(comparing, 0.96, 0.965, kRulesShare);
+    result_.differing = differing_takes<D>(fit_, physics_, bank_, set_, options_.threads, looking);
+    if (looking.is_enough()) budget_.leave(comparing);
+  }
+
   /// The numerical rules' share, the noise, and what to record next.
   void finish() {
     if (numerical_ && budget_.allows("comparing rules", kRulesShare)) {
       Model rules = options_.base;
       rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
       result_.numerical =
-          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.96, 0.97));
+          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.965, 0.97));
     }
     for (std::size_t s = 0; s < fit_.fit_takes.size(); ++s)
       result_.noise.push_back({fit_.fit_takes[s].take->recording.name, fit_.noise[s]});

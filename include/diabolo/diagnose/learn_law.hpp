@@ -38,7 +38,7 @@ struct LearntLaw {
   Fit fit;
   ActiveSet set = ActiveSet::Constant(false);
   double gain = 0.0;                                      ///< what chi^2 falls by, in units of the dispersion
-  std::vector<std::optional<Interval>> worsening_ci95{};  ///< see Finding
+  std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
 };
 
 namespace diagnose_detail {
@@ -195,8 +195,8 @@ inline bool explains_left_out(const LearntLaw& learnt) {
 }
 
 /// Whether data that were left out are predicted better with a law than by the fit `before`, of `set`, and
-/// nowhere worse. Where they are few and cannot tell, as of one on the spin, which positions hardly show,
-/// much of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
+/// nowhere worse: the spin, by a law that acts on it; else positions. Where they are few and cannot tell, much
+/// of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
 inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, const DiagnosisOptions& options,
                   const FitWatch& watch) {
   std::vector<HeldOutRecording> held =
@@ -205,14 +205,18 @@ inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, co
   for (std::size_t i = 0; i < held.size(); ++i) held[i].without = {old[i].at};
   const HeldOut compared = compare_held_out(held, options.base, learnt.physics, options.seed,
                                             learnt.fit.most_windows, options.threads, watch);
-  if (compared.worsening_ci95.empty()) return false;
-  learnt.worsening_ci95 = compared.worsening_ci95.front();
-  const auto any = [&](auto says) { return std::ranges::any_of(learnt.worsening_ci95, says); };
-  const bool better = any([](const auto&i) { return i && i->low > 0.0; }),
-             worse = any([](const auto&i) { return i && i->high < 0.0; }),
-             leans_against = any([](const auto&i) { return i && i->low + i->high < 0.0; });
-  if (learnt.law.acts == Acts::kSpin) return !worse;
-  return !worse && (better || (learnt.gain > kGainAlone && !leans_against));
+  if (compared.position.worsening_ci95.empty()) return false;
+  learnt.worsening_ci95 = compared.position.worsening_ci95.front();
+  learnt.spin_worsening_ci95 = compared.spin.worsening_ci95.front();
+  const auto any = [](const std::vector<std::optional<Interval>>& horizons, auto says) {
+    return std::ranges::any_of(horizons, [&](const auto& interval) { return interval && says(*interval); });
+  };
+  const auto worse = [](const Interval& i) { return i.high < 0.0; };
+  const auto& judges = learnt.law.acts == Acts::kSpin ? learnt.spin_worsening_ci95 : learnt.worsening_ci95;
+  const bool better = any(judges, [](const Interval& i) { return i.low > 0.0; }),
+             leans_against = any(judges, [](const Interval& i) { return i.low + i.high < 0.0; });
+  return !any(learnt.worsening_ci95, worse) && !any(learnt.spin_worsening_ci95, worse) &&
+         (better || (learnt.gain > kGainAlone && !leans_against));
 }
 
 }  // namespace diagnose_detail

@@ -77,7 +77,7 @@ struct ClaimedEffect {
   std::optional<double> p_value, confidence;
   std::vector<Estimate> parameters;
   EffectPlace where;
-  IntervalByHorizon worse_without_ci95_m;
+  IntervalByHorizon worse_without_ci95_m, spin_worse_without_ci95_radps;
   EffectSize size;
 
   template <class Visit>
@@ -92,6 +92,8 @@ struct ClaimedEffect {
     visit("where", &ClaimedEffect::where, "Where it matters.");
     visit("worse_without_ci95_m", &ClaimedEffect::worse_without_ci95_m,
           "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
+    visit("spin_worse_without_ci95_radps", &ClaimedEffect::spin_worse_without_ci95_radps,
+          "The same of the spin; null where it was not seen.");
     visit("size", &ClaimedEffect::size, "How much it does to a free diabolo.");
   }
 };
@@ -147,7 +149,7 @@ struct LearntLawFound {
   std::string name, law, acts, formula;
   std::vector<Estimate> numbers;
   double gain = kNaN;
-  IntervalByHorizon worse_without_ci95_m;
+  IntervalByHorizon worse_without_ci95_m, spin_worse_without_ci95_radps;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
@@ -159,6 +161,8 @@ struct LearntLawFound {
     visit("gain", &LearntLawFound::gain, "In chi^2, of windows that were left out.");
     visit("worse_without_ci95_m", &LearntLawFound::worse_without_ci95_m,
           "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
+    visit("spin_worse_without_ci95_radps", &LearntLawFound::spin_worse_without_ci95_radps,
+          "The same of the spin; null where it was not seen.");
   }
 };
 
@@ -188,6 +192,9 @@ struct HeldOutErrors {
   NumberByHorizon base_error_m, augmented_error_m;
   IntervalByHorizon improvement_ci95_m;
   NumberByHorizon start_error_m;
+  NumberByHorizon base_spin_error_radps, augmented_spin_error_radps;
+  IntervalByHorizon spin_improvement_ci95_radps;
+  NumberByHorizon start_spin_error_radps;
   std::size_t windows = 0;
   std::vector<std::string> holdout_unused;
   std::size_t fitted_windows = 0, of_windows = 0;
@@ -200,6 +207,14 @@ struct HeldOutErrors {
     visit("augmented_error_m", &HeldOutErrors::augmented_error_m, "The same with what was found.");
     visit("improvement_ci95_m", &HeldOutErrors::improvement_ci95_m, "95 % interval of base less augmented.");
     visit("start_error_m", &HeldOutErrors::start_error_m, "What the noise of the starts alone makes.");
+    visit("base_spin_error_radps", &HeldOutErrors::base_spin_error_radps,
+          "Mean spin error of the base; null where no spin was seen.");
+    visit("augmented_spin_error_radps", &HeldOutErrors::augmented_spin_error_radps,
+          "The same with what was found.");
+    visit("spin_improvement_ci95_radps", &HeldOutErrors::spin_improvement_ci95_radps,
+          "95 % interval of base less augmented.");
+    visit("start_spin_error_radps", &HeldOutErrors::start_spin_error_radps,
+          "By how much the spins of the starts are off those around them.");
     visit("windows", &HeldOutErrors::windows, "Predictions that were compared.");
     visit("holdout_unused", &HeldOutErrors::holdout_unused,
           "Held-out recordings without a start to compare.");

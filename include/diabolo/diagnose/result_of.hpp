@@ -15,6 +15,7 @@
 #include "diabolo/diagnose/diagnosis_result.hpp"
 #include "diabolo/diagnose/finding_parameters.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/located.hpp"
 #include "diabolo/diagnose/own_laws.hpp"
 #include "diabolo/diagnose/significance.hpp"
 
@@ -38,10 +39,6 @@ inline const char* text_of(Headline headline) {
     default:
       return "NOTHING_MISSING";
   }
-}
-
-inline const char* text_of(StringState state) {
-  return state == StringState::kOnString ? "ON_STRING" : state == StringState::kLoose ? "LOOSE" : "FLYING";
 }
 
 namespace diagnose_detail {
@@ -117,11 +114,29 @@ inline ClaimedEffect effect_of(const Finding& f, const Diagnosis& d) {
   effect.parameters = parameters_of(f, d.base_string_length, d.base_gravity);
   effect.where = place_of(f, d.windows);
   effect.worse_without_ci95_m = f.worsening_ci95;
+  effect.spin_worse_without_ci95_radps = f.spin_worsening_ci95;
   if (is_of_spin(*f.candidate))
     effect.size.spin_share_1s = f.size / kSpinTime;
   else  // as a constant acceleration would: x = a t^2 / 2 at half a second, four times that at one
     effect.size = {8.0 * f.size, 4.0 * f.size, f.size, std::nullopt};
   return effect;
+}
+
+/// Something of which recordings ask for different values.
+inline DifferingEffect differing_of(const Differing& differing, const Diagnosis& d) {
+  DifferingEffect result;
+  result.name = differing.candidate->name;
+  result.kind = kind_of(*differing.candidate);
+  result.what = differing.candidate->plain;
+  result.z = differing.z;
+  for (const FittedAlone& alone : differing.alone) {
+    Finding f;
+    f.candidate = differing.candidate;
+    f.estimate = alone.estimate;
+    f.deviation = alone.deviation;
+    result.recordings.push_back({alone.recording, parameters_of(f, d.base_string_length, d.base_gravity)});
+  }
+  return result;
 }
 
 inline ClaimedEffect solver_artefact(double share) {
@@ -206,35 +221,6 @@ inline UnnamedStructure unnamed_of(const UnexplainedForce& l) {
   return found;
 }
 
-inline Location located(const Diagnosis& d, const std::vector<Recording>& recordings) {
-  Location location;
-  for (int k = 0; k < kLatents; ++k) {
-    const UnknownInfo& info = info_of(static_cast<Unknown>(kLatentFirst + k));
-    const bool on_string = k < 2 || k == 5;
-    location.directions.push_back(
-        {std::string(info.name), on_string ? "ON_STRING" : "FLYING", std::string(info.unit)});
-  }
-  for (const WindowFinding& w : d.windows) {
-    const auto where_seen = [](double value) {
-      return std::isfinite(value) ? std::optional(value) : std::nullopt;
-    };
-    LocatedWindow window{recordings[w.recording].name,
-                         w.begin,
-                         w.end,
-                         text_of(w.mode),
-                         w.residual_before,
-                         w.residual_after,
-                         {},
-                         where_seen(w.residual_noise),
-                         where_seen(w.spin_before),
-                         where_seen(w.spin_after),
-                         where_seen(w.spin_noise)};
-    for (const double z : w.z) window.z.push_back(where_seen(z));
-    location.windows.push_back(std::move(window));
-  }
-  return location;
-}
-
 }  // namespace diagnose_detail
 
 /// What a diagnosis says, less what only its caller knows: files and time. `recordings` are those that were
@@ -262,12 +248,18 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
   for (const UnexplainedForce& l : d.unexplained_forces)
     result.unnamed.push_back(diagnose_detail::unnamed_of(l));
   for (const Learnt& learnt : d.learnt) result.learnt.push_back(diagnose_detail::learnt_of(learnt));
+  for (const Differing& differing : d.differing)
+    result.differing.push_back(diagnose_detail::differing_of(differing, d));
   result.fit = {d.heldout.whole_recordings ? "recordings" : "blocks",
                 d.heldout.horizons,
-                d.heldout.base_error,
-                d.heldout.augmented_error,
-                d.heldout.improvement_ci95,
-                d.heldout.start_error,
+                d.heldout.position.base_error,
+                d.heldout.position.augmented_error,
+                d.heldout.position.improvement_ci95,
+                d.heldout.position.start_error,
+                d.heldout.spin.base_error,
+                d.heldout.spin.augmented_error,
+                d.heldout.spin.improvement_ci95,
+                d.heldout.spin.start_error,
                 d.heldout.windows,
                 std::move(unused),
                 d.windows.size(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -26,6 +27,7 @@ struct WindowError {
   bool failed = false;      ///< the prediction diverged before; then `model` does not count
   bool missed_catch = false;
   double model = 0.0, baseline = 0.0;  ///< distance to the recorded diabolo [m]
+  double spin = kNaN;                  ///< predicted less recorded, in size [rad/s]; NaN where it was not seen
 };
 
 /// What the predictions over one recording need, made once.
@@ -54,6 +56,10 @@ class HorizonTask {
             });
     return errors;
   }
+
+  /// By how much the spin of start number `index` is off the recorded ones around it [rad/s]; NaN where none
+  /// is seen.
+  double spin_noise(std::size_t index) const { return starts_.spin_noise(windows_[index].start); }
 
   /// How far the predictions at each horizon are from each other that begin as start number `index` does and
   /// as it might have: the mean distance [m] over some draws of a start with this noise. NaN where the
@@ -112,6 +118,7 @@ class HorizonTask {
     error.comparable = true;
     error.model = (predicted - recorded).norm();
     error.baseline = (baseline_.position.col(row) - recorded).norm();
+    error.spin = std::abs(after.spin - starts_.spin_around(row));
     error.missed_catch = after.string_state == StringState::kFlying && recording_.left.valid[row] &&
                          recording_.right.valid[row] && height_above_tips(predicted, left, right) < 0.0;
     return error;

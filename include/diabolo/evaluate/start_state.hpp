@@ -101,7 +101,14 @@ class StartStates {
       if (spin.valid[i]) spin_after_[i] = spin.value[i];
       if (i > 0) spin_before_[i] = spin.valid[i - 1] ? spin.value[i - 1] : spin_before_[i - 1];
     }
+    spin_around_ = moving_mean(spin, std::max<Eigen::Index>(1, std::lround(0.5 * kStartWindow * recording.rate)));
   }
+
+  /// The mean of the spins within half a kStartWindow of a row [rad/s]; NaN where fewer than half are seen.
+  double spin_around(Eigen::Index row) const { return spin_around_[row]; }
+
+  /// By how much the fair start's spin at a row is off that; NaN where it is not known.
+  double spin_noise(Eigen::Index row) const { return std::abs(spin_before_[row] - spin_around_[row]); }
 
   /// Whether the start of this kind is known at a row.
   bool known(Start kind, Eigen::Index row) const {
@@ -126,6 +133,7 @@ class StartStates {
   Eigen::Matrix3Xd position_;
   Velocity fair_velocity_, published_velocity_;
   Eigen::VectorXd spin_before_, spin_after_;  ///< from the frames up to a row; from a row and the next
+  Eigen::VectorXd spin_around_;
   Eigen::Matrix3Xd axis_;
   std::vector<StringState> states_;
 };

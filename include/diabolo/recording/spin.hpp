@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,6 +45,23 @@ Spin spin_by(const Recording& recording, const Rule& rule) {
     spin.valid[i] = !std::isnan(spin.value[i]);
   }
   return spin;
+}
+
+/// The mean of the spins between the rows within `half` of each; NaN where fewer than half of them are valid.
+inline Eigen::VectorXd moving_mean(const Spin& spin, Eigen::Index half) {
+  const Eigen::Index size = spin.value.size();
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(size + 1), counts = Eigen::VectorXd::Zero(size + 1);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    sums[i + 1] = sums[i] + (spin.valid[i] ? spin.value[i] : 0.0);
+    counts[i + 1] = counts[i] + (spin.valid[i] ? 1.0 : 0.0);
+  }
+  Eigen::VectorXd mean = Eigen::VectorXd::Constant(size, kNaN);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Eigen::Index first = std::max<Eigen::Index>(i - half, 0), end = std::min(i + half, size);
+    const double count = counts[end] - counts[first];
+    if (count > 0.0 && 2.0 * count >= static_cast<double>(end - first)) mean[i] = (sums[end] - sums[first]) / count;
+  }
+  return mean;
 }
 
 /// The published rule: the angle between successive orientations times the rate. Never negative; turning of
