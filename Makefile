@@ -31,7 +31,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco browser \
+.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco browser \
   sanitize fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
@@ -68,6 +68,14 @@ $(VENV)/.tools: $(VENV)/.created tools/tool-requirements.txt
 
 demo: $(VENV)/.package ## Diagnose recordings whose physics is concealed: what was found, a report and a replay
 	@$(VENV)/bin/python -m diabolo demo --out $(BUILD)/demo
+
+PREFIX ?= /usr/local
+install: ## Install the C++ headers under PREFIX, for find_package(diabolo); nothing is compiled
+	@$(packages) build
+	@$(cmake) -S . -B $(BUILD)/headers -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BATCH=OFF -DDIABOLO_BUILD_DIAGNOSE=OFF \
+	  -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF -DDIABOLO_BUILD_EXAMPLES=OFF >/dev/null
+	@cmake --install $(BUILD)/headers --prefix "$(PREFIX)" --component cpp >/dev/null
+	@echo "Installed under $(PREFIX)"
 
 test: test-cpp test-plant test-python ## Run the C++ tests, the plant's and the Python tests
 
@@ -119,9 +127,7 @@ ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtd
 	else \
 	  echo "ur_rtde could not be fetched: its client is left out, the stand-in controller alone is tested"; \
 	fi
-	@$(cmake) -S . -B $(BUILD)/ur5e/diabolo -DDIABOLO_BUILD_TESTS=OFF -DDIABOLO_BUILD_BATCH=OFF -DDIABOLO_BUILD_DIAGNOSE=OFF \
-	  -DDIABOLO_BUILD_PYTHON=OFF -DDIABOLO_BUILD_BENCHMARKS=OFF -DDIABOLO_BUILD_EXAMPLES=OFF >/dev/null
-	@cmake --install $(BUILD)/ur5e/diabolo --prefix $(BUILD)/ur5e/prefix --component cpp >/dev/null
+	@$(MAKE) --no-print-directory install PREFIX=$(BUILD)/ur5e/prefix
 	@$(cmake) -S examples/ur5e_rtde -B $(BUILD)/ur5e/build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
 	  -DCMAKE_PREFIX_PATH='$(abspath $(BUILD)/ur5e/prefix);$(abspath $(ur_rtde)/prefix)' >/dev/null
 	@cmake --build $(BUILD)/ur5e/build -j $(JOBS) -- -k 0

@@ -152,7 +152,8 @@ TEST_CASE("a force that has no name is learnt, and its law predicts what was lef
   const auto& laws = d.model.effects.get<FormulaLaws>();
   REQUIRE(laws.laws);
   CHECK(laws.numbers[0] == Approx(learnt.value[0]));
-  CHECK(d.heldout.position.augmented_error.back().value() < 0.5 * d.heldout.position.base_error.back().value());
+  CHECK(d.heldout.position.augmented_error.back().value() <
+        0.5 * d.heldout.position.base_error.back().value());
 }
 
 TEST_CASE("a force that grows is learnt where a constant one, or a tilt, would stand for its mean") {

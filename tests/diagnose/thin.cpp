@@ -12,7 +12,7 @@ using namespace diabolo;
 
 namespace {
 
-constexpr int kString = index_of(Unknown::kFriction), kFlight = index_of(Unknown::kLift),
+constexpr int kString = index_of(Unknown::kFriction), kFlight = index_of(unknown_named("lift")),
               kOften = index_of(Unknown::kLeftX);
 
 /// What 600 windows say: all of the string, one in fifty of the flight, and all of one more, as much as they

@@ -60,6 +60,16 @@ def test_the_friction_of_the_plant_is_named_and_helps(found: Diagnosis) -> None:
     assert 0.0 < fit["start_error_m"][at] < fit["augmented_error_m"][at]
 
 
+def test_the_spin_is_predicted_better_and_the_takes_agree(found: Diagnosis) -> None:
+    fit = found.result.fit
+    before, after = fit.base_spin_error_radps[-1], fit.augmented_spin_error_radps[-1]
+    assert before is not None and after is not None and after < 0.5 * before
+    friction = next(effect for effect in found.effects if effect.name == "string_friction")
+    gained = friction.spin_worse_without_ci95_radps[-1]
+    assert gained is not None and gained.low > 0.0
+    assert "string_friction" not in [one.name for one in found.result.differing]
+
+
 def test_the_result_is_of_its_schema(found: Diagnosis) -> None:
     result = found.to_dict()
     assert result["schema"] == "diabolo.diagnosis/1"

@@ -24,6 +24,7 @@ std::string text_of(double value, int decimals) {
 }
 
 constexpr int kDecimals = 6;
+constexpr int kOrientationDecimals = 5;  // no camera sees 2e-5 rad
 constexpr int kTruthDecimals = 9;
 
 void write_position(std::ostream& out, const std::optional<Pose>& pose) {
@@ -31,7 +32,7 @@ void write_position(std::ostream& out, const std::optional<Pose>& pose) {
 }
 
 void write_orientation(std::ostream& out, const std::optional<Pose>& pose) {
-  for (int i = 0; i < 4; ++i) out << ',' << (pose ? text_of(pose->orientation.coeffs()(i), kDecimals) : "");
+  for (int i = 0; i < 4; ++i) out << ',' << (pose ? text_of(pose->orientation.coeffs()(i), kOrientationDecimals) : "");
 }
 
 void write_vector(std::ostream& out, const Vec3& vector) {

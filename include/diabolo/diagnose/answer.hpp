@@ -33,10 +33,13 @@ struct Candidate {
   std::string_view name, plain;
   CandidateKind kind;
   std::vector<Unknown> unknowns;  ///< none of body_swap, which is seen without a fit
-  double floor;   ///< claimed only beyond, in any of its unknowns; of physics see kSmallestReach
-  bool positive;  ///< a negative amplitude is against physics
-  std::vector<Unknown> companions{};  ///< free with it, and nothing without it
-  const Law* law = nullptr;           ///< of somebody's own; its numbers are the unknowns and the companions
+  double floor = 0.0;     ///< claimed only beyond, in any of its unknowns; of physics see kSmallestReach
+  bool positive = false;  ///< a negative amplitude is against physics
+  std::vector<Unknown> companions{};           ///< free with it, and nothing without it
+  std::string_view direction = "measurement";  ///< in which it acts
+  std::string_view number{};                   ///< what a result calls its one unknown
+  bool by_spin = false;                        ///< nothing is seen of it without the spin
+  const Law* law = nullptr;  ///< of somebody's own; its numbers are the unknowns and the companions
 };
 
 /// Standard deviations of what a camera reports.
@@ -142,8 +145,8 @@ inline constexpr std::array kMayChange{
 /// A law by a formula that was learnt from what is left over, and is in the model.
 struct Learnt {
   Law law;
-  std::vector<double> value, deviation;                 ///< of its numbers, in their units
-  double gain = 0.0;                                    ///< of windows that were left out, in chi^2
+  std::vector<double> value, deviation;  ///< of its numbers, in their units
+  double gain = 0.0;                     ///< of windows that were left out, in chi^2
   std::vector<std::optional<Interval>> worsening_ci95, spin_worsening_ci95;  ///< see Finding
 };
 
@@ -213,7 +216,7 @@ struct Diagnosis {
   double base_string_length = 0.0;         ///< [m]
   std::vector<Finding> findings;           ///< of every candidate, the surest first
   std::vector<UnexplainedForce> unexplained_forces;
-  std::vector<Learnt> learnt;  ///< in the order in which they were
+  std::vector<Learnt> learnt;        ///< in the order in which they were
   std::vector<Differing> differing;  ///< the surest first
   std::vector<WindowFinding> windows;
   std::vector<std::pair<std::string, CameraNoise>> noise;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/answer.hpp"
@@ -18,70 +20,103 @@ namespace diabolo {
 /// tenth of the windows [m]; the spin by this share within this time [s].
 inline constexpr double kSmallestReach = 1e-3, kSmallestSpinShare = 0.05, kSpinTime = 10.0;
 
-inline const std::vector<Candidate>& candidates() {
+namespace diagnose_detail {
+
+inline Candidate candidate_for(const NamedLaw& law) {
+  Candidate candidate{.name = law.name,
+                      .plain = law.plain,
+                      .kind = CandidateKind::kPhysics,
+                      .unknowns = {},
+                      .positive = law.positive,
+                      .direction = law.direction,
+                      .number = law.number,
+                      .by_spin = law.by_spin};
+  for (const std::string_view field : law.amplitudes)
+    if (!field.empty()) candidate.unknowns.push_back(unknown_named(field));
+  for (const std::string_view field : law.companions)
+    if (!field.empty()) candidate.companions.push_back(unknown_named(field));
+  return candidate;
+}
+
+/// Physics that is no field of one effect, and what is there to be asked about and not to win.
+inline std::vector<Candidate> other_physics() {
   using enum Unknown;
   using enum CandidateKind;
-  static const std::vector<Candidate> all{
-      {"string_elasticity", "the string's stretch", kPhysics, {kCompliance}, 0.0, true, {kDamping}},
-      {"stick_flex",
-       "the bending of the sticks",
-       kPhysics,
-       {kStickCompliance},
-       0.0,
-       true,
-       {kStickDamping, kTipMass}},
-      {"string_friction",
-       "friction of the string on the axle",
-       kPhysics,
-       {kFriction},
-       0.0,
-       true,
-       {kSpinGain}},
-      {"string_wrap", "a string that is wrapped around the axle", kPhysics, {kWraps}, 0.0, true},
-      {"landing_restitution", "the bounce of a catch", kPhysics, {kRestitution}, 0.0, true},
-      {"air_drag_linear", "a drag that grows with speed", kPhysics, {kLinearDrag}, 0.0, true},
-      {"air_drag_quadratic", "the drag of the air", kPhysics, {kQuadraticDrag}, 0.0, true},
-      {"wind", "wind", kPhysics, {kWindX, kWindY}, 0.0, false},
-      {"magnus_lift", "the lift of the spinning diabolo (Magnus)", kPhysics, {kLift}, 0.0, false},
-      {"gyroscopic_tilt", "the tilt of the axle by the string", kPhysics, {kGyroscopicGain}, 0.0, true},
-      {"string_mass", "the weight of the loose string", kPhysics, {kStringMass}, 0.0, true},
-      {"spin_drag", "the air that slows the spin", kPhysics, {kSpinAir}, 0.0, true},
-      {"axle_drag", "a bearing that slows the spin", kPhysics, {kSpinAxle}, 0.0, true},
-      {"spin_coupling",
-       "the string's drive of the spin",
-       kPhysics,
-       {kSpinCoupling, kSpinGain},  // by the base's rule, or by friction's torque
-       0.0,
-       true},
-      {"gravity_magnitude", "the strength of gravity", kPhysics, {kGravity}, 0.05 * kStandardGravity, false},
-      {"frame_rate", "the rate of the frames", kMeasurement, {kGravity}, 0.01 * kStandardGravity, false},
-      {"placebo_drag", "a drag along one axis of the recording", kPhysics, {kPlacebo}, 0.0, true},
-      {"placebo_push",
-       "a push along the string that never changes its sign",
-       kPhysics,
-       {kStringTangent},
-       0.0,
-       false},
-      {"gravity_tilt", "a tilted frame", kMeasurement, {kTiltX, kTiltY}, 0.3 * kDegree, false},
-      {"length_scale", "the scale of lengths", kMeasurement, {kLengthScale}, 0.003, false},
-      {"time_offset", "a delay between diabolo and sticks", kMeasurement, {kTimeOffset}, 0.002, false},
-      {"filter_lag", "a low pass that delays the diabolo", kMeasurement, {kLag}, 0.002, true},
-      {"robot_servo_lag", "sticks that lag behind the recorded ones", kMeasurement, {kLag}, 0.002, true},
-      {"marker_offset",
-       "the diabolo's recorded centre",
-       kMeasurement,
-       {kMarkerX, kMarkerY, kMarkerZ},
-       0.0005,
-       false},
-      {"stick_tip_offset",
-       "the places of the stick tips",
-       kMeasurement,
-       {kLeftX, kLeftY, kLeftZ, kRightX, kRightY, kRightZ},
-       0.002,
-       false},
-      {"string_length", "the string's length", kMeasurement, {kStringLength}, 0.004, false},
-      {"body_swap", "bodies under each other's names", kMeasurement, {}, 0.0, false},
+  return {{.name = "string_wrap",
+           .plain = "a string that is wrapped around the axle",
+           .kind = kPhysics,
+           .unknowns = {kWraps},
+           .positive = true,
+           .direction = "string_tangent",
+           .number = "turns"},
+          {.name = "spin_coupling",
+           .plain = "the string's drive of the spin",
+           .kind = kPhysics,
+           .unknowns = {kSpinCoupling, kSpinGain},  // by the base's rule, or by friction's torque
+           .positive = true,
+           .direction = "spin",
+           .number = "coefficient",
+           .by_spin = true},
+          {.name = "gravity_magnitude",
+           .plain = "the strength of gravity",
+           .kind = kPhysics,
+           .unknowns = {kGravity},
+           .floor = 0.05 * kStandardGravity,
+           .direction = "vertical"},
+          {.name = "placebo_drag",
+           .plain = "a drag along one axis of the recording",
+           .kind = kPhysics,
+           .unknowns = {kPlacebo},
+           .positive = true,
+           .direction = "horizontal",
+           .number = "rate"},
+          {.name = "placebo_push",
+           .plain = "a push along the string that never changes its sign",
+           .kind = kPhysics,
+           .unknowns = {kStringTangent},
+           .direction = "string_tangent",
+           .number = "acceleration"}};
+}
+
+inline std::vector<Candidate> faults() {
+  using enum Unknown;
+  const auto fault = [](std::string_view name, std::string_view plain, std::vector<Unknown> unknowns,
+                        double floor, std::string_view number = {}, bool positive = false) {
+    return Candidate{.name = name,
+                     .plain = plain,
+                     .kind = CandidateKind::kMeasurement,
+                     .unknowns = std::move(unknowns),
+                     .floor = floor,
+                     .positive = positive,
+                     .number = number};
   };
+  return {
+      fault("frame_rate", "the rate of the frames", {kGravity}, 0.01 * kStandardGravity),
+      fault("gravity_tilt", "a tilted frame", {kTiltX, kTiltY}, 0.3 * kDegree),
+      fault("length_scale", "the scale of lengths", {kLengthScale}, 0.003),
+      fault("time_offset", "a delay between diabolo and sticks", {kTimeOffset}, 0.002, "seconds"),
+      fault("filter_lag", "a low pass that delays the diabolo", {kLag}, 0.002, "seconds", true),
+      fault("robot_servo_lag", "sticks that lag behind the recorded ones", {kLag}, 0.002, "seconds", true),
+      fault("marker_offset", "the diabolo's recorded centre", {kMarkerX, kMarkerY, kMarkerZ}, 0.0005),
+      fault("stick_tip_offset", "the places of the stick tips",
+            {kLeftX, kLeftY, kLeftZ, kRightX, kRightY, kRightZ}, 0.002),
+      fault("string_length", "the string's length", {kStringLength}, 0.004),
+      fault("body_swap", "bodies under each other's names", {}, 0.0),
+  };
+}
+
+}  // namespace diagnose_detail
+
+/// Laws as their effects list them, other physics, and faults of the measurement.
+inline const std::vector<Candidate>& candidates() {
+  static const std::vector<Candidate> all = [] {
+    std::vector<Candidate> list;
+    for (const NamedLaw& law : diagnose_detail::named_laws())
+      list.push_back(diagnose_detail::candidate_for(law));
+    std::ranges::move(diagnose_detail::other_physics(), std::back_inserter(list));
+    std::ranges::move(diagnose_detail::faults(), std::back_inserter(list));
+    return list;
+  }();
   return all;
 }
 
@@ -169,9 +204,7 @@ inline bool is_in(const ActiveSet& set, const Candidate& candidate) {
 }
 
 inline bool is_of_spin(const Candidate& candidate) {
-  const Unknown first = first_of(candidate);
-  if (candidate.law != nullptr) return candidate.law->acts == Acts::kSpin;
-  return first == Unknown::kSpinAir || first == Unknown::kSpinAxle || first == Unknown::kSpinCoupling;
+  return candidate.law != nullptr ? candidate.law->acts == Acts::kSpin : candidate.direction == "spin";
 }
 
 /// How far unknowns like these move the diabolo within half a second in the most affected tenth of the

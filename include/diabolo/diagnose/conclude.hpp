@@ -81,8 +81,8 @@ struct LeftOutSays {
   bool against() const { return worse && !better; }
 };
 
-/// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim on
-/// the spin; any, where positions are. Returns whether that was so.
+/// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim
+/// on the spin; any, where positions are. Returns whether that was so.
 inline bool withdraw_what_does_not_help(Diagnosis& d) {
   const LeftOutSays position(d.heldout.position.improvement_ci95), spin(d.heldout.spin.improvement_ci95);
   if (!position.against() && !spin.against()) return false;

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/fit_take.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/effects/formula_laws.hpp"
-#include "diabolo/effects/unnamed_force.hpp"
 #include "diabolo/model.hpp"
 
 namespace diabolo {
@@ -36,6 +36,14 @@ inline FormulaLaws<double> fitted_laws(const FormulaLaws<double>& laws, const Un
   return result;
 }
 
+/// Whether an unknown counts only beside others, which are zero.
+inline bool counts_for_nothing(Unknown u, const UnknownVector& at) {
+  return std::ranges::any_of(candidates(), [&](const Candidate& candidate) {
+    return std::ranges::count(candidate.companions, u) > 0 &&
+           !(at[index_of(candidate.unknowns.front())] > 0.0);
+  });
+}
+
 /// The base with the physics of a fit.
 inline Model augmented_model(const Model& base, const UnknownVector& at, const std::string& name) {
   const auto x = [&](Unknown u) { return at[index_of(u)]; };
@@ -48,36 +56,10 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   auto& tilt = model.effects.get<GravityTilt>();
   tilt.x += x(Unknown::kTiltX);
   tilt.y += x(Unknown::kTiltY);
-  auto& elasticity = model.effects.get<StringElasticity>();
-  elasticity.compliance_per_newton += std::max(0.0, x(Unknown::kCompliance));
-  if (x(Unknown::kCompliance) > 0.0) elasticity.damping += std::max(0.0, x(Unknown::kDamping));
-  auto& flex = model.effects.get<StickFlex>();
-  flex.compliance += std::max(0.0, x(Unknown::kStickCompliance));
-  if (x(Unknown::kStickCompliance) > 0.0) {
-    flex.damping += std::max(0.0, x(Unknown::kStickDamping));
-    flex.tip_mass += std::max(0.0, x(Unknown::kTipMass));
-  }
-  auto& friction = model.effects.get<StringFriction>();
-  friction.coefficient += std::max(0.0, x(Unknown::kFriction));
-  if (x(Unknown::kFriction) > 0.0) friction.spin_gain += std::max(0.0, x(Unknown::kSpinGain));
-  auto& air = model.effects.get<Air>();
-  air.linear_drag += std::max(0.0, x(Unknown::kLinearDrag));
-  air.quadratic_drag += std::max(0.0, x(Unknown::kQuadraticDrag));
-  air.wind_x += x(Unknown::kWindX);
-  air.wind_y += x(Unknown::kWindY);
-  model.effects.get<MagnusLift>().coefficient += x(Unknown::kLift);
-  model.effects.get<StringMass>().linear_density += std::max(0.0, x(Unknown::kStringMass));
-  model.effects.get<LandingRestitution>().coefficient += std::max(0.0, x(Unknown::kRestitution));
-  auto& unnamed = model.effects.get<UnnamedForce>();
-  unnamed.string_tangent += x(Unknown::kStringTangent);
-  unnamed.string_binormal += x(Unknown::kStringBinormal);
-  unnamed.flight_against += x(Unknown::kFlightAgainst);
-  unnamed.flight_vertical += x(Unknown::kFlightVertical);
-  unnamed.flight_lift += x(Unknown::kFlightLift);
+  for_each_unknown(model.effects, [&](Unknown u, double& field) {
+    if (!counts_for_nothing(u, at)) field += std::clamp(x(u), info_of(u).minimum, info_of(u).maximum);
+  });
   model.effects.get<FormulaLaws>() = fitted_laws(model.effects.get<FormulaLaws>(), at);
-  auto& loss = model.effects.get<SpinLoss>();
-  loss.air += std::max(0.0, x(Unknown::kSpinAir));
-  loss.axle += std::max(0.0, x(Unknown::kSpinAxle));
   if (x(Unknown::kAxleRadius) > 0.0) {
     model.parameters.axle_radius = model.effects.get<FiniteAxle>().radius = x(Unknown::kAxleRadius);
     model.own_axle_radius = true;

@@ -87,7 +87,8 @@ struct DiagnosisResult {
     visit("adequacy", &DiagnosisResult::adequacy, "Whether it leaves no more than noise would.");
     visit("unnamed", &DiagnosisResult::unnamed, "What is there and has no name.");
     visit("learnt", &DiagnosisResult::learnt, "Laws that were learnt from it.");
-    visit("differing", &DiagnosisResult::differing, "What recordings ask different values of, the surest first.");
+    visit("differing", &DiagnosisResult::differing,
+          "What recordings ask different values of, the surest first.");
     visit("upper_limits", &DiagnosisResult::upper_limits, "What may be there unseen.");
     visit("nuisances", &DiagnosisResult::nuisances, "What was measured on the way.");
     visit("fit", &DiagnosisResult::fit, "Errors on data that was not fitted.");

@@ -20,8 +20,7 @@ inline std::string values_in_words(const Differing& differing, const Diagnosis& 
     f.candidate = differing.candidate;
     f.estimate = alone.estimate;
     f.deviation = alone.deviation;
-    const std::vector<Estimate> all =
-        diagnose_detail::parameters_of(f, d.base_string_length, d.base_gravity);
+    const std::vector<Estimate> all = diagnose_detail::parameters_of(f, d.base_string_length, d.base_gravity);
     if (differing.candidate->unknowns.size() > 1) return "";
     values.push_back(all.front());
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -29,29 +28,6 @@ inline std::pair<double, double> length_of(double a, double b, double da, double
   const double length = std::hypot(a, b);
   return {length, length > 0.0 ? std::hypot(a * da, b * db) / length : std::hypot(da, db)};
 }
-
-/// What has one parameter, its own unknown, under a fixed name.
-struct NamedUnknown {
-  Unknown unknown;
-  const char *name, *unit;
-};
-inline constexpr std::array<NamedUnknown, 15> kNamedUnknowns{{
-    {Unknown::kFriction, "coefficient", "1"},
-    {Unknown::kWraps, "turns", "1"},
-    {Unknown::kRestitution, "coefficient", "1"},
-    {Unknown::kLinearDrag, "rate", "1/s"},
-    {Unknown::kQuadraticDrag, "coefficient", "1/m"},
-    {Unknown::kSpinCoupling, "coefficient", "1/s"},
-    {Unknown::kGyroscopicGain, "gain", "1/m"},
-    {Unknown::kPlacebo, "rate", "1/s"},
-    {Unknown::kStringTangent, "acceleration", "m/s^2"},
-    {Unknown::kLift, "coefficient", "1/rad"},
-    {Unknown::kStringMass, "linear_density", "kg/m"},
-    {Unknown::kSpinAir, "coefficient", "1/rad"},
-    {Unknown::kSpinAxle, "rate", "rad/s^2"},
-    {Unknown::kLag, "seconds", "s"},
-    {Unknown::kTimeOffset, "seconds", "s"},
-}};
 
 /// Those of a law of somebody's own.
 inline std::vector<Estimate> own_numbers_of(const Finding& f) {
@@ -86,8 +62,8 @@ inline LearntLawFound learnt_of(const Learnt& learnt) {
 inline std::vector<Estimate> parameters_of(const Finding& f, double given_length, double given_gravity) {
   const auto value = [&](Unknown u) { return f.estimate[index_of(u)]; };
   const auto deviation = [&](Unknown u) { return f.deviation[index_of(u)]; };
-  const auto plain = [&](const char* name, Unknown u, const char* unit, double offset = 0.0) {
-    return with_deviation(name, offset + value(u), deviation(u), unit);
+  const auto plain = [&](std::string_view name, Unknown u, double offset = 0.0) {
+    return with_deviation(std::string(name), offset + value(u), deviation(u), std::string(info_of(u).unit));
   };
   // What the data put below zero is none, as in the model.
   const auto damping = [&](Unknown u) {
@@ -106,17 +82,16 @@ inline std::vector<Estimate> parameters_of(const Finding& f, double given_length
   }
   if (f.candidate->law != nullptr) return own_numbers_of(f);
   const Unknown first = first_of(*f.candidate);
-  for (const auto& [unknown, name, unit] : kNamedUnknowns)
-    if (unknown == first) return {plain(name, unknown, unit)};
+  if (!f.candidate->number.empty()) return {plain(f.candidate->number, first)};
   switch (first) {
     case kCompliance:
       return {stiffness(kCompliance), damping(kDamping)};
     case kStickCompliance:
       return {stiffness(kStickCompliance), damping(kStickDamping)};
     case kWindX:
-      return {plain("x", kWindX, "m/s"), plain("y", kWindY, "m/s")};
+      return {plain("x", first), plain("y", f.candidate->unknowns.back())};
     case kGravity: {
-      if (f.candidate->kind == CandidateKind::kPhysics) return {plain("g", kGravity, "m/s^2", given_gravity)};
+      if (f.candidate->kind == CandidateKind::kPhysics) return {plain("g", kGravity, given_gravity)};
       // In the file's seconds gravity is as much stronger as the square of what the rate is too high by.
       const double factor = std::sqrt(std::max(1e-6, 1.0 + value(kGravity) / given_gravity));
       return {with_deviation("factor", factor, deviation(kGravity) / (2.0 * factor * given_gravity), "1")};
@@ -130,23 +105,19 @@ inline std::vector<Estimate> parameters_of(const Finding& f, double given_length
               with_deviation("azimuth_deg", direction / kDegree, std::min(180.0, turn / kDegree), "deg")};
     }
     case kLengthScale:
-      return {plain("factor", kLengthScale, "1", 1.0)};
+      return {plain("factor", kLengthScale, 1.0)};
     case kMarkerX: {
       const auto [radius, spread] =
           length_of(value(kMarkerY), value(kMarkerZ), deviation(kMarkerY), deviation(kMarkerZ));
-      return {with_deviation("radius", radius, spread, "m"), plain("axial", kMarkerX, "m")};
+      return {with_deviation("radius", radius, spread, "m"), plain("axial", kMarkerX)};
     }
-    case kLeftX: {
+    case kStringLength:
+      return {plain("length", kStringLength, given_length)};
+    default: {
       std::vector<Estimate> list;
-      list.reserve(6);
-      const std::array<const char*, 6> names{"left_x", "left_y", "left_z", "right_x", "right_y", "right_z"};
-      for (int i = 0; i < 6; ++i)
-        list.push_back(
-            plain(names[static_cast<std::size_t>(i)], static_cast<Unknown>(index_of(kLeftX) + i), "m"));
+      for (const Unknown u : f.candidate->unknowns) list.push_back(plain(info_of(u).name, u));
       return list;
     }
-    default:
-      return {plain("length", kStringLength, "m", given_length)};
   }
 }
 

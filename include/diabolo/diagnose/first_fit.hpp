@@ -81,11 +81,9 @@ inline ActiveSet asked_at_first(const Bank& bank) {
 
 /// Leaves out what acts on the spin, or by it in a direction that nobody saw.
 inline void without_spin(Bank& bank, ActiveSet& set) {
-  for (const Unknown u :
-       {Unknown::kLift, Unknown::kSpinAir, Unknown::kSpinAxle, Unknown::kSpinCoupling, Unknown::kSpinGain}) {
-    set[index_of(u)] = false;
-    std::erase_if(bank, [&](const Candidate* candidate) { return first_of(*candidate) == u; });
-  }
+  for (const Candidate& candidate : candidates())
+    if (candidate.by_spin) set = with(set, candidate, false);
+  std::erase_if(bank, [](const Candidate* candidate) { return candidate->by_spin; });
 }
 
 /// Where nobody saw the diabolo turn: friction is begun with a fast spin of either sense, and what fits

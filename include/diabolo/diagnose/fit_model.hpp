@@ -76,15 +76,9 @@ inline bool dynamic_spring(const UnknownVector& at) { return compliance_of(at) >
 inline constexpr double kBouncyString = 0.012;
 inline bool is_bouncy(const UnknownVector& at) { return compliance_of(at) > kBouncyString; }
 
+/// (GyroscopicTilt turns the axle alone, see find_axle_motion(); LatentForce stands in its place.)
 template <class D>
-using FitPredictor =
-    Predictor<D, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, UnnamedForce, LatentForce, FormulaLaws>;
-
-// An effect that a base may have and a fit does not know would be left out of it without a word.
-// (GyroscopicTilt turns the axle alone, see find_axle_motion(); LatentForce stands in its place.)
-static_assert(std::tuple_size_v<decltype(FitPredictor<double>::Set::members)> ==
-              std::tuple_size_v<decltype(AllEffects<double>::members)>);
+using FitPredictor = typename face_detail::PredictorWith<MotionEffects<D, LatentForce>>::Type;
 
 /// The base with everything that may be missing, which carries its derivatives.
 template <class D>
@@ -109,37 +103,17 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
   auto& tilt = effects.template get<GravityTilt>();
   tilt.x += x(Unknown::kTiltX);
   tilt.y += x(Unknown::kTiltY);
-  if (dynamic_spring(x.at)) {
-    auto& elasticity = effects.template get<StringElasticity>();
-    elasticity.compliance_per_newton += x(Unknown::kCompliance) * scale;
-    elasticity.damping += x(Unknown::kDamping);
-    auto& flex = effects.template get<StickFlex>();
-    flex.compliance += x(Unknown::kStickCompliance) * scale;
-    flex.damping += x(Unknown::kStickDamping);
-    flex.tip_mass += x(Unknown::kTipMass);
+  const auto elasticity = effects.template get<StringElasticity>();
+  const auto flex = effects.template get<StickFlex>();
+  for_each_unknown(effects, [&](Unknown u, D& field) {
+    field += info_of(u).unit == "m/N" ? x(u) * scale : x(u);  // a stretch, in recorded lengths
+  });
+  if (!dynamic_spring(x.at)) {  // see string_shift()
+    effects.template get<StringElasticity>() = elasticity;
+    effects.template get<StickFlex>() = flex;
   }
-  auto& friction = effects.template get<StringFriction>();
-  friction.coefficient += x(Unknown::kFriction);
-  friction.spin_gain += x(Unknown::kSpinGain);
-  auto& air = effects.template get<Air>();
-  air.linear_drag += x(Unknown::kLinearDrag);
-  air.quadratic_drag += x(Unknown::kQuadraticDrag);
-  air.wind_x += x(Unknown::kWindX);
-  air.wind_y += x(Unknown::kWindY);
-  effects.template get<MagnusLift>().coefficient += x(Unknown::kLift);
-  effects.template get<StringMass>().linear_density += x(Unknown::kStringMass);
-  effects.template get<LandingRestitution>().coefficient += x(Unknown::kRestitution);
-  auto& loss = effects.template get<SpinLoss>();
-  loss.air += x(Unknown::kSpinAir);
-  loss.axle += x(Unknown::kSpinAxle);
   effects.template get<FiniteAxle>().radius = x(Unknown::kAxleRadius) * scale;
   p.axle_radius = effects.template get<FiniteAxle>().radius;
-  auto& unnamed = effects.template get<UnnamedForce>();
-  unnamed.string_tangent += x(Unknown::kStringTangent);
-  unnamed.string_binormal += x(Unknown::kStringBinormal);
-  unnamed.flight_against += x(Unknown::kFlightAgainst);
-  unnamed.flight_vertical += x(Unknown::kFlightVertical);
-  unnamed.flight_lift += x(Unknown::kFlightLift);
   auto& own = effects.template get<FormulaLaws>();
   own.each([&](const Law& law, std::size_t first) {
     for (std::size_t i = 0; i < law.numbers.size(); ++i) {
@@ -149,10 +123,6 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
       if (i > 0) value = minimum(maximum(value, D(number.minimum)), D(number.maximum));
     }
   });
-  auto& latent = effects.template get<LatentForce>();
-  latent.spin_string = x(Unknown::kSpinString);
-  latent.spin_free = x(Unknown::kSpinFree);
-  latent.placebo = x(Unknown::kPlacebo);
   return {p, effects};
 }
 

@@ -131,7 +131,11 @@ class Inquiry : public ClaimSearch<D> {
       fit_.noise_is_known = false;  // what was not known was taken for noise
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, looking);
       fit_.noise_is_known = true;
-      result_.learnt.push_back({std::move(law->law), {}, {}, law->gain, std::move(law->worsening_ci95),
+      result_.learnt.push_back({std::move(law->law),
+                                {},
+                                {},
+                                law->gain,
+                                std::move(law->worsening_ci95),
                                 std::move(law->spin_worsening_ci95)});
       settle();
       withdrawn = withdraw_what_does_not_help(result_);

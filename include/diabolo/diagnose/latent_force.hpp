@@ -30,7 +30,22 @@ struct LatentForce : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self&, Visitor&&) {}
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    const auto sought = [](std::string_view name) { return Sought{name, 1.0, 0.0, -100.0, 100.0}; };
+    visit(ParameterInfo{"spin_string", "rad/s^2", -100.0, 100.0, "on the string, against the spin",
+                        sought("spin_on_string")},
+          self.spin_string);
+    visit(ParameterInfo{"spin_free", "rad/s^2", -100.0, 100.0, "off the string, against the spin",
+                        sought("spin_off_string")},
+          self.spin_free);
+    visit(ParameterInfo{"placebo",
+                        "1/s",
+                        -10.0,
+                        10.0,
+                        "against the velocity along x",
+                        {"placebo", 0.1, 0.0, -10.0, 10.0}},
+          self.placebo);
+  }
 };
 
 }  // namespace diabolo

@@ -37,7 +37,7 @@ struct LearntLaw {
   Model physics;          ///< the base of the fit
   Fit fit;
   ActiveSet set = ActiveSet::Constant(false);
-  double gain = 0.0;                                      ///< what chi^2 falls by, in units of the dispersion
+  double gain = 0.0;  ///< what chi^2 falls by, in units of the dispersion
   std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
 };
 
@@ -195,8 +195,8 @@ inline bool explains_left_out(const LearntLaw& learnt) {
 }
 
 /// Whether data that were left out are predicted better with a law than by the fit `before`, of `set`, and
-/// nowhere worse: the spin, by a law that acts on it; else positions. Where they are few and cannot tell, much
-/// of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
+/// nowhere worse: the spin, by a law that acts on it; else positions. Where they are few and cannot tell,
+/// much of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
 inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, const DiagnosisOptions& options,
                   const FitWatch& watch) {
   std::vector<HeldOutRecording> held =
@@ -213,8 +213,8 @@ inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, co
   };
   const auto worse = [](const Interval& i) { return i.high < 0.0; };
   const auto& judges = learnt.law.acts == Acts::kSpin ? learnt.spin_worsening_ci95 : learnt.worsening_ci95;
-  const bool better = any(judges, [](const Interval& i) { return i.low > 0.0; }),
-             leans_against = any(judges, [](const Interval& i) { return i.low + i.high < 0.0; });
+  const bool better = any(judges, [](const Interval&i) { return i.low > 0.0; }),
+             leans_against = any(judges, [](const Interval&i) { return i.low + i.high < 0.0; });
   return !any(learnt.worsening_ci95, worse) && !any(learnt.spin_worsening_ci95, worse) &&
          (better || (learnt.gain > kGainAlone && !leans_against));
 }

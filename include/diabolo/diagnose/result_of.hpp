@@ -51,37 +51,7 @@ inline std::string kind_of(const Candidate& candidate) {
 inline std::string direction_of(const Candidate& candidate) {
   if (candidate.law != nullptr)
     return std::string(names_of(Acts{})[static_cast<std::size_t>(candidate.law->acts)]);
-  switch (first_of(candidate)) {
-    case Unknown::kCompliance:
-    case Unknown::kStickCompliance:
-    case Unknown::kRestitution:
-      return "string_normal";
-    case Unknown::kWindX:
-      return "horizontal";
-    case Unknown::kStringMass:
-      return "vertical";
-    case Unknown::kGravity:
-      return candidate.kind == CandidateKind::kPhysics ? "vertical" : "measurement";
-    case Unknown::kPlacebo:
-      return "horizontal";
-    case Unknown::kFriction:
-    case Unknown::kWraps:
-    case Unknown::kStringTangent:
-      return "string_tangent";
-    case Unknown::kGyroscopicGain:
-      return "axle";
-    case Unknown::kLinearDrag:
-    case Unknown::kQuadraticDrag:
-      return "against_v";
-    case Unknown::kLift:
-      return "axis_x_v";
-    case Unknown::kSpinCoupling:
-    case Unknown::kSpinAir:
-    case Unknown::kSpinAxle:
-      return "spin";
-    default:
-      return "measurement";
-  }
+  return std::string(candidate.direction);
 }
 
 /// Where a finding matters: modes, direction, and joined intervals of time.

@@ -14,6 +14,11 @@ namespace diabolo {
 template <class Scalar>
 struct Air : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "air";
+  static constexpr std::array kLaws{
+      NamedLaw{"air_drag_linear", "a drag that grows with speed", "against_v", {"linear_drag"}, {}, "rate"},
+      NamedLaw{
+          "air_drag_quadratic", "the drag of the air", "against_v", {"quadratic_drag"}, {}, "coefficient"},
+      NamedLaw{"wind", "wind", "horizontal", {"wind_x", "wind_y"}, {}, {}, false}};
   Scalar linear_drag{0};     ///< [1/s], >= 0
   Scalar quadratic_drag{0};  ///< [1/m], >= 0
   Scalar wind_x{0};          ///< horizontal velocity of the air, world frame [m/s]
@@ -31,12 +36,29 @@ struct Air : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"linear_drag", "1/s", 0.0, 10.0, "deceleration per speed"}, self.linear_drag);
-    visit(ParameterInfo{"quadratic_drag", "1/m", 0.0, 10.0, "deceleration per squared speed"},
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(
+        ParameterInfo{
+            "linear_drag", "1/s", 0.0, 10.0, "deceleration per speed", {"linear_drag", 0.1, 0.3, 0.0, 1.0}},
+        self.linear_drag);
+    visit(ParameterInfo{"quadratic_drag",
+                        "1/m",
+                        0.0,
+                        10.0,
+                        "deceleration per squared speed",
+                        {"quadratic_drag", 0.1, 0.15, 0.0, 0.5}},
           self.quadratic_drag);
-    visit(ParameterInfo{"wind_x", "m/s", -100.0, 100.0, "velocity of the air, forward"}, self.wind_x);
-    visit(ParameterInfo{"wind_y", "m/s", -100.0, 100.0, "velocity of the air, to the left"}, self.wind_y);
+    visit(
+        ParameterInfo{
+            "wind_x", "m/s", -100.0, 100.0, "velocity of the air, forward", {"wind_x", 1.0, 3.0, -6.0, 6.0}},
+        self.wind_x);
+    visit(ParameterInfo{"wind_y",
+                        "m/s",
+                        -100.0,
+                        100.0,
+                        "velocity of the air, to the left",
+                        {"wind_y", 1.0, 3.0, -6.0, 6.0}},
+          self.wind_y);
   }
 };
 

@@ -17,10 +17,14 @@
 
 namespace diabolo {
 
+/// Every effect on place and spin, and others.
+template <class Scalar, template <class> class... Others>
+using MotionEffects =
+    EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
+              StickFlex, StringMass, LandingRestitution, UnnamedForce, FormulaLaws, Others...>;
+
 /// Every effect of the library.
 template <class Scalar>
-using AllEffects =
-    EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, GyroscopicTilt, UnnamedForce, FormulaLaws>;
+using AllEffects = MotionEffects<Scalar, GyroscopicTilt>;
 
 }  // namespace diabolo

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <string>
 #include <tuple>
 #include <type_traits>
 
+#include "diabolo/effects/named_law.hpp"
 #include "diabolo/parameters.hpp"
 #include "diabolo/state.hpp"
 #include "diabolo/sticks.hpp"
@@ -51,12 +53,14 @@ struct Contact {
 
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
 /// from this, holds its parameters (amplitude zero by default: then it changes no bit of the result) and
-/// hides neutral() and the hooks that it needs. All hooks are const, allocate nothing and know no time but
-/// the step's length dt [s].
+/// hides neutral() and the hooks that it needs. What a diagnosis looks for are its fields that are `sought`
+/// and its kLaws. All hooks are const, allocate nothing and know no time but the step's length dt [s].
 template <class Scalar>
 struct NeutralEffect {
   /// Whether it holds more than numbers; then its fields are not all of it.
   static constexpr bool kHasText = false;
+  /// What a diagnosis may find of it.
+  static constexpr std::array<NamedLaw, 0> kLaws{};
   /// Whether all amplitudes are zero, in every lane and with every derivative; then nobody asks the hooks.
   bool neutral() const { return false; }
   /// Acceleration beside gravity and string, its mean over a step from the given state [m/s^2].

@@ -39,7 +39,7 @@ struct FiniteAxle : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
+  static constexpr void for_each(Self& self, Visitor&& visit) {
     visit(ParameterInfo{"radius", "m", 0.0, 0.1, "of the axle, to the string's centre line"}, self.radius);
   }
 

@@ -27,7 +27,7 @@ struct GravityTilt : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
+  static constexpr void for_each(Self& self, Visitor&& visit) {
     visit(ParameterInfo{"x", "1", -0.5, 0.5, "gravity's direction, forward"}, self.x);
     visit(ParameterInfo{"y", "1", -0.5, 0.5, "gravity's direction, to the left"}, self.y);
   }

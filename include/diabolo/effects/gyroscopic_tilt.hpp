@@ -20,6 +20,8 @@ namespace diabolo {
 template <class Scalar>
 struct GyroscopicTilt : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "gyroscopic_tilt";
+  static constexpr std::array kLaws{NamedLaw{
+      "gyroscopic_tilt", "the tilt of the axle by the string", "axle", {"gyroscopic_gain"}, {}, "gain"}};
   static constexpr double kSlowSpin = 5.0;  ///< [rad/s]
   Scalar gain{0};  ///< mass times axle radius over the axial moment of inertia [1/m], >= 0
 
@@ -44,8 +46,13 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"gain", "1/m", 0.0, 1e3, "mass times axle radius over axial moment of inertia"},
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"gain",
+                        "1/m",
+                        0.0,
+                        1e3,
+                        "mass times axle radius over axial moment of inertia",
+                        {"gyroscopic_gain", 1.0, 0.0, 0.0, 100.0}},
           self.gain);
   }
 

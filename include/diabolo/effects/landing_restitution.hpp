@@ -14,6 +14,8 @@ namespace diabolo {
 template <class Scalar>
 struct LandingRestitution : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "landing_restitution";
+  static constexpr std::array kLaws{NamedLaw{
+      "landing_restitution", "the bounce of a catch", "string_normal", {"restitution"}, {}, "coefficient"}};
   Scalar coefficient{0};  ///< 0: inelastic; 1: no energy is lost with resting tips
 
   bool neutral() const { return is_constant_zero(coefficient); }
@@ -24,9 +26,13 @@ struct LandingRestitution : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"coefficient", "1", 0.0, 1.0,
-                        "of the string's rate of stretch that a catch gives back"},
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"coefficient",
+                        "1",
+                        0.0,
+                        1.0,
+                        "of the string's rate of stretch that a catch gives back",
+                        {"restitution", 0.1, 0.2, 0.0, 1.0}},
           self.coefficient);
   }
 };

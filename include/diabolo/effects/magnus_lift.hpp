@@ -12,6 +12,14 @@ namespace diabolo {
 template <class Scalar>
 struct MagnusLift : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "magnus_lift";
+  static constexpr std::array kLaws{NamedLaw{"magnus_lift",
+                                             "the lift of the spinning diabolo (Magnus)",
+                                             "axis_x_v",
+                                             {"lift"},
+                                             {},
+                                             "coefficient",
+                                             false,
+                                             true}};
   Scalar coefficient{0};  ///< [1/rad]
 
   bool neutral() const { return is_constant_zero(coefficient); }
@@ -27,8 +35,13 @@ struct MagnusLift : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"coefficient", "1/rad", -1.0, 1.0, "acceleration per angular velocity and speed"},
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"coefficient",
+                        "1/rad",
+                        -1.0,
+                        1.0,
+                        "acceleration per angular velocity and speed",
+                        {"lift", 1e-3, 5e-3, -0.02, 0.02}},
           self.coefficient);
   }
 };

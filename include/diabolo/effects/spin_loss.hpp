@@ -13,6 +13,10 @@ namespace diabolo {
 template <class Scalar>
 struct SpinLoss : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "spin_loss";
+  static constexpr std::array kLaws{
+      NamedLaw{
+          "spin_drag", "the air that slows the spin", "spin", {"spin_air"}, {}, "coefficient", true, true},
+      NamedLaw{"axle_drag", "a bearing that slows the spin", "spin", {"spin_axle"}, {}, "rate", true, true}};
   Scalar air{0};   ///< [1/rad], >= 0
   Scalar axle{0};  ///< [rad/s^2], >= 0
 
@@ -28,9 +32,15 @@ struct SpinLoss : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"air", "1/rad", 0.0, 1.0, "deceleration per squared spin"}, self.air);
-    visit(ParameterInfo{"axle", "rad/s^2", 0.0, 1e4, "constant deceleration"}, self.axle);
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(
+        ParameterInfo{
+            "air", "1/rad", 0.0, 1.0, "deceleration per squared spin", {"spin_air", 1e-3, 5e-3, 0.0, 0.02}},
+        self.air);
+    visit(
+        ParameterInfo{
+            "axle", "rad/s^2", 0.0, 1e4, "constant deceleration", {"spin_axle", 1.0, 20.0, 0.0, 60.0}},
+        self.axle);
   }
 };
 

@@ -21,6 +21,11 @@ namespace diabolo {
 template <class Scalar>
 struct StickFlex : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "stick_flex";
+  static constexpr std::array kLaws{NamedLaw{"stick_flex",
+                                             "the bending of the sticks",
+                                             "string_normal",
+                                             {"stick_compliance"},
+                                             {"stick_damping", "tip_mass"}}};
   /// A tip is moved aside by no more than this [m]: beyond, sticks do not bend in proportion.
   static constexpr double kFarthest = 0.08;
   static constexpr int kTurns = 2;  ///< what is left is some (bend / length of a strand)^4 of the bend
@@ -95,10 +100,20 @@ struct StickFlex : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"compliance", "m/N", 0.0, 1.0, "of one tip, square to its stick"}, self.compliance);
-    visit(ParameterInfo{"damping", "N s/m", 0.0, 1e4, "of one tip"}, self.damping);
-    visit(ParameterInfo{"tip_mass", "kg", 0.0, 1.0, "that moves with one tip"}, self.tip_mass);
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"compliance",
+                        "m/N",
+                        0.0,
+                        1.0,
+                        "of one tip, square to its stick",
+                        {"stick_compliance", 1e-3, 3e-3, 0.0, 1.0 / 30.0}},
+          self.compliance);
+    visit(ParameterInfo{"damping", "N s/m", 0.0, 1e4, "of one tip", {"stick_damping", 1.0, 2.0, 0.0, 1e3}},
+          self.damping);
+    visit(
+        ParameterInfo{
+            "tip_mass", "kg", 0.0, 1.0, "that moves with one tip", {"tip_mass", 0.01, 0.004, 0.0, 0.1}},
+        self.tip_mass);
   }
 
  private:

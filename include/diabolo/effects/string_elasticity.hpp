@@ -15,6 +15,8 @@ namespace diabolo {
 template <class Scalar>
 struct StringElasticity : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "string_elasticity";
+  static constexpr std::array kLaws{
+      NamedLaw{"string_elasticity", "the string's stretch", "string_normal", {"compliance"}, {"damping"}}};
   Scalar compliance_per_newton{0};  ///< 1 / stiffness [m/N], >= 0
   Scalar damping{0};                ///< [N s/m], >= 0
 
@@ -32,10 +34,21 @@ struct StringElasticity : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"compliance", "m/N", 0.0, 1.0, "extension of the path length per tension"},
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"compliance",
+                        "m/N",
+                        0.0,
+                        1.0,
+                        "extension of the path length per tension",
+                        {"compliance", 1e-3, 3e-3, 0.0, 1.0 / 30.0}},
           self.compliance_per_newton);
-    visit(ParameterInfo{"damping", "N s/m", 0.0, 1e4, "tension per rate of the path length"}, self.damping);
+    visit(ParameterInfo{"damping",
+                        "N s/m",
+                        0.0,
+                        1e4,
+                        "tension per rate of the path length",
+                        {"damping", 10.0, 10.0, 0.0, 1e3}},
+          self.damping);
   }
 };
 

@@ -22,6 +22,12 @@ namespace diabolo {
 template <class Scalar>
 struct StringFriction : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "string_friction";
+  static constexpr std::array kLaws{NamedLaw{"string_friction",
+                                             "friction of the string on the axle",
+                                             "string_tangent",
+                                             {"friction"},
+                                             {"spin_gain"},
+                                             "coefficient"}};
   /// Slip over which the sign of friction is smoothed [m/s].
   static constexpr double kSlipScale = 0.02;
   Scalar coefficient{0};  ///< capstan coefficient, >= 0
@@ -70,10 +76,20 @@ struct StringFriction : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"coefficient", "1", 0.0, 3.0, "capstan coefficient of string on axle"},
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(ParameterInfo{"coefficient",
+                        "1",
+                        0.0,
+                        3.0,
+                        "capstan coefficient of string on axle",
+                        {"friction", 0.1, 0.3, 0.0, 0.6}},
           self.coefficient);
-    visit(ParameterInfo{"spin_gain", "1/m", 0.0, 1e3, "mass times axle radius over axial moment of inertia"},
+    visit(ParameterInfo{"spin_gain",
+                        "1/m",
+                        0.0,
+                        1e3,
+                        "mass times axle radius over axial moment of inertia",
+                        {"spin_gain", 1.0, 5.0, 0.0, 100.0}},
           self.spin_gain);
   }
 

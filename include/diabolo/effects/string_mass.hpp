@@ -14,6 +14,8 @@ namespace diabolo {
 template <class Scalar>
 struct StringMass : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "string_mass";
+  static constexpr std::array kLaws{NamedLaw{
+      "string_mass", "the weight of the loose string", "vertical", {"string_mass"}, {}, "linear_density"}};
   Scalar linear_density{0};  ///< [kg/m], >= 0
 
   bool neutral() const { return is_constant_zero(linear_density); }
@@ -28,8 +30,11 @@ struct StringMass : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"linear_density", "kg/m", 0.0, 0.1, "of the string"}, self.linear_density);
+  static constexpr void for_each(Self& self, Visitor&& visit) {
+    visit(
+        ParameterInfo{
+            "linear_density", "kg/m", 0.0, 0.1, "of the string", {"string_mass", 1e-3, 3e-3, 0.0, 0.1}},
+        self.linear_density);
   }
 };
 

@@ -52,19 +52,24 @@ struct UnnamedForce : NeutralEffect<Scalar> {
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
-  static void for_each(Self& self, Visitor&& visit) {
+  static constexpr void for_each(Self& self, Visitor&& visit) {
     constexpr std::string_view kAmplitude = "m/s^2", kNumber = "1";
+    const auto sought = [](std::string_view name) { return Sought{name, 0.1, 0.0, -100.0, 100.0}; };
     visit(ParameterInfo{"string_tangent", kAmplitude, -100.0, 100.0,
-                        "on the string, along it towards the right tip, at 1 m/s and 100 rad/s"},
+                        "on the string, along it towards the right tip, at 1 m/s and 100 rad/s",
+                        sought("string_tangent")},
           self.string_tangent);
     visit(ParameterInfo{"string_binormal", kAmplitude, -100.0, 100.0,
-                        "on the string, square to its plane, forwards"},
+                        "on the string, square to its plane, forwards", sought("string_binormal")},
           self.string_binormal);
-    visit(ParameterInfo{"flight_against", kAmplitude, -100.0, 100.0, "off the string, against the velocity"},
+    visit(ParameterInfo{"flight_against", kAmplitude, -100.0, 100.0, "off the string, against the velocity",
+                        sought("flight_against_v")},
           self.flight_against);
-    visit(ParameterInfo{"flight_vertical", kAmplitude, -100.0, 100.0, "off the string, up"},
+    visit(ParameterInfo{"flight_vertical", kAmplitude, -100.0, 100.0, "off the string, up",
+                        sought("flight_vertical")},
           self.flight_vertical);
-    visit(ParameterInfo{"flight_lift", kAmplitude, -100.0, 100.0, "off the string, along omega x v"},
+    visit(ParameterInfo{"flight_lift", kAmplitude, -100.0, 100.0, "off the string, along omega x v",
+                        sought("flight_axis_x_v")},
           self.flight_lift);
     visit(ParameterInfo{"speed_exponent", kNumber, -kLargestPower, kLargestPower,
                         "power of the speed over 1 m/s"},

@@ -27,7 +27,7 @@ struct WindowError {
   bool failed = false;      ///< the prediction diverged before; then `model` does not count
   bool missed_catch = false;
   double model = 0.0, baseline = 0.0;  ///< distance to the recorded diabolo [m]
-  double spin = kNaN;                  ///< predicted less recorded, in size [rad/s]; NaN where it was not seen
+  double spin = kNaN;  ///< predicted less recorded, in size [rad/s]; NaN where it was not seen
 };
 
 /// What the predictions over one recording need, made once.

@@ -101,7 +101,8 @@ class StartStates {
       if (spin.valid[i]) spin_after_[i] = spin.value[i];
       if (i > 0) spin_before_[i] = spin.valid[i - 1] ? spin.value[i - 1] : spin_before_[i - 1];
     }
-    spin_around_ = moving_mean(spin, std::max<Eigen::Index>(1, std::lround(0.5 * kStartWindow * recording.rate)));
+    spin_around_ =
+        moving_mean(spin, std::max<Eigen::Index>(1, std::lround(0.5 * kStartWindow * recording.rate)));
   }
 
   /// The mean of the spins within half a kStartWindow of a row [rad/s]; NaN where fewer than half are seen.

@@ -14,11 +14,20 @@
 
 namespace diabolo {
 
+/// How a parameter is looked for in recordings, where it may be another than a model has.
+struct Sought {
+  std::string_view name{};              ///< as an unknown; empty: it is not looked for
+  double usual = 1.0;                   ///< size: all linear algebra is done in it
+  double prior = 0.0;                   ///< standard deviation of what there is in play; 0: nothing is known
+  double minimum = 0.0, maximum = 0.0;  ///< search bounds
+};
+
 /// Name, unit and range of a numeric parameter.
 struct ParameterInfo {
   std::string_view name, unit;
   double minimum, maximum;
   std::string_view meaning;
+  Sought sought{};
 };
 
 /// Throws std::invalid_argument naming the first field of `Fields::for_each` that is out of its range, its

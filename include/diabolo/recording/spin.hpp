@@ -59,7 +59,8 @@ inline Eigen::VectorXd moving_mean(const Spin& spin, Eigen::Index half) {
   for (Eigen::Index i = 0; i < size; ++i) {
     const Eigen::Index first = std::max<Eigen::Index>(i - half, 0), end = std::min(i + half, size);
     const double count = counts[end] - counts[first];
-    if (count > 0.0 && 2.0 * count >= static_cast<double>(end - first)) mean[i] = (sums[end] - sums[first]) / count;
+    if (count > 0.0 && 2.0 * count >= static_cast<double>(end - first))
+      mean[i] = (sums[end] - sums[first]) / count;
   }
   return mean;
 }

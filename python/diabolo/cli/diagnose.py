@@ -202,14 +202,17 @@ def text_of(diagnosis: Diagnosis) -> str:
         p_value = "" if effect.p_value is None else f"; p = {effect.p_value:.1g}"
         lines.append(f"  {effect.name}: {values}{p_value}")
     fit = diagnosis.result.fit
-    compared = zip(fit.horizons_s, fit.base_error_m, fit.augmented_error_m, strict=False)
-    shown = [
-        f"{horizon:g} s: {1e3 * before:.1f} -> {1e3 * after:.1f} mm"
-        for horizon, before, after in compared
-        if before is not None and after is not None
-    ]
-    if shown:
-        lines.append(f"  mean error on held-out {fit.heldout}, after " + "; ".join(shown))
+    for what, unit, per_unit, base, augmented in (
+        ("error", "mm", 1e3, fit.base_error_m, fit.augmented_error_m),
+        ("error of the spin", "rad/s", 1.0, fit.base_spin_error_radps, fit.augmented_spin_error_radps),
+    ):
+        shown = [
+            f"{horizon:g} s: {per_unit * before:.1f} -> {per_unit * after:.1f} {unit}"
+            for horizon, before, after in zip(fit.horizons_s, base, augmented, strict=False)
+            if before is not None and after is not None
+        ]
+        if shown:
+            lines.append(f"  mean {what} on held-out {fit.heldout}, after " + "; ".join(shown))
     if fit.holdout_unused:
         names = ", ".join(fit.holdout_unused)
         lines.append(f"  held out, but without a start that could be compared: {names}")
