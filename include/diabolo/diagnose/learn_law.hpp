@@ -146,9 +146,12 @@ LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics
   for (std::size_t i = 0; i < numbers.size(); ++i) result.set[index_of(own_number(result.first + i))] = true;
   result.fit.at[index_of(own_number(result.first))] = std::copysign(1.0, size);
   approach<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
-  result.set = eliminate(Evidence(result.fit), bank, result.set);
-  put_at_rest(result.fit, result.set);
-  refine<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
+  const ActiveSet kept = eliminate(Evidence(result.fit), bank, result.set);
+  if ((kept != result.set).any()) {  // a law with a name stood in its place
+    result.set = kept;
+    put_at_rest(result.fit, kept);
+    approach<D>(result.fit, result.physics, kept, kMostIterations, threads, watch);
+  }
   result.gain = (fit.cost - result.fit.cost) / result.fit.dispersion;
   return result;
 }
@@ -228,10 +231,12 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
                                    const Bank& bank, const std::vector<WindowFinding>& windows,
                                    const DiagnosisOptions& options, const FitWatch& watch) {
   constexpr std::size_t kMostFits = 4;
+  constexpr double kMayOvertake = 4.0;  // a shape of its own may bring so many times what a guess promises
   const std::vector<LawGuess> guesses = law_guesses(fit, windows);
   std::vector<LearntLaw> trials;
   for (const auto& scored :
        diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits, options.threads, watch)) {
+    if (!trials.empty() && kMayOvertake * scored.gain < trials.front().gain) break;
     LearntLaw trial = diagnose_detail::fitted<D>(scored, fit, physics, set, bank, options.threads, watch);
     if (watch.is_enough()) return std::nullopt;  // it may not have settled
     if (trial.gain > kGainOfLaw && diagnose_detail::matters(trial) &&
