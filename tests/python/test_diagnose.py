@@ -365,7 +365,7 @@ def test_an_end_while_writing_leaves_the_older_set(
     assert not (short.parent / "other").exists()
 
 
-@pytest.mark.parametrize("missing", ["jinja2", "matplotlib"])
+@pytest.mark.parametrize("missing", ["jinja2", "plotly"])
 def test_a_missing_library_is_told_before_the_work(
     short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], missing: str
 ) -> None:
