@@ -47,18 +47,19 @@ def report_html(
         raise ValueError(f"schema: found {result.get('schema')!r}; expected {DIAGNOSIS_SCHEMA!r}")
     thresholds = {**Thresholds().to_dict(), **(result.get("thresholds") or {})}
     horizons = (result.get("fit") or {}).get("horizons_s") or []
+    locate = result.get("locate") or {}
     shown = [replay for replay in replays if np.isfinite(replay.errors("base")).any()]
-    worst = max(shown, key=lambda replay: _mean_error(replay, "base"), default=None)
+    worst = max(shown, key=lambda replay: _mean_error(replay, "base") or 0.0, default=None)
     page = _template().render(
         result=result,
         simulator=None if comparison is None else _simulator(comparison),
         fit=_fit(result.get("fit") or {}),
-        effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
+        effects=[_effect(effect, horizons, _rows(locate, "windows")) for effect in _rows(result, "effects")],
         adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
         learnt=[_learnt(item, horizons) for item in _rows(result, "learnt")],
         unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
         replay=None if worst is None else replay_html(worst),
-        located=_located(result.get("locate") or {}, shown, thresholds["physics"]),
+        located=_located(locate, shown, thresholds["physics"]),
         first_located=FIRST_RECORDINGS,
         ladder=_ladder(result, thresholds),
         thresholds=[f"{thresholds[kind]:g}" for kind in ("physics", "measurement")],
@@ -367,7 +368,7 @@ def _simulator(comparison: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:
+def _effect(effect: dict[str, Any], horizons: list[float], windows: list[dict[str, Any]]) -> list[Any]:
     parameters = [
         f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
         for row in _rows(effect, "parameters")
@@ -377,7 +378,7 @@ def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:
     return [
         {**_named(effect), "notes": notes},
         parameters or ["none"],
-        _where(effect.get("where") or {}),
+        _where(effect.get("where") or {}, windows),
         _effect_sizes(effect, horizons) or ["not known"],
         probability(effect.get("p_value")),
         percent(effect.get("confidence")),
@@ -418,13 +419,22 @@ def _sizes(row: dict[str, Any]) -> list[str]:
     return sizes if share is None else [*sizes, f"{percent(share)} of the spin in 1 s"]
 
 
-def _where(where: dict[str, Any]) -> list[str]:
+def _where(where: dict[str, Any], windows: Iterable[dict[str, Any]] = ()) -> list[str]:
     lines = [", ".join(words(mode) for mode in where.get("modes") or [])]
     lines += [words(where["direction"])] if where.get("direction") else []
     intervals = [span for span in where.get("intervals") or [] if span and None not in span]
-    spans = [f"{begin:.1f} to {end:.1f} s" for begin, end in intervals[:3]]
-    lines += [", ".join(spans) + (f" and {len(intervals) - 3} more" if len(intervals) > 3 else "")]
+    for begin, end in intervals[:3]:
+        lines.append(f"{_recordings_of(begin, end, windows)}{begin:.1f} to {end:.1f} s")
+    lines += [f"and {len(intervals) - 3} more"] if len(intervals) > 3 else []
     return [line for line in lines if line] or ["everywhere or not known"]
+
+
+def _recordings_of(begin: float, end: float, windows: Iterable[dict[str, Any]]) -> str:
+    """Which recording an interval is of: its windows begin and end so."""
+    ends = (("begin_s", begin), ("end_s", end))
+    begun, ended = ({w.get("recording") for w in windows if w.get(key) == time} for key, time in ends)
+    names = " or ".join(sorted(filter(None, begun & ended)))
+    return f"{names}, " if names else ""
 
 
 def _learnt(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
@@ -454,6 +464,7 @@ def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
 def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[str, Any]]:
     """All candidates, the most significant first."""
     longest = LONGEST_BAR * thresholds["physics"]
+    noise = max((row.get("position_m") or 0.0 for row in _rows(result, "noise")), default=0.0)
     rows = sorted(_rows(result, "ladder"), key=lambda row: -abs(row.get("z") or 0.0))
     return [
         {
@@ -461,10 +472,12 @@ def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[s
             "kind": row.get("kind") or "other",
             "claimed": bool(row.get("claimed")),
             "z": "no z" if row.get("z") is None else f"{abs(row['z']):.1f}",
-            "threshold": 100.0 * thresholds.get(row.get("kind") or "", thresholds["physics"]) / longest,
+            "threshold": 100.0 * _threshold(row, thresholds) / longest,
             "bar": 100.0 * min(abs(row.get("z") or 0.0) / longest, 1.0),
             "beyond": abs(row.get("z") or 0.0) > longest,
-            "reason": row.get("reason") or ("no reason given" if not row.get("claimed") else ""),
+            "reason": _inseparable(row, thresholds, noise)
+            or row.get("reason")
+            or ("no reason given" if not row.get("claimed") else ""),
             "facts": [
                 f"{words(row.get('parameter'))} {quantity(row.get('estimate'), row.get('unit'))}",
                 *_sizes(row),
@@ -473,6 +486,20 @@ def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[s
         }
         for row in rows
     ]
+
+
+def _threshold(row: dict[str, Any], thresholds: dict[str, float]) -> float:
+    return thresholds.get(row.get("kind") or "", thresholds["physics"])
+
+
+def _inseparable(row: dict[str, Any], thresholds: dict[str, float], noise: float) -> str:
+    """That a rejected candidate is not small, but open: a standard deviation of it moves more than noise."""
+    z = abs(row.get("z") or 0.0)
+    if row.get("claimed") or not 0.0 < z < _threshold(row, thresholds):
+        return ""
+    deviation = (row.get("size_m") or 0.0) / z
+    known = f"known to ±{quantity(deviation, 'm')} after 0.5 s only"
+    return f"not separable here from what else is fitted: {known}" if deviation > noise > 0.0 else ""
 
 
 def _ties(result: dict[str, Any], worthwhile: float) -> list[str]:

@@ -541,6 +541,37 @@ def test_says_what_a_claim_is_worth_on_data_that_was_not_fitted() -> None:
     assert "without it" not in text_of([])
 
 
+def test_places_are_named_with_their_recording() -> None:
+    windows = [
+        {"recording": name, "begin_s": begin, "end_s": begin + 0.5, "mode": "FLYING", "z": []}
+        for name, begin in (
+            ("first", 0.0),
+            ("first", 0.5),
+            ("second", 0.25),
+            ("second", 0.75),
+            ("third", 0.25),
+        )
+    ]
+    where = {"modes": [], "intervals": [[0.0, 1.0], [0.25, 1.25], [0.25, 0.75]]}
+    result = invented(effects=[{"name": "wind", "where": where}], locate={"windows": windows})
+    text = Page(report_html(result)).text
+    assert "first, 0.0 to 1.0 s second, 0.2 to 1.2 s second or third, 0.2 to 0.8 s" in text
+
+
+@pytest.mark.parametrize(
+    ("z", "size", "said"),
+    [
+        (0.2, 0.0003, "not separable here from what else is fitted: known to ±1.5 mm after 0.5 s only"),
+        (1.3, 0.0003, "too small"),
+        (5.2, 0.02, "too small"),
+        (0.2, None, "too small"),
+    ],
+)
+def test_what_only_cannot_be_separated_is_not_called_small(z: float, size: float | None, said: str) -> None:
+    row = candidate("wind", z, 0.1, "m/s", "wind_x", "too small") | {"size_m": size}
+    assert f"Rejected: {said}" in Page(report_html(invented(ladder=[row]))).text
+
+
 def test_many_recordings_unfold() -> None:
     windows = [window for index in range(7) for window in invented_windows(f"take {index}", 1.0)]
     locate = {"directions": INVENTED["locate"]["directions"], "windows": windows}
