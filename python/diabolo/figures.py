@@ -143,7 +143,7 @@ def take_figure(
     for row, (_, draw) in enumerate(panels, start=1):
         draw(figure, row)
     figure.update_xaxes(title="time [s]", row=len(panels))
-    legend = {"orientation": "h", "x": 1.0, "xanchor": "right", "y": 1.0, "yanchor": "bottom"}
+    legend = {"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom"}
     return _drawn(figure, whole + 90, legend, barmode="overlay", bargap=0)
 
 

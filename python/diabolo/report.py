@@ -423,9 +423,10 @@ def _where(where: dict[str, Any], windows: Iterable[dict[str, Any]] = ()) -> lis
     lines = [", ".join(words(mode) for mode in where.get("modes") or [])]
     lines += [words(where["direction"])] if where.get("direction") else []
     intervals = [span for span in where.get("intervals") or [] if span and None not in span]
-    for begin, end in intervals[:3]:
-        lines.append(f"{_recordings_of(begin, end, windows)}{begin:.1f} to {end:.1f} s")
-    lines += [f"and {len(intervals) - 3} more"] if len(intervals) > 3 else []
+    spans = [
+        f"{_recordings_of(begin, end, windows)}{begin:.1f} to {end:.1f} s" for begin, end in intervals[:3]
+    ]
+    lines += ["; ".join(spans) + (f" and {len(intervals) - 3} more" if len(intervals) > 3 else "")]
     return [line for line in lines if line] or ["everywhere or not known"]
 
 

@@ -555,7 +555,7 @@ def test_places_are_named_with_their_recording() -> None:
     where = {"modes": [], "intervals": [[0.0, 1.0], [0.25, 1.25], [0.25, 0.75]]}
     result = invented(effects=[{"name": "wind", "where": where}], locate={"windows": windows})
     text = Page(report_html(result)).text
-    assert "first, 0.0 to 1.0 s second, 0.2 to 1.2 s second or third, 0.2 to 0.8 s" in text
+    assert "first, 0.0 to 1.0 s; second, 0.2 to 1.2 s; second or third, 0.2 to 0.8 s" in text
 
 
 @pytest.mark.parametrize(
