@@ -163,7 +163,10 @@ def _heat(
     windows: Windows,
     rows: dict[str, list[Any]],
     color: Callable[[float], float],
-    **style: Any,
+    reach: tuple[float, float],
+    ticks: Iterable[float],
+    title: str,
+    colorscale: Any,
 ) -> None:
     """Rows of values by window, None where there is none; gaps between windows stay empty."""
     edges, columns = [windows[0]["begin_s"]], []
@@ -174,28 +177,32 @@ def _heat(
         edges.append(end)
         columns.append(column)
     table = list(zip(*columns, strict=True))
-    low, high = figure.layout[f"yaxis{row if row > 1 else ''}"].domain
-    style["colorbar"] |= {"y": 0.5 * (low + high), "len": high - low, "thickness": 12, "outlinewidth": 0}
+    bottom, top = figure.layout[f"yaxis{row if row > 1 else ''}"].domain
+    within = [value for value in ticks if reach[0] <= value <= reach[1]]
     figure.add_heatmap(
         x=edges,
         y=list(rows),
         z=[[None if value is None else color(value) for value in line] for line in table],
+        zmin=color(reach[0]),
+        zmax=color(reach[1]),
+        colorscale=colorscale,
+        colorbar={
+            "title": title,
+            "y": 0.5 * (bottom + top),
+            "len": top - bottom,
+            "thickness": 12,
+            "outlinewidth": 0,
+            "tickvals": [color(value) for value in within],
+            "ticktext": [f"{value:g}" for value in within],
+        },
         customdata=table,
+        hovertemplate=f"%{{y}}, %{{x:.2f}} s: %{{customdata:.3~g}}<extra>{title}</extra>",
         row=row,
         col=1,
-        **style,
     )
-    figure.add_hrect(
-        -0.5, len(rows) - 0.5, fillcolor=UNSEEN, opacity=1, layer="below", line_width=0, row=row, col=1
-    )
+    unseen = {"fillcolor": UNSEEN, "opacity": 1, "layer": "below", "line_width": 0}
+    figure.add_hrect(-0.5, len(rows) - 0.5, row=row, col=1, **unseen)
     figure.update_yaxes(autorange="reversed", ticks="", showline=False, row=row)
-
-
-def _ticks(
-    limits: tuple[float, float], color: Callable[[float], float], values: Iterable[float]
-) -> dict[str, Any]:
-    within = [value for value in values if limits[0] <= value <= limits[1]]
-    return {"tickvals": [color(value) for value in within], "ticktext": [f"{value:g}" for value in within]}
 
 
 def _missing(windows: Windows, directions: Sequence[str], scale: Scale, figure: Any, row: int) -> None:
@@ -204,19 +211,9 @@ def _missing(windows: Windows, directions: Sequence[str], scale: Scale, figure: 
         direction: [dict(enumerate(window.get("z") or [])).get(index) for window in windows]
         for index, direction in enumerate(directions)
     }
-    ticks = _ticks((-scale.z, scale.z), math.asinh, [-1000, -100, -30, -10, -3, 0, 3, 10, 30, 100, 1000])
-    _heat(
-        figure,
-        row,
-        windows,
-        values,
-        math.asinh,
-        colorscale="RdBu_r",
-        zmin=-math.asinh(scale.z),
-        zmax=math.asinh(scale.z),
-        colorbar={"title": "standard<br>deviations", **ticks},
-        hovertemplate="%{y}, %{x:.2f} s: %{customdata:.1f} standard deviations<extra>base</extra>",
-    )
+    ticks = (-1000, -100, -10, 0, 10, 100, 1000)
+    title = "standard<br>deviations"
+    _heat(figure, row, windows, values, math.asinh, (-scale.z, scale.z), ticks, title, "RdBu_r")
 
 
 def _modes(windows: Windows, words: Words, figure: Any, row: int) -> None:
@@ -245,34 +242,21 @@ def _left_over(windows: Windows, scale: Scale, figure: Any, row: int) -> None:
         name: [1e3 * window[key] if window.get(key) else None for window in windows]
         for key, name in RESIDUALS.items()
     }
-    low, high = 1e3 * scale.low_m, 1e3 * scale.high_m
-    _heat(
-        figure,
-        row,
-        windows,
-        millimetres,
-        math.log10,
-        colorscale=LEFT_OVER,
-        zmin=math.log10(low),
-        zmax=math.log10(high),
-        colorbar={
-            "title": "left [mm]",
-            **_ticks(
-                (low, high), math.log10, [digit * 10.0**power for power in range(-3, 4) for digit in (1, 3)]
-            ),
-        },
-        hovertemplate="%{y}, %{x:.2f} s: %{customdata:.3~g} mm<extra></extra>",
-    )
+    reach = (1e3 * scale.low_m, 1e3 * scale.high_m)
+    digits = (1,) if reach[1] > 100.0 * reach[0] else (1, 3)
+    ticks = [digit * 10.0**power for power in range(-3, 4) for digit in digits]
+    _heat(figure, row, windows, millimetres, math.log10, reach, ticks, "left [mm]", LEFT_OVER)
 
 
 def _lines(
     figure: Any, row: int, title: str, replay: Replay, rows: int, tracks: dict[str, Any], unit: str
 ) -> None:
     """What has a name, over time; the last panel has the legend."""
+    time = replay.recording.time - replay.recording.time[0]
     thinned = slice(None, None, -(-len(replay.recording) // rows))
     for name, track in tracks.items():
         figure.add_scatter(
-            x=np.asarray(replay.recording.time[thinned], dtype=np.float32),
+            x=np.asarray(time[thinned], dtype=np.float32),
             y=np.asarray(track[thinned], dtype=np.float32),
             mode="lines",
             name=name,

@@ -7,6 +7,7 @@ import json
 import math
 from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -423,19 +424,28 @@ def _where(where: dict[str, Any], windows: Iterable[dict[str, Any]] = ()) -> lis
     lines = [", ".join(words(mode) for mode in where.get("modes") or [])]
     lines += [words(where["direction"])] if where.get("direction") else []
     intervals = [span for span in where.get("intervals") or [] if span and None not in span]
-    spans = [
-        f"{_recordings_of(begin, end, windows)}{begin:.1f} to {end:.1f} s" for begin, end in intervals[:3]
-    ]
+    named = zip(_recordings_of(intervals, list(windows)), intervals, strict=True)
+    spans = [f"{name}{begin:.1f} to {end:.1f} s" for name, (begin, end) in named][:3]
     lines += ["; ".join(spans) + (f" and {len(intervals) - 3} more" if len(intervals) > 3 else "")]
     return [line for line in lines if line] or ["everywhere or not known"]
 
 
-def _recordings_of(begin: float, end: float, windows: Iterable[dict[str, Any]]) -> str:
-    """Which recording an interval is of: its windows begin and end so."""
-    ends = (("begin_s", begin), ("end_s", end))
-    begun, ended = ({w.get("recording") for w in windows if w.get(key) == time} for key, time in ends)
-    names = " or ".join(sorted(filter(None, begun & ended)))
-    return f"{names}, " if names else ""
+def _recordings_of(intervals: list[Any], windows: list[dict[str, Any]]) -> list[str]:
+    """Of each interval the recording whose windows begin and end so; the recordings follow each other."""
+    names = list(dict.fromkeys(w.get("recording") or "" for w in windows))
+    begun, ended = ({(w.get("recording"), w.get(key)) for w in windows} for key in ("begin_s", "end_s"))
+    possible = [
+        [k for k, name in enumerate(names) if (name, begin) in begun and (name, end) in ended]
+        for begin, end in intervals
+    ]
+    another = [after[0] < before[1] for before, after in pairwise(intervals)]  # since time goes back
+    for i, anew in enumerate(another):
+        least = min(possible[i], default=0) + anew
+        possible[i + 1] = [k for k in possible[i + 1] if k >= least]
+    for i, anew in reversed(list(enumerate(another))):
+        most = max(possible[i + 1], default=len(names)) - anew
+        possible[i] = [k for k in possible[i] if k <= most]
+    return [" or ".join(names[k] for k in those) + (", " if those else "") for those in possible]
 
 
 def _learnt(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
@@ -564,7 +574,7 @@ def _located(locate: dict[str, Any], replays: Sequence[Replay], threshold: float
         said = [_strongest(own, directions, threshold)] if own else []
         if name in by_name:
             before, after = (_millimetres(_mean_error(by_name[name], key)) for key in ("base", "corrected"))
-            said.append(f"Predictions are off by {before} on average, corrected {after}.")
+            said.append(f"On average predictions are off by {before} (base) and {after} (corrected).")
         rows = -(-figures.MOST_ROWS // len(names))
         figure = figures.take_figure(own, directions, by_name.get(name), scale, rows, words)
         located.append({"recording": name, "said": " ".join(said), "figure": figure})

@@ -123,7 +123,7 @@ def replay_of(recording: Recording, base: Model, corrected: Model) -> Replay:
 def replay_html(replay: Replay) -> str:
     """The page of a replay; of a long one that of its worst stretch."""
     take, (first, last) = replay.recording, replay.worst()
-    begin, end = take.time[[first, last]]
+    begin, end = take.time[[first, last]] - take.time[0]
     stretch = "" if last - first + 1 == len(take) else f", from {begin:.1f} to {end:.1f} s"
     return view_html(
         take.cut(first, last),

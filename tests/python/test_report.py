@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import base64
 import copy
 import json
 import math
@@ -332,7 +333,7 @@ def replay(name: str = "invented_play", seconds: float = 3.0, base_off: float = 
     count = int(100.0 * seconds)
     track, tip = np.tile([0.1, 0.2, 0.7], (count, 1)), np.array([0.0, 0.4, 0.6])
     take = diabolo.Recording(
-        np.arange(count) / 100.0, track + tip, track + tip * [1, -1, 1], track, 100.0, name=name
+        np.arange(count) / 100.0 + 50.0, track + tip, track + tip * [1, -1, 1], track, 100.0, name=name
     )
     above = np.where(np.arange(count)[:, None] < 100, np.nan, [0.0, 0.0, 1.0])
     return Replay(take, {"base": track + base_off * above, "corrected": track + 0.002 * above})
@@ -341,11 +342,14 @@ def replay(name: str = "invented_play", seconds: float = 3.0, base_off: float = 
 def test_every_take_shows_measured_beside_predicted_before_and_after() -> None:
     html = report_html(invented(), replays=[replay("first"), replay("second", base_off=0.2)])
     text = Page(html).text
-    assert "first Predictions are off by 100 mm on average, corrected 2 mm." in text
-    assert "second Predictions are off by 200 mm on average, corrected 2 mm." in text
+    assert "first On average predictions are off by 100 mm (base) and 2 mm (corrected)." in text
+    assert "second On average predictions are off by 200 mm (base) and 2 mm (corrected)." in text
     for figure in drawn(html)[-2:]:
         named = [trace["name"] for trace in figure["data"] if trace.get("type") == "scatter"]
         assert named.count("recorded") == 3 and named.count("base") == named.count("corrected") == 4
+        times = figure["data"][-1]["x"]
+        seconds = np.frombuffer(base64.b64decode(times["bdata"]), times["dtype"])
+        assert seconds[0] == 0.0 and seconds[-1] == pytest.approx(2.99)  # as windows are told
 
 
 def test_the_take_that_the_base_is_farthest_off_in_is_replayed() -> None:
@@ -552,10 +556,17 @@ def test_places_are_named_with_their_recording() -> None:
             ("third", 0.25),
         )
     ]
-    where = {"modes": [], "intervals": [[0.0, 1.0], [0.25, 1.25], [0.25, 0.75]]}
-    result = invented(effects=[{"name": "wind", "where": where}], locate={"windows": windows})
-    text = Page(report_html(result)).text
-    assert "first, 0.0 to 1.0 s; second, 0.2 to 1.2 s; second or third, 0.2 to 0.8 s" in text
+
+    def text_of(*intervals: list[float]) -> str:
+        where = {"modes": [], "intervals": list(intervals)}
+        result = invented(effects=[{"name": "wind", "where": where}], locate={"windows": windows})
+        return Page(report_html(result)).text
+
+    assert "first, 0.0 to 1.0 s; second, 0.2 to 0.8 s; third, 0.2 to 0.8 s" in text_of(
+        [0.0, 1.0], [0.25, 0.75], [0.25, 0.75]
+    )
+    assert "second, 0.2 to 0.8 s; second, 0.8 to 1.2 s" in text_of([0.25, 0.75], [0.75, 1.25])
+    assert "second or third, 0.2 to 0.8 s" in text_of([0.25, 0.75])
 
 
 @pytest.mark.parametrize(
