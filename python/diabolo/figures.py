@@ -135,10 +135,7 @@ def take_figure(
     between = 14
     whole = sum(heights) + between * (len(panels) - 1)
     figure = make_subplots(
-        rows=len(panels),
-        row_heights=heights,
-        shared_xaxes=True,
-        vertical_spacing=between / whole,
+        rows=len(panels), row_heights=heights, shared_xaxes=True, vertical_spacing=between / whole
     )
     for row, (_, draw) in enumerate(panels, start=1):
         draw(figure, row)

@@ -70,11 +70,7 @@ def report_html(
             for row in _rows(result, "nuisances")
         ],
         limits=[
-            [
-                _named(row),
-                words(row.get("parameter")),
-                "below " + quantity(row["limit95"], row.get("unit")),
-            ]
+            [_named(row), words(row.get("parameter")), "below " + quantity(row["limit95"], row.get("unit"))]
             if row.get("limit95") is not None
             else [_named(row), words(row.get("parameter")), "no limit: this data cannot show it"]
             for row in _rows(result, "upper_limits")
