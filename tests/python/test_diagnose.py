@@ -306,7 +306,8 @@ def test_the_command_writes_report_result_and_model(
     result: dict[str, Any] = json.loads((tmp_path / "r.json").read_text())
     assert result == json.loads((out / "diagnosis.json").read_text())
     assert [entry["file"] for entry in result["inputs"]] == [Path(take).name for take in takes]
-    assert result["sentence"].split(",")[0] in (out / "report.html").read_text()
+    report = (out / "report.html").read_text()
+    assert result["sentence"].split(",")[0] in report and "<iframe srcdoc=" in report
 
 
 def test_a_new_process_predicts_the_same_by_the_written_model(found: Diagnosis, tmp_path: Path) -> None:
