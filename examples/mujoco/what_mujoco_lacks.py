@@ -19,6 +19,7 @@ import diabolo
 import mujoco
 import numpy as np
 from diabolo.report import report_html
+from diabolo.view import replay_of
 from numpy.typing import NDArray
 
 DT = 1e-3  # [s]
@@ -81,9 +82,10 @@ def main() -> None:
         if alone is not None and better is not None:
             print(f"  {ahead:4g} s ahead: {1e3 * alone:6.1f} mm -> {1e3 * better:6.1f} mm")
     if arguments.out:
-        arguments.out.write_text(
-            report_html(comparison.real.to_dict(), comparison.to_dict()), encoding="utf-8"
-        )
+        base = diabolo.Model.named("consistent")
+        replays = [replay_of(take, base, comparison.real.model) for take in takes]
+        report = report_html(comparison.real.to_dict(), comparison.to_dict(), replays)
+        arguments.out.write_text(report, encoding="utf-8")
 
 
 if __name__ == "__main__":

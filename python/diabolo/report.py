@@ -1,97 +1,94 @@
 # SPDX-License-Identifier: MIT
-"""A diagnosis as a page for people: one HTML file, with its pictures inside."""
+"""A diagnosis as a page for people: one HTML file, with its figures and a replay inside."""
 
 from __future__ import annotations
 
-import base64
-import io
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from . import figures
 from ._core import DIAGNOSIS_SCHEMA, Thresholds
 from .checks import check_drawing
+from .view import Replay, replay_html
 
 if TYPE_CHECKING:
     from jinja2 import Template
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 LONGEST_BAR = 3.0
 """Of the ladder, in thresholds of physics."""
-CLIPPED = 6.0
 FIRST_RECORDINGS = 4
 """So many are shown at once; the others unfold."""
 
 TEMPLATES = Path(__file__).with_name("templates")
 WORDS: dict[str, str] = json.loads((TEMPLATES / "words.json").read_text(encoding="utf-8"))
-MODE_COLORS = {"ON_STRING": "#3b6ea5", "LOOSE": "#d9a441", "FLYING": "#8e6bb0"}
-BEFORE, AFTER = "#6b7280", "#0b5fa5"
 
 
 def check(path: str | Path) -> None:
     """Raise ValueError where a report cannot be made for want of a library."""
-    check_drawing(path, "jinja2", "matplotlib")
+    check_drawing(path, "jinja2", "plotly")
 
 
-def report_html(result: dict[str, Any], comparison: dict[str, Any] | None = None) -> str:
+def report_html(
+    result: dict[str, Any], comparison: dict[str, Any] | None = None, replays: Sequence[Replay] = ()
+) -> str:
     """The page of a result of schema diabolo.diagnosis/1; what it lacks, the page says in words.
 
     comparison: of somebody's simulator with the recordings (diabolo.comparison/1), which comes first then.
+    replays: of the takes, to show measured beside predicted; the worst one plays.
     """
     check("report")
     if result.get("schema") != DIAGNOSIS_SCHEMA:
         raise ValueError(f"schema: found {result.get('schema')!r}; expected {DIAGNOSIS_SCHEMA!r}")
     thresholds = {**Thresholds().to_dict(), **(result.get("thresholds") or {})}
-    import matplotlib
-
-    style: Any = dict(matplotlib.rcParamsDefault)  # the same page on every machine
-    style.update({"svg.hashsalt": "diabolo", "axes.spines.top": False, "axes.spines.right": False})
     horizons = (result.get("fit") or {}).get("horizons_s") or []
-    with matplotlib.rc_context(style):
-        return _template().render(
-            result=result,
-            simulator=None if comparison is None else _simulator(comparison),
-            fit=_fit(result.get("fit") or {}),
-            effects=[_effect(effect, horizons) for effect in _rows(result, "effects")],
-            adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
-            learnt=[_learnt(item, horizons) for item in _rows(result, "learnt")],
-            unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
-            strips=_strips(result.get("locate") or {}, thresholds["physics"]),
-            first_strips=FIRST_RECORDINGS,
-            ladder=_ladder(result, thresholds),
-            thresholds=[f"{thresholds[kind]:g}" for kind in ("physics", "measurement")],
-            ties=_ties(result, thresholds["worthwhile_odds"]),
-            nuisances=[
-                [_named(row), quantity(row.get("value"), row.get("unit"), row.get("ci90"))]
-                for row in _rows(result, "nuisances")
-            ],
-            limits=[
-                [
-                    _named(row),
-                    words(row.get("parameter")),
-                    "below " + quantity(row["limit95"], row.get("unit")),
-                ]
-                if row.get("limit95") is not None
-                else [_named(row), words(row.get("parameter")), "no limit: this data cannot show it"]
-                for row in _rows(result, "upper_limits")
-            ],
-            experiments=[_experiment(row) for row in _rows(result, "next_experiment")],
-            takes=_joined(Path(str(row.get("file"))).stem for row in _rows(result, "inputs")),
-            inputs=[[row.get("file"), (row.get("sha256") or "")[:16]] for row in _rows(result, "inputs")],
-            noise=[
-                [
-                    row.get("recording"),
-                    quantity(row.get("position_m"), "m"),
-                    quantity(row.get("spin_rad_s"), "rad/s"),
-                ]
-                for row in _rows(result, "noise")
-            ],
-            seconds=quantity(result.get("seconds"), "s"),
-        )
+    locate = result.get("locate") or {}
+    shown = [replay for replay in replays if np.isfinite(replay.errors("base")).any()]
+    worst = max(shown, key=lambda replay: _mean_error(replay, "base") or 0.0, default=None)
+    page = _template().render(
+        result=result,
+        simulator=None if comparison is None else _simulator(comparison),
+        fit=_fit(result.get("fit") or {}),
+        effects=[_effect(effect, horizons, _rows(locate, "windows")) for effect in _rows(result, "effects")],
+        adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
+        learnt=[_learnt(item, horizons) for item in _rows(result, "learnt")],
+        unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
+        replay=None if worst is None else replay_html(worst),
+        located=_located(locate, shown, thresholds["physics"]),
+        first_located=FIRST_RECORDINGS,
+        ladder=_ladder(result, thresholds),
+        thresholds=[f"{thresholds[kind]:g}" for kind in ("physics", "measurement")],
+        ties=_ties(result, thresholds["worthwhile_odds"]),
+        nuisances=[
+            [_named(row), quantity(row.get("value"), row.get("unit"), row.get("ci90"))]
+            for row in _rows(result, "nuisances")
+        ],
+        limits=[
+            [_named(row), words(row.get("parameter")), "below " + quantity(row["limit95"], row.get("unit"))]
+            if row.get("limit95") is not None
+            else [_named(row), words(row.get("parameter")), "no limit: this data cannot show it"]
+            for row in _rows(result, "upper_limits")
+        ],
+        experiments=[_experiment(row) for row in _rows(result, "next_experiment")],
+        takes=_joined(Path(str(row.get("file"))).stem for row in _rows(result, "inputs")),
+        inputs=[[row.get("file"), (row.get("sha256") or "")[:16]] for row in _rows(result, "inputs")],
+        noise=[
+            [
+                row.get("recording"),
+                quantity(row.get("position_m"), "m"),
+                quantity(row.get("spin_rad_s"), "rad/s"),
+            ]
+            for row in _rows(result, "noise")
+        ],
+        seconds=quantity(result.get("seconds"), "s"),
+    )
+    return page.replace("PLOTLY", figures.library(), 1) if 'class="plot"' in page else page
 
 
 @cache
@@ -240,13 +237,12 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         for row in rows
     ]
     tile_label = f"error after {quantity(horizon, 's')}, data not fitted"
-    picture = _picture(_error_figure(rows))
     return {
         "sentence": sentence + left,
         "rows": table,
         "tile": tile,
         "tile_label": tile_label,
-        "picture": picture,
+        "figure": figures.error_figure(rows),
     }
 
 
@@ -369,7 +365,7 @@ def _simulator(comparison: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:
+def _effect(effect: dict[str, Any], horizons: list[float], windows: list[dict[str, Any]]) -> list[Any]:
     parameters = [
         f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
         for row in _rows(effect, "parameters")
@@ -379,7 +375,7 @@ def _effect(effect: dict[str, Any], horizons: list[float]) -> list[Any]:
     return [
         {**_named(effect), "notes": notes},
         parameters or ["none"],
-        _where(effect.get("where") or {}),
+        _where(effect.get("where") or {}, windows),
         _effect_sizes(effect, horizons) or ["not known"],
         probability(effect.get("p_value")),
         percent(effect.get("confidence")),
@@ -420,13 +416,32 @@ def _sizes(row: dict[str, Any]) -> list[str]:
     return sizes if share is None else [*sizes, f"{percent(share)} of the spin in 1 s"]
 
 
-def _where(where: dict[str, Any]) -> list[str]:
+def _where(where: dict[str, Any], windows: Iterable[dict[str, Any]] = ()) -> list[str]:
     lines = [", ".join(words(mode) for mode in where.get("modes") or [])]
     lines += [words(where["direction"])] if where.get("direction") else []
     intervals = [span for span in where.get("intervals") or [] if span and None not in span]
-    spans = [f"{begin:.1f} to {end:.1f} s" for begin, end in intervals[:3]]
-    lines += [", ".join(spans) + (f" and {len(intervals) - 3} more" if len(intervals) > 3 else "")]
+    named = zip(_recordings_of(intervals, list(windows)), intervals, strict=True)
+    spans = [f"{name}{begin:.1f} to {end:.1f} s" for name, (begin, end) in named][:3]
+    lines += ["; ".join(spans) + (f" and {len(intervals) - 3} more" if len(intervals) > 3 else "")]
     return [line for line in lines if line] or ["everywhere or not known"]
+
+
+def _recordings_of(intervals: list[Any], windows: list[dict[str, Any]]) -> list[str]:
+    """Of each interval the recording whose windows begin and end so; the recordings follow each other."""
+    names = list(dict.fromkeys(w.get("recording") or "" for w in windows))
+    begun, ended = ({(w.get("recording"), w.get(key)) for w in windows} for key in ("begin_s", "end_s"))
+    possible = [
+        [k for k, name in enumerate(names) if (name, begin) in begun and (name, end) in ended]
+        for begin, end in intervals
+    ]
+    another = [after[0] < before[1] for before, after in pairwise(intervals)]  # since time goes back
+    for i, anew in enumerate(another):
+        least = min(possible[i], default=0) + anew
+        possible[i + 1] = [k for k in possible[i + 1] if k >= least]
+    for i, anew in reversed(list(enumerate(another))):
+        most = max(possible[i + 1], default=len(names)) - anew
+        possible[i] = [k for k in possible[i] if k <= most]
+    return [" or ".join(names[k] for k in those) + (", " if those else "") for those in possible]
 
 
 def _learnt(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
@@ -449,13 +464,14 @@ def _unnamed(item: dict[str, Any]) -> dict[str, Any]:
     return {
         "law": item.get("law") or "no law found",
         "facts": "; ".join(facts),
-        "picture": _picture(_curve_figure(item, curve)) if curve else None,
+        "figure": figures.curve_figure(item, curve) if curve else None,
     }
 
 
 def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[str, Any]]:
     """All candidates, the most significant first."""
     longest = LONGEST_BAR * thresholds["physics"]
+    noise = max((row.get("position_m") or 0.0 for row in _rows(result, "noise")), default=0.0)
     rows = sorted(_rows(result, "ladder"), key=lambda row: -abs(row.get("z") or 0.0))
     return [
         {
@@ -463,10 +479,12 @@ def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[s
             "kind": row.get("kind") or "other",
             "claimed": bool(row.get("claimed")),
             "z": "no z" if row.get("z") is None else f"{abs(row['z']):.1f}",
-            "threshold": 100.0 * thresholds.get(row.get("kind") or "", thresholds["physics"]) / longest,
+            "threshold": 100.0 * _threshold(row, thresholds) / longest,
             "bar": 100.0 * min(abs(row.get("z") or 0.0) / longest, 1.0),
             "beyond": abs(row.get("z") or 0.0) > longest,
-            "reason": row.get("reason") or ("no reason given" if not row.get("claimed") else ""),
+            "reason": _inseparable(row, thresholds, noise)
+            or row.get("reason")
+            or ("no reason given" if not row.get("claimed") else ""),
             "facts": [
                 f"{words(row.get('parameter'))} {quantity(row.get('estimate'), row.get('unit'))}",
                 *_sizes(row),
@@ -475,6 +493,20 @@ def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[s
         }
         for row in rows
     ]
+
+
+def _threshold(row: dict[str, Any], thresholds: dict[str, float]) -> float:
+    return thresholds.get(row.get("kind") or "", thresholds["physics"])
+
+
+def _inseparable(row: dict[str, Any], thresholds: dict[str, float], noise: float) -> str:
+    """That a rejected candidate is not small, but open: a standard deviation of it moves more than noise."""
+    z = abs(row.get("z") or 0.0)
+    if row.get("claimed") or not 0.0 < z < _threshold(row, thresholds):
+        return ""
+    deviation = (row.get("size_m") or 0.0) / z
+    known = f"known to ±{quantity(deviation, 'm')} after 0.5 s only"
+    return f"not separable here from what else is fitted: {known}" if deviation > noise > 0.0 else ""
 
 
 def _ties(result: dict[str, Any], worthwhile: float) -> list[str]:
@@ -519,145 +551,53 @@ def _odds(odds: float | None) -> str:
     )
 
 
-# ---- pictures ----
+# ---- over time ----
 
 
-def _figure(width: float, height: float) -> Figure:
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def _picture(figure: Figure) -> str:
-    """As an address that holds the picture itself."""
-    stream = io.BytesIO()
-    figure.savefig(stream, format="svg", dpi=200, metadata={"Date": None, "Creator": None})
-    return "data:image/svg+xml;base64," + base64.b64encode(stream.getvalue()).decode()
-
-
-def _error_figure(rows: list[Any]) -> Figure:
-    figure = _figure(5.6, 3.6)
-    axes = figure.add_subplot()
-    axes.plot([r[0] for r in rows], [1e3 * r[1] for r in rows], "o--", color=BEFORE, lw=2, label="base")
-    after = [row for row in rows if row[2] is not None]
-    style: dict[str, Any] = {"color": AFTER, "lw": 2.4}
-    axes.plot([r[0] for r in after], [1e3 * r[2] for r in after], "o-", label="corrected", **style)
-    sure = [row for row in after if row[3] and None not in row[3]]
-    low = [1e3 * max(r[1] - r[3][1], 0.0) for r in sure]
-    high = [1e3 * (r[1] - r[3][0]) for r in sure]
-    label = "95 % of the improvement"
-    axes.fill_between([r[0] for r in sure], low, high, color=AFTER, alpha=0.2, lw=0, label=label)
-    starts = [row for row in rows if row[4] is not None]
-    if starts:
-        made = [1e3 * r[4] for r in starts]
-        axes.plot([r[0] for r in starts], made, ":", color=BEFORE, lw=1.6, label="noise of the starts")
-    axes.set(xlabel="time predicted ahead [s]", ylabel="position error [mm]", ylim=(0, None), xlim=(0, None))
-    axes.grid(alpha=0.25)
-    axes.legend(frameon=False, loc="upper left")
-    return figure
-
-
-def _curve_figure(item: dict[str, Any], curve: list[Any]) -> Figure:
-    units = [(item.get(name) or "SI unit").replace("^2", "²") for name in ("scalar_unit", "unit")]
-    figure = _figure(5.6, 3.0)
-    axes = figure.add_subplot()
-    axes.plot([x for x, _ in curve], [y for _, y in curve], color=AFTER, lw=2.4)
-    axes.set(
-        xlabel=f"{item.get('scalar') or 'argument of the law'} [{units[0]}]", ylabel=f"missing [{units[1]}]"
-    )
-    axes.grid(alpha=0.25)
-    return figure
-
-
-def _strips(locate: dict[str, Any], threshold: float) -> list[dict[str, Any]]:
-    """Of each recording: a picture of what is missing, by direction and time, and what it shows in words."""
-    directions = _rows(locate, "directions")
+def _located(locate: dict[str, Any], replays: Sequence[Replay], threshold: float) -> list[dict[str, Any]]:
+    """Of each recording: a figure of what is missing and left by time, and what it shows in words."""
+    directions = [_direction(direction) for direction in _rows(locate, "directions")]
     windows: dict[str, list[dict[str, Any]]] = {}
     for window in _rows(locate, "windows"):
         if window.get("begin_s") is not None and window.get("end_s") is not None:
             windows.setdefault(window.get("recording") or "recording", []).append(window)
-    strips = []
-    for recording, own in windows.items():
-        own.sort(key=lambda window: window["begin_s"])
-        cells = [
-            (abs(z), direction, window)
-            for window in own
-            for z, direction in zip(window.get("z") or [], directions, strict=False)
-            if z is not None
-        ]
-        said = "No direction could be tested here."
-        if cells:
-            z, direction, window = max(cells, key=lambda cell: cell[0])
-            label, begin = _direction(direction), window["begin_s"]
-            said = (
-                f"Strongest: {label}, {z:.1f} standard deviations at {begin:.1f} s."
-                if z > threshold
-                else f"Nothing beyond {threshold:g} standard deviations; the most is {z:.1f}, {label}."
-            )
-        strips.append({"recording": recording, "said": said, "picture": _picture(_strip(own, directions))})
-    return strips
+    by_name = {replay.recording.name: replay for replay in replays}
+    names = list(dict.fromkeys([*windows, *by_name]))
+    scale = figures.Scale.of([window for own in windows.values() for window in own])
+    located = []
+    for name in names:
+        own = sorted(windows.get(name, []), key=lambda window: window["begin_s"])
+        said = [_strongest(own, directions, threshold)] if own else []
+        if name in by_name:
+            before, after = (_millimetres(_mean_error(by_name[name], key)) for key in ("base", "corrected"))
+            said.append(f"On average predictions are off by {before} (base) and {after} (corrected).")
+        rows = -(-figures.MOST_ROWS // len(names))
+        figure = figures.take_figure(own, directions, by_name.get(name), scale, rows, words)
+        located.append({"recording": name, "said": " ".join(said), "figure": figure})
+    return located
+
+
+def _mean_error(replay: Replay, name: str) -> float | None:
+    """Of its predictions, over all their rows [m]; nothing where there are none."""
+    errors = replay.errors(name)
+    known = errors[np.isfinite(errors)]
+    return float(known.mean()) if len(known) else None
+
+
+def _strongest(windows: list[dict[str, Any]], directions: list[str], threshold: float) -> str:
+    cells = [
+        (abs(z), direction, window["begin_s"])
+        for window in windows
+        for z, direction in zip(window.get("z") or [], directions, strict=False)
+        if z is not None
+    ]
+    if not cells:
+        return "No direction could be tested here."
+    z, direction, begin = max(cells, key=lambda cell: cell[0])
+    if z > threshold:
+        return f"Strongest: {direction}, {z:.1f} standard deviations at {begin:.1f} s."
+    return f"Nothing beyond {threshold:g} standard deviations; the most is {z:.1f}, {direction}."
 
 
 def _direction(direction: dict[str, Any]) -> str:
     return f"{words(direction.get('mode'))}: {words(direction.get('name'))}"
-
-
-def _strip(windows: list[dict[str, Any]], directions: list[dict[str, Any]]) -> Figure:
-    from matplotlib.collections import PolyCollection
-    from matplotlib.patches import Patch
-
-    spans = [
-        (window["begin_s"], min(window["end_s"], following["begin_s"]))
-        for window, following in zip(windows, [*windows[1:], {"begin_s": math.inf}], strict=True)
-    ]
-    count = max(len(directions), 1)
-    figure = _figure(9.0, 2.6 + 0.3 * count)
-    heat, ribbon, line = figure.subplots(3, 1, sharex=True, height_ratios=[0.3 * count, 0.16, 1.3])
-    boxes, colors = [], []
-    for (begin, end), window in zip(spans, windows, strict=True):
-        for row, z in zip(range(count), window.get("z") or [], strict=False):
-            if z is not None:
-                boxes.append([(begin, row), (end, row), (end, row + 1), (begin, row + 1)])
-                colors.append(z)
-    mesh = PolyCollection(boxes, array=colors, cmap="RdBu_r", edgecolors="face", lw=0.3, rasterized=True)
-    mesh.set_clim(-CLIPPED, CLIPPED)
-    heat.add_collection(mesh)
-    labels = [_direction(direction) for direction in directions]
-    heat.set(facecolor="#dfe3e8", ylim=(count, 0))
-    heat.set_yticks([row + 0.5 for row in range(len(labels))], labels, parse_math=False)
-    heat.set_yticks(range(count), minor=True)
-    heat.grid(axis="y", which="minor", color="white", lw=1.5)
-    heat.tick_params(which="both", length=0, labelbottom=False)
-    bar = figure.colorbar(mesh, ax=heat, extend="both", pad=0.01, aspect=12, ticks=[-6, -4, 0, 4, 6])
-    bar.set_label("standard deviations")
-    _modes(ribbon, spans, windows)
-    _residuals(line, spans, windows)
-    keys = [Patch(color=color, label=words(mode)) for mode, color in MODE_COLORS.items()]
-    keys += line.get_legend_handles_labels()[0]
-    figure.legend(handles=keys, loc="outside lower right", ncols=5, frameon=False, fontsize=9)
-    line.set_xlim(spans[0][0], max(end for _, end in spans))
-    return figure
-
-
-def _modes(axes: Axes, spans: list[tuple[float, float]], windows: list[dict[str, Any]]) -> None:
-    """A ribbon in the colour of the string's state."""
-    colors = [MODE_COLORS.get(window.get("mode") or "", "#dfe3e8") for window in windows]
-    axes.broken_barh([(begin, end - begin) for begin, end in spans], (0, 1), facecolors=colors, lw=0)
-    axes.set(yticks=[0.5], yticklabels=["state of the string"], ylim=(0, 1))
-    axes.tick_params(length=0, labelbottom=False)
-    axes.spines[:].set_visible(False)
-
-
-def _residuals(axes: Axes, spans: list[tuple[float, float]], windows: list[dict[str, Any]]) -> None:
-    """What is left in each window, in millimetres, before and after the correction."""
-    x = [time for begin, end in spans for time in (begin, end, end)]
-    levels = {}
-    for key in ("residual_before_m", "residual_after_m", "residual_noise_m"):
-        values = [math.nan if window.get(key) is None else 1e3 * window[key] for window in windows]
-        levels[key] = [level for value in values for level in (value, value, math.nan)]
-    axes.plot(x, levels["residual_before_m"], color=BEFORE, lw=2.0, label="base")
-    axes.plot(x, levels["residual_after_m"], color=AFTER, lw=2.0, label="corrected")
-    axes.plot(x, levels["residual_noise_m"], color=BEFORE, lw=1.0, ls=":", label="noise alone")
-    axes.set(xlabel="time [s]", ylabel="left over [mm]", yscale="log")
-    axes.yaxis.set_major_formatter("{x:g}")
-    axes.grid(alpha=0.25)

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,32 @@ from .evaluation import predict
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
 MOST_FRAMES = 40_000
 """Longer recordings are thinned out."""
+PREDICTED_ANEW = 1.0
+"""Between the starts of a replay's predictions [s]."""
+LONGEST_REPLAY = 20.0
+"""Of a longer recording its worst stretch is replayed [s]."""
+
+
+class Replay(NamedTuple):
+    """A recording, and beside it what base and answer predict, begun again each second from recorded play."""
+
+    recording: Recording
+    predictions: dict[str, NDArray[np.float64]]
+    """By name, positions [m], shape (N, 3), NaN where there is none."""
+
+    def errors(self, name: str) -> NDArray[np.float64]:
+        """Distances from the recorded diabolo [m], shape (N,)."""
+        distances: NDArray[np.float64] = np.linalg.norm(
+            self.predictions[name] - self.recording.diabolo, axis=1
+        )
+        return distances
+
+    def worst(self) -> tuple[int, int]:
+        """First and last row of the stretch in which the base is farthest off."""
+        rows = min(len(self.recording), round(LONGEST_REPLAY * self.recording.rate))
+        sums = np.concatenate([[0.0], np.cumsum(np.nan_to_num(self.errors("base")))])
+        first = int(np.argmax(sums[rows:] - sums[: len(sums) - rows]))
+        return first, first + rows - 1
 
 
 def view_html(
@@ -75,6 +102,37 @@ def view_html(
     return page.replace("/*DATA*/null", text, 1)
 
 
+@contextmanager
+def _told_before() -> Iterator[None]:
+    """What is odd about recordings is not said once more."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RecordingWarning)
+        yield
+
+
+@_told_before()
+def replay_of(recording: Recording, base: Model, corrected: Model) -> Replay:
+    """Base and answer beside a recording."""
+    models = {"base": base, "corrected": corrected}
+    return Replay(
+        recording, {name: predict_anew(recording, model, PREDICTED_ANEW) for name, model in models.items()}
+    )
+
+
+@_told_before()
+def replay_html(replay: Replay) -> str:
+    """The page of a replay; of a long one that of its worst stretch."""
+    take, (first, last) = replay.recording, replay.worst()
+    begin, end = take.time[[first, last]] - take.time[0]
+    stretch = "" if last - first + 1 == len(take) else f", from {begin:.1f} to {end:.1f} s"
+    return view_html(
+        take.cut(first, last),
+        title=f"{take.name}{stretch}",
+        predictions={name: positions[first : last + 1] for name, positions in replay.predictions.items()},
+        note=f"begun again each {PREDICTED_ANEW:g} s from the recorded play",
+    )
+
+
 def predict_anew(recording: Recording, model: Model, every: float) -> NDArray[np.float64]:
     """Positions [m] that a model predicts, begun again from the recorded play each `every` seconds.
 
@@ -84,8 +142,7 @@ def predict_anew(recording: Recording, model: Model, every: float) -> NDArray[np
     warn_of([recording])
     positions = np.full((len(recording), 3), np.nan)
     step = max(1, round(every * recording.rate))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RecordingWarning)  # of each piece, once more
+    with _told_before():
         for first in range(0, len(recording), step):
             last = min(first + step, len(recording)) - 1
             piece = recording.cut(0, last)

@@ -24,10 +24,20 @@ RECORDINGS = Path(__file__).resolve().parents[2] / "data" / "recordings"
 # What a script of the page's own can see once it has loaded, written where the DOM's text shows it.
 LOOK = """<script>addEventListener("load", () => setTimeout(() => {
   const root = document.documentElement;
-  root.dataset.pictures = [...document.images].filter(i => i.complete && i.naturalWidth > 0).length;
-  root.dataset.missing = [...document.images].filter(i => !(i.complete && i.naturalWidth > 0)).length;
+  const plots = [...document.querySelectorAll(".plot")];
+  const replay = document.querySelector("iframe").contentDocument;
+  root.dataset.drawn = plots.filter(plot => plot.querySelector(".main-svg")).length;
+  root.dataset.missing = plots.filter(plot => !plot.querySelector(".main-svg")).length;
   root.dataset.overflow = Math.max(0, root.scrollWidth - innerWidth);
-}, 500));</script>"""
+  const slider = replay.getElementById("time"), seen = [100, 600, 600].map(place => {
+    slider.value = place;
+    slider.dispatchEvent(new Event("input"));
+    return replay.getElementById("scene").toDataURL();
+  });
+  root.dataset.moved = Number(seen[0] !== seen[1] && seen[1] === seen[2]);
+  replay.getElementById("play").click();
+  root.dataset.paused = Number(replay.getElementById("play").textContent === "play");
+}, 1500));</script>"""
 # Frames come by the clock of the page, which the browser drives, also where a busy machine paints none.
 FRAMES = "<script>requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), 16);</script>"
 
@@ -49,7 +59,7 @@ def opened(page: Path, width: int, *arguments: str) -> subprocess.CompletedProce
         page.as_uri(),
     ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
-    assert "Uncaught" not in done.stderr, done.stderr
+    assert "CONSOLE" not in done.stderr, done.stderr
     return done
 
 
@@ -74,19 +84,25 @@ def seen(dom: str, name: str) -> int:
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     from diabolo.report import report_html
+    from diabolo.view import replay_of
 
-    result = diabolo.diagnose(diabolo.load_recording(RECORDINGS / "swing.csv")).to_dict()
+    take = diabolo.load_recording(RECORDINGS / "swing.csv")
+    answer = diabolo.diagnose(take)
+    replays = [replay_of(take, diabolo.Model.named("consistent"), answer.model)]
     page = tmp_path_factory.mktemp("report") / "report.html"
-    page.write_text(report_html(result).replace("</body>", LOOK + "</body>"), encoding="utf-8")
+    html = report_html(answer.to_dict(), replays=replays)
+    assert len(html) < 5e6
+    page.write_text(html.replace("</body>", LOOK + "</body>"), encoding="utf-8")
     return page
 
 
 @pytest.mark.parametrize("width", [1280, 500])
-def test_a_report_shows_its_pictures_and_fits_the_window(report: Path, width: int) -> None:
+def test_a_report_draws_its_figures_fits_the_window_and_replays(report: Path, width: int) -> None:
     dom = document(report, width)
-    assert seen(dom, "pictures") >= 2
-    assert seen(dom, "missing") == 0
-    assert seen(dom, "overflow") == 0
+    assert seen(dom, "drawn") >= 2
+    assert seen(dom, "missing") == seen(dom, "overflow") == 0
+    assert seen(dom, "moved") == 1, "the slider moves the picture"
+    assert seen(dom, "paused") == 1
     assert colors(report, width) > 50
 
 

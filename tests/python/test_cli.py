@@ -456,13 +456,18 @@ def test_a_sentence_says_what_is_wrong(
     assert {path: path.read_bytes() for path in tidy.parent.iterdir()} == before
 
 
-def test_without_matplotlib_a_sentence_says_so(command: Command, tidy: Path) -> None:
-    (tidy.parent / "matplotlib.py").write_text("raise ModuleNotFoundError(name='matplotlib')\n")
-    for arguments in (("evaluate", "played.csv", "--plot", "out.png"), ("demo",)):
-        done = command(*arguments, env={"PYTHONPATH": f"{tidy.parent}:{os.environ.get('PYTHONPATH', '')}"})
-        assert done.returncode == 2
-        assert "install matplotlib (pip install '.[plot]' in the project's root)" in done.stderr
-        assert not (tidy.parent / "out.png").exists()
+@pytest.mark.parametrize(
+    ("library", "arguments"),
+    [("matplotlib", ("evaluate", "played.csv", "--plot", "out.png")), ("plotly", ("demo",))],
+)
+def test_without_its_library_a_sentence_says_so(
+    command: Command, tidy: Path, library: str, arguments: tuple[str, ...]
+) -> None:
+    (tidy.parent / f"{library}.py").write_text(f"raise ModuleNotFoundError(name='{library}')\n")
+    done = command(*arguments, env={"PYTHONPATH": f"{tidy.parent}:{os.environ.get('PYTHONPATH', '')}"})
+    assert done.returncode == 2
+    assert f"install {library} (pip install '.[plot]' in the project's root)" in done.stderr
+    assert not (tidy.parent / "out.png").exists()
 
 
 def test_importing_the_package_needs_numpy_only() -> None:

@@ -19,7 +19,7 @@ CONCEALED = {"string_friction", "air_drag_quadratic", "gravity_tilt"}
 @pytest.fixture(scope="module")
 def shown(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     """What the demo prints to a terminal that is none, and its folder."""
-    pytest.importorskip("matplotlib")
+    pytest.importorskip("plotly")
     folder = tmp_path_factory.mktemp("demo")
     command = [
         sys.executable,
@@ -78,7 +78,7 @@ def test_the_demo_says_what_was_found_beside_what_was_concealed(shown: tuple[str
     names = sorted(path.name for path in (folder / "shown").iterdir())
     assert names == ["diagnosis.json", "model.json", "replay.html", "report.html"]
     replay = (folder / "shown" / "replay.html").read_text()
-    assert "simulator as given" in replay and "with what was found" in replay
+    assert '{"name":"base"' in replay and '{"name":"corrected"' in replay
 
 
 class AskedError(Exception):
@@ -86,7 +86,7 @@ class AskedError(Exception):
 
 
 def test_no_key_is_read_before_the_answer(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
+    pytest.importorskip("plotly")
     read: list[str] = []
     plain, opened = Path.read_text, Path.open
 

@@ -316,7 +316,8 @@ def test_the_command_writes_report_result_and_model(
     result: dict[str, Any] = json.loads((tmp_path / "r.json").read_text())
     assert result == json.loads((out / "diagnosis.json").read_text())
     assert [entry["file"] for entry in result["inputs"]] == [Path(take).name for take in takes]
-    assert result["sentence"].split(",")[0] in (out / "report.html").read_text()
+    report = (out / "report.html").read_text()
+    assert result["sentence"].split(",")[0] in report and "<iframe srcdoc=" in report
 
 
 def test_a_new_process_predicts_the_same_by_the_written_model(found: Diagnosis, tmp_path: Path) -> None:
@@ -375,7 +376,7 @@ def test_an_end_while_writing_leaves_the_older_set(
     assert not (short.parent / "other").exists()
 
 
-@pytest.mark.parametrize("missing", ["jinja2", "matplotlib"])
+@pytest.mark.parametrize("missing", ["jinja2", "plotly"])
 def test_a_missing_library_is_told_before_the_work(
     short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], missing: str
 ) -> None:

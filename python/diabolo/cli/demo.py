@@ -17,14 +17,13 @@ from .._core import Model, Recording, load_recording
 from ..diagnosis import diagnose
 from ..report import check as check_report
 from ..report import quantity, report_html, words
-from ..view import predict_anew, view_html
+from ..view import replay_html, replay_of
 from . import files
 from .arguments import add_command, output_name, progress_steps
 from .diagnose import MODEL_FILE, REPORT_FILE, RESULT_FILE, input_file
 
 REPLAY_FILE = "replay.html"
 BASE = "consistent"
-PREDICTED_ANEW = 1.0  # between the starts of the replay's predictions [s]
 AT_WORK = {
     "string_friction": "coefficient",
     "string_wrap": "turns",
@@ -97,9 +96,10 @@ def run(arguments: argparse.Namespace) -> None:
         seconds=time.monotonic() - begin, inputs=hashes, model=MODEL_FILE
     ).to_dict()
     concealed = concealed_in(paths[0])  # only now: nothing that was diagnosed has seen it
+    replays = [replay_of(take, Model.named(BASE), diagnosis.model) for take in takes]
     texts = [
-        report_html(answer),
-        replay_html(takes[0], diagnosis.model),
+        report_html(answer, replays=replays),
+        replay_html(replays[0]),
         files.json_text(answer),
         diagnosis.model.to_json(),
     ]
@@ -116,16 +116,6 @@ def concealed_in(recording: Path) -> dict[str, dict[str, float]]:
     """What is at work in a recording of the plant, by its key: effects with their parameters."""
     key = json.loads(recording.with_suffix(".key.json").read_text(encoding="utf-8"))
     return {name: key["effects"][name] for name, leading in AT_WORK.items() if key["effects"][name][leading]}
-
-
-def replay_html(take: Recording, diagnosed: Model) -> str:
-    models = {"simulator as given": Model.named(BASE), "with what was found": diagnosed}
-    return view_html(
-        take,
-        title=f"{take.name}: before and after the diagnosis",
-        predictions={name: predict_anew(take, model, PREDICTED_ANEW) for name, model in models.items()},
-        note=f"predicted anew each {PREDICTED_ANEW:g} s from the recorded play",
-    )
 
 
 # ---- what is said ----

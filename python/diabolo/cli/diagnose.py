@@ -17,6 +17,7 @@ from ..diagnosis import diagnose as run_diagnosis
 from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..report import check as check_report
 from ..report import report_html
+from ..view import Replay, replay_of
 from . import files
 from .arguments import (
     add_calibration,
@@ -145,7 +146,11 @@ def run(arguments: argparse.Namespace) -> None:
         seconds=time.monotonic() - begin, inputs=hashes, model=None if folder is None else MODEL_FILE
     ).to_dict()
     told = result if comparison is None else comparison.to_dict()
-    texts = {} if folder is None else _texts(folder, diagnosis.model, result, comparison)
+    if folder is None:
+        texts = {}
+    else:
+        replays = [replay_of(take, base, diagnosis.model) for take in [*takes, *held]]
+        texts = _texts(folder, diagnosis.model, result, comparison, replays)
     if arguments.json not in (None, files.STDOUT):
         texts[Path(arguments.json)] = files.json_text(told)
     with nullcontext() if folder is None else files.made_folder(folder):
@@ -235,12 +240,16 @@ def input_file(path: str | Path) -> InputFile:
 
 
 def _texts(
-    folder: Path, model: Model, result: dict[str, Any], comparison: Comparison | None
+    folder: Path,
+    model: Model,
+    result: dict[str, Any],
+    comparison: Comparison | None,
+    replays: list[Replay],
 ) -> dict[Path, str]:
     told = None if comparison is None else comparison.to_dict()
     texts = {
         folder / MODEL_FILE: model.to_json(),
-        folder / REPORT_FILE: report_html(result, told),
+        folder / REPORT_FILE: report_html(result, told, replays),
         folder / RESULT_FILE: files.json_text(result),
     }
     if comparison is not None:
