@@ -7,7 +7,7 @@ import itertools
 from collections import Counter
 from typing import Any
 
-from . import intervals
+from . import intervals, told
 from .judge import SURE, Verdict
 from .names import MEASUREMENT, PHYSICS
 
@@ -117,6 +117,13 @@ def faults_of(verdict: Verdict) -> list[str]:
             said.append(f"missed fault {name} ({'z not known' if z is None else f'z {z:.0f}'})")
     if verdict.bad and verdict.headline != "INSUFFICIENT_DATA":
         said.append(f"bad data not refused ({verdict.bad})")
+    if verdict.met and verdict.met.snr >= SURE:
+        got = verdict.met.verdict
+        if got != told.TOLD or not verdict.met.is_placed:
+            place = " at another place" if got == told.TOLD else ""
+            said.append(f"{got}{place} (SNR {verdict.met.snr:.0f})")
+    if verdict.arm in ("null", "faults") and verdict.says_unnamed:
+        said.append("something unnamed")
     if verdict.headline == "ERROR":
         said.append("an error instead of an answer")
     return said

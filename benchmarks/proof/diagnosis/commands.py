@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,19 +18,23 @@ from . import (
     batch,
     draw,
     earlier,
+    judge,
     making,
+    own_laws,
     page,
     record,
     run,
+    score,
     seal,
     simulators,
     strangers,
     tables,
+    told,
     tools,
 )
 from .names import physics_among
 
-ARMS_WITH_ORACLE = ("single", "several", "with_fault", "tie", "outside")
+ARMS_WITH_ORACLE = (*score.WITH_PHYSICS, "tie", "outside")
 DIAGNOSE = "diagnose"
 
 
@@ -123,34 +128,50 @@ def run_batch(places: Places, name: str, tool: str, minutes: float, jobs: int) -
 
 
 def at_work(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
-    """The physics of each case that has some."""
-    return {key["case"]: physics_among(key["names"]) for key in keys if key["arm"] in ARMS_WITH_ORACLE}
+    """The physics of each case that has some, and all that is at work beside a stranger."""
+    physics = {key["case"]: physics_among(key["names"]) for key in keys if key["arm"] in ARMS_WITH_ORACLE}
+    return physics | {case: judge.beside(key) for case, key in with_strangers(keys).items()}
 
 
 def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
-    """The other name of each tie."""
-    return {
-        key["case"]: [name for name in key["tie"] if name not in key["names"]] for key in keys if key["tie"]
-    }
+    """The other name of each tie, and all names of a case with a stranger."""
+    others = {key["case"]: [n for n in key["tie"] if n not in key["names"]] for key in keys if key["tie"]}
+    return others | {case: key["names"] for case, key in with_strangers(keys).items()}
+
+
+def with_strangers(keys: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    return {key["case"]: key for key in keys if key["arm"] == "strangers"}
 
 
 def oracles(
     places: Places,
-    wanted: dict[str, list[str]],
+    keys: list[dict[str, Any]],
     answers: dict[str, answer.Answer],
     store: batch.Store,
-    path: Path,
-) -> dict[str, answer.Answer]:
-    """Answers of who is told the names, for as much of them as the tool knows."""
-    told: dict[str, list[str]] = {}
-    for case, names in wanted.items():
-        ladder = {rung["name"] for rung in answers.get(case, {}).get("ladder", [])}
-        if known := [name for name in names if name in ladder]:
-            told[case] = known
-    run.resume(
-        list(told), path, lambda case: tools.restricted(store.recording(case), told[case]), places.report
-    )
-    return {case: found for case, found in run.answers(path).items() if case in told}
+    path_of: Callable[[str], Path],
+) -> dict[str, dict[str, answer.Answer]]:
+    """Answers of who is told what is at work, strangers included, and of who is told what to exchange."""
+
+    def asked(who: str, wanted: dict[str, list[str]], strange: dict[str, dict[str, Any]]) -> Any:
+        names: dict[str, list[str]] = {}
+        for case in wanted.keys() & answers.keys():
+            ladder = {rung["name"] for rung in answers[case]["ladder"]}
+            known = [name for name in wanted[case] if name in ladder]
+            if known or case in strange:
+                names[case] = known
+
+        def ask(case: str) -> dict[str, Any]:
+            recording = store.recording(case)
+            laws = strangers.laws_in(strange[case], recording) if case in strange else []
+            return tools.restricted(recording, [*names[case], *(law["name"] for law in laws)], laws)
+
+        run.resume(sorted(names), path_of(who), ask, places.report)
+        return {case: found for case, found in run.answers(path_of(who)).items() if case in names}
+
+    return {
+        record.ORACLE: asked(record.ORACLE, at_work(keys), with_strangers(keys)),
+        record.EXCHANGED: asked(record.EXCHANGED, exchanged(keys), {}),
+    }
 
 
 def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, jobs: int) -> record.Record:
@@ -165,12 +186,9 @@ def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, job
     batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report)
     keys = seal.open_keys(sealed, store)
     own = found[DIAGNOSE]
-    told = {
-        who: oracles(places, wanted, own, store, places.answers(name, who))
-        for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
-    }
+    asked = oracles(places, keys, own, store, lambda who: places.answers(name, who))
     whole = {who: by_case for who, by_case in found.items() if cases <= by_case.keys()}
-    opened = record.Record(sealed, keys, whole | told)
+    opened = record.Record(sealed, keys, whole | asked)
     opened.write(places.record(name))
     places.published(name).unlink(missing_ok=True)  # the record has the seal
     return opened
@@ -238,11 +256,8 @@ def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file
     found = run.answers(results)
     keys = [store.key(case) for case in names]
     own = found if tool == DIAGNOSE else run.answers(answers_of(DIAGNOSE))
-    told = {
-        who: oracles(places, wanted, own, store, answers_of(who))
-        for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
-    }
-    result = record.summary(keys, {tool: found, **told}, tool)
+    asked = oracles(places, keys, own, store, answers_of)
+    result = record.summary(keys, {tool: found, **asked}, tool)
     return _finish({"batch": None, "tool": tool, "seed": seed, **result}, json_file)
 
 
@@ -258,11 +273,28 @@ def meet_strangers(places: Places, cases: int, seed: int, jobs: int, json_file: 
     rows = []
     for done, plan in enumerate(planned):
         places.report(f"{plan.name}: {done} of {cases} done", done / cases)
-        rows.append({"kind": plan.arm, **strangers.row(tools.full(store.recording(plan.name)))})
+        law = strangers.KINDS[plan.arm]
+        beside = () if law.is_form else law.names
+        rows.append({"kind": plan.arm, **told.row(tools.full(store.recording(plan.name)), beside)})
     if json_file is not None:
         files.write_json(json_file, {"seed": seed, "cases": rows})
-    print(strangers.text_of(rows))
-    return 1 if any(row["verdict"] == strangers.SILENT for row in rows) else 0
+    print(told.text_of(rows))
+    return 1 if any(row["verdict"] == told.SILENT for row in rows) else 0
+
+
+def give_own_laws(places: Places, cases: int, seed: int, json_file: Path | None) -> int:
+    """A user's own laws at work, and not at work; the exit status is 1 where one is missed or claimed too
+    often."""
+    plant.check(places.program)
+    store = places.store(f"own_laws_{seed}")
+    store.fit_for(batch.stamp(places.program, seed, 0))
+    rows = []
+    for ask in (own_laws.rows_at_work, own_laws.rows_elsewhere):
+        rows += ask(places.program, store, seed, cases, places.report)
+    if json_file is not None:
+        files.write_json(json_file, {"seed": seed, "cases": rows})
+    print(own_laws.text_of(rows))
+    return 1 if any(one.fails for one in own_laws.scores(rows)) else 0
 
 
 def compare_simulators(places: Places, cases: int, seed: int, json_file: Path | None) -> int:

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
 from . import answer as answers
+from . import strangers, told
 from .answer import Answer
 from .material import is_material
 from .names import ANY_MODE, LOOSE, ON_STRING, PHYSICS, faults_among, physics_among
@@ -31,6 +33,16 @@ class Interval:
     @property
     def covers(self) -> bool:
         return self.low <= self.truth <= self.high
+
+
+@dataclass(frozen=True)
+class Met:
+    """What a law that no name stands for got."""
+
+    verdict: str
+    snr: float
+    is_placed: bool
+    """Whether a word has its mode, and its direction or time."""
 
 
 @dataclass
@@ -63,6 +75,10 @@ class Verdict:
     """Whether the other name of a tie explains the data as well."""
     closure: float | None = None
     """Share of the gap between base and oracle that the answer closes."""
+    says_unnamed: bool = False
+    """Whether something without a name is reported."""
+    met: Met | None = None
+    """What a stranger got, where one was at work."""
 
     @property
     def owed(self) -> list[str]:
@@ -131,11 +147,33 @@ def _intervals(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> li
     return found
 
 
-def _closure(answer: Answer, oracle: Answer | None) -> float | None:
+def beside(key: dict[str, Any]) -> list[str]:
+    """What is at work beside a stranger, or where there is none."""
+    law = strangers.KINDS.get(key["outside"]) if key["arm"] == "strangers" else None
+    return [name for name in key["names"] if not (law and law.is_form and name in law.names)]
+
+
+def _met(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answer | None) -> Met | None:
+    """Nothing where it is not known how much the stranger stands out."""
+    if key["arm"] != "strangers" or oracle is None:
+        return None
+    law = strangers.KINDS[key["outside"]]
+    prefix = key["outside"] + "_"
+    z = {rung["name"]: abs(rung["z"] or 0.0) for rung in oracle["ladder"] if rung["name"].startswith(prefix)}
+    most = max(z.values(), default=0.0)
+    acts = [name.removeprefix(prefix) for name, one in z.items() if one >= 0.5 * most]
+    of_form = (answers.significance(other, law.names[0]) or 0.0) if other and law.is_form else 0.0
+    snr = math.sqrt(max(0.0, sum(one**2 for one in z.values()) - of_form**2))
+    scenario = key["scenario"]
+    frequency = scenario.get("air", {}).get("gust_frequency")
+    is_placed = told.is_placed(told.words(answer), law, acts, frequency, scenario["duration"])
+    return Met(told.verdict(answer, beside(key)), snr, is_placed)
+
+
+def _closure(answer: Answer, oracle: Answer | None, base: float | None) -> float | None:
     """Counts where the base's error is at least half again the oracle's."""
     if oracle is None:
         return None
-    base = answers.error_after(answer, "base", HORIZON)
     augmented = answers.error_after(answer, "augmented", HORIZON)
     best = answers.error_after(oracle, "augmented", HORIZON)
     if base is None or augmented is None or best is None or base < 1.5 * best or base <= best:
@@ -156,8 +194,13 @@ def _tie_is_real(key: dict[str, Any], oracle: Answer | None, other: Answer | Non
 def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answer | None = None) -> Verdict:
     """Compares an answer with the truth.
 
-    `oracle` is the answer of who was told the physics at work, `other` of who was told a tie's other name.
+    `oracle` is the answer of who was told all that is at work, `other` of who was told a tie's other name, or
+    all but the stranger.
     """
+    is_stranger = key["arm"] == "strangers"
+    base = answers.error_after(other, "augmented", HORIZON) if is_stranger and other else None
+    if base is None:
+        base = answers.error_after(answer, "base", HORIZON)
     physics = physics_among(key["names"])
     claimed = answers.claims(answer, "physics")
     faults = answers.claims(answer, "measurement")
@@ -183,5 +226,7 @@ def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Ans
         fault_z={name: value for name, value in z.items() if value is not None},
         intervals=_intervals(key, answer, oracle),
         tie_is_real=_tie_is_real(key, oracle, other),
-        closure=_closure(answer, oracle),
+        closure=_closure(answer, oracle, base),
+        says_unnamed=answer["headline"] == "UNNAMED_STRUCTURE" or bool(answer.get("learnt")),
+        met=_met(key, answer, oracle, other),
     )

@@ -30,13 +30,15 @@ def kept_of_key(key: Key) -> Key:
     """A key without most of its scenario: the seed draws it again."""
     scenario = key["scenario"]
     kept = {"duration": scenario["duration"], "start": {"spin": scenario["start"]["spin"]}}
+    if "gust_frequency" in scenario.get("air", {}):
+        kept["air"] = {"gust_frequency": scenario["air"]["gust_frequency"]}
     return {**{name: key[name] for name in _KEPT_OF_KEY}, "scenario": kept}
 
 
 def summary(keys: list[Key], answers: dict[str, dict[str, Answer]], tool: str) -> dict[str, Any]:
     """The scores of a tool."""
-    told = (answers.get(who, {}) for who in (ORACLE, EXCHANGED))
-    return score.summary(score.judged(keys, answers[tool], *told))
+    oracles = (answers.get(who, {}) for who in (ORACLE, EXCHANGED))
+    return score.summary(score.judged(keys, answers[tool], *oracles))
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,8 @@ class Record:
         """
         seed = self.sealed["seed"]
         by_case = {key["case"]: key for key in self.keys}
-        plans = {plan.name: plan for plan in draw.plans(seed, self.sealed["cases"])}
+        drawn = draw.plans(seed, self.sealed["cases"], counts=self.sealed["arms"])
+        plans = {plan.name: plan for plan in drawn}
 
         def is_sealed(case: str, hash_of_key: str) -> bool:
             key = by_case[case]
