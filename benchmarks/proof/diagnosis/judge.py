@@ -76,7 +76,7 @@ class Verdict:
     closure: float | None = None
     """Share of the gap between base and oracle that the answer closes."""
     says_unnamed: bool = False
-    """Whether something without a name is reported."""
+    """Whether something without a name is reported; answers before the tenth batch were not asked."""
     met: Met | None = None
     """What a stranger got, where one was at work."""
 
@@ -227,6 +227,7 @@ def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Ans
         intervals=_intervals(key, answer, oracle),
         tie_is_real=_tie_is_real(key, oracle, other),
         closure=_closure(answer, oracle, base),
-        says_unnamed=answer["headline"] == "UNNAMED_STRUCTURE" or bool(answer.get("learnt")),
+        says_unnamed="learnt" in answer
+        and (answer["headline"] == "UNNAMED_STRUCTURE" or bool(answer["learnt"])),
         met=_met(key, answer, oracle, other),
     )

@@ -35,6 +35,11 @@ def kept_of_key(key: Key) -> Key:
     return {**{name: key[name] for name in _KEPT_OF_KEY}, "scenario": kept}
 
 
+def _without_sizes(answer: Answer) -> Answer:
+    """Sizes of effects count in the oracle's answer alone."""
+    return {**answer, "ladder": [{"name": rung["name"], "z": rung["z"]} for rung in answer["ladder"]]}
+
+
 def summary(keys: list[Key], answers: dict[str, dict[str, Answer]], tool: str) -> dict[str, Any]:
     """The scores of a tool."""
     oracles = (answers.get(who, {}) for who in (ORACLE, EXCHANGED))
@@ -76,6 +81,7 @@ class Record:
         lines = [self.sealed]
         for key in self.keys:
             found = {who: by[key["case"]] for who, by in self.answers.items() if key["case"] in by}
+            found = {who: one if who == ORACLE else _without_sizes(one) for who, one in found.items()}
             lines.append({"key": kept_of_key(key), "answers": found})
         files.write_packed(path, lines)
 
