@@ -68,11 +68,12 @@ def _add_quick(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_strangers(parser: argparse.ArgumentParser) -> None:
-    parser.description = "Exit status 1 where an answer is silent about a law that is at work."
+    parser.description = "Exit status 1 where a score is off its bound: one silence is."
     kinds = len(strangers.KINDS)
     parser.add_argument("--cases", metavar="N", type=int, default=kinds, help=f"default: {kinds}, one a kind")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
     _add_making(parser)
+    _add_tool(parser)
     _add_json(parser)
 
 
@@ -137,6 +138,7 @@ def act(given: argparse.Namespace) -> int:
     for option, least, most in (("cases", 1, 9999), ("jobs", 1, 256), ("seed", 0, LARGEST_SEED)):
         if hasattr(given, option):
             whole_number(f"--{option}", getattr(given, option), least, most)
+    commands.tool_named(getattr(given, "tool", commands.DIAGNOSE))
     if not getattr(given, "minutes", math.inf) > 0.0:
         raise ValueError(f"--minutes: {given.minutes}; expected more than 0")
     sources = Path(__file__).parent
@@ -150,7 +152,7 @@ def act(given: argparse.Namespace) -> int:
 
 ACTIONS: dict[str, Callable[[commands.Places, argparse.Namespace], int]] = {
     "quick": lambda at, g: commands.quick(at, g.cases, g.seed, g.tool, g.jobs, g.json),
-    "strangers": lambda at, g: commands.meet_strangers(at, g.cases, g.seed, g.jobs, g.json),
+    "strangers": lambda at, g: commands.meet_strangers(at, g.cases, g.seed, g.tool, g.jobs, g.json),
     "own-laws": lambda at, g: commands.give_own_laws(at, g.cases, g.seed, g.json),
     "simulators": lambda at, g: commands.compare_simulators(at, g.cases, g.seed, g.json),
     "seal": lambda at, g: commands.seal_batch(at, g.name, g.cases, g.jobs),

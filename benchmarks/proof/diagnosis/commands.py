@@ -29,7 +29,6 @@ from . import (
     simulators,
     strangers,
     tables,
-    told,
     tools,
 )
 from .names import physics_among
@@ -140,7 +139,7 @@ def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
 
 
 def with_strangers(keys: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    return {key["case"]: key for key in keys if key["arm"] == "strangers"}
+    return {key["case"]: key for key in keys if strangers.in_case(key)}
 
 
 def oracles(
@@ -197,7 +196,6 @@ def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, job
 def score_batch(places: Places, name: str, tool: str, jobs: int, json_file: Path | None) -> int:
     """Opens a batch that was run here; scores one that is recorded already from its record."""
     check_name(name)
-    tool_named(tool)
     if places.published(name).exists():
         found = open_batch(places, name, seal.read(places.published(name)), tool, jobs)
     else:
@@ -237,13 +235,31 @@ def retire_batch(places: Places, name: str) -> int:
 
 def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file: Path | None) -> int:
     """Cases that are not sealed: made, diagnosed and scored at once."""
-    chosen = tool_named(tool)
     plant.check(places.program)
     store = places.store(f"quick_{seed}_{cases}")
     planned = batch.make(
         store, places.program, seed, cases, making.knows_chain(places.program), jobs, places.report
     )
-    stamp = tools.digest()[:12]
+    return _ask_and_score(places, store, planned, seed, tool, json_file)
+
+
+def meet_strangers(
+    places: Places, cases: int, seed: int, tool: str, jobs: int, json_file: Path | None
+) -> int:
+    """Laws that no name stands for, each alone, one kind after the other."""
+    plant.check(places.program)
+    store = places.store(f"strangers_{seed}_{cases}")
+    store.fit_for(batch.stamp(places.program, seed, cases))
+    kinds = [*strangers.KINDS]
+    planned = [draw.Plan(seed, n + 1, kinds[n % len(kinds)], "springs") for n in range(cases)]
+    batch.make_planned(store, places.program, planned, jobs, places.report)
+    return _ask_and_score(places, store, planned, seed, tool, json_file)
+
+
+def _ask_and_score(
+    places: Places, store: batch.Store, planned: list[draw.Plan], seed: int, tool: str, json_file: Path | None
+) -> int:
+    chosen, stamp = tool_named(tool), tools.digest()[:12]
 
     def answers_of(who: str) -> Path:
         path = store.folder / f"{who}_{stamp}.jsonl"
@@ -259,27 +275,6 @@ def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file
     asked = oracles(places, keys, own, store, answers_of)
     result = record.summary(keys, {tool: found, **asked}, tool)
     return _finish({"batch": None, "tool": tool, "seed": seed, **result}, json_file)
-
-
-def meet_strangers(places: Places, cases: int, seed: int, jobs: int, json_file: Path | None) -> int:
-    """Laws that no name stands for, one kind after the other; the exit status is 1 where one is met with
-    silence."""
-    plant.check(places.program)
-    store = places.store(f"strangers_{seed}_{cases}")
-    store.fit_for(batch.stamp(places.program, seed, cases))
-    kinds = [*strangers.KINDS]
-    planned = [draw.Plan(seed, n + 1, kinds[n % len(kinds)], "springs") for n in range(cases)]
-    batch.make_planned(store, places.program, planned, jobs, places.report)
-    rows = []
-    for done, plan in enumerate(planned):
-        places.report(f"{plan.name}: {done} of {cases} done", done / cases)
-        law = strangers.KINDS[plan.arm]
-        beside = () if law.is_form else law.names
-        rows.append({"kind": plan.arm, **told.row(tools.full(store.recording(plan.name)), beside)})
-    if json_file is not None:
-        files.write_json(json_file, {"seed": seed, "cases": rows})
-    print(told.text_of(rows))
-    return 1 if any(row["verdict"] == told.SILENT for row in rows) else 0
 
 
 def give_own_laws(places: Places, cases: int, seed: int, json_file: Path | None) -> int:

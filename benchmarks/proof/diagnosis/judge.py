@@ -81,6 +81,10 @@ class Verdict:
     """What a stranger got, where one was at work."""
 
     @property
+    def is_clear_stranger(self) -> bool:
+        return self.met is not None and self.met.snr >= SURE
+
+    @property
     def owed(self) -> list[str]:
         """Physics that has to be found, what stands out most first."""
         clear = [name for name, snr in self.snr.items() if snr >= SURE and self.material.get(name)]
@@ -149,15 +153,15 @@ def _intervals(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> li
 
 def beside(key: dict[str, Any]) -> list[str]:
     """What is at work beside a stranger, or where there is none."""
-    law = strangers.KINDS.get(key["outside"]) if key["arm"] == "strangers" else None
+    law = strangers.in_case(key)
     return [name for name in key["names"] if not (law and law.is_form and name in law.names)]
 
 
 def _met(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answer | None) -> Met | None:
     """Nothing where it is not known how much the stranger stands out."""
-    if key["arm"] != "strangers" or oracle is None:
+    law = strangers.in_case(key)
+    if law is None or oracle is None:
         return None
-    law = strangers.KINDS[key["outside"]]
     prefix = key["outside"] + "_"
     z = {rung["name"]: abs(rung["z"] or 0.0) for rung in oracle["ladder"] if rung["name"].startswith(prefix)}
     most = max(z.values(), default=0.0)
@@ -197,8 +201,8 @@ def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Ans
     `oracle` is the answer of who was told all that is at work, `other` of who was told a tie's other name, or
     all but the stranger.
     """
-    is_stranger = key["arm"] == "strangers"
-    base = answers.error_after(other, "augmented", HORIZON) if is_stranger and other else None
+    told_rest = other if strangers.in_case(key) else None
+    base = answers.error_after(told_rest, "augmented", HORIZON) if told_rest else None
     if base is None:
         base = answers.error_after(answer, "base", HORIZON)
     physics = physics_among(key["names"])

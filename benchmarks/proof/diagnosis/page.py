@@ -168,6 +168,8 @@ def text_of(
     if others:
         parts.append("## Simpler tools on the same recordings\n\n" + _compared(result, others))
     parts.append("## By name\n\n" + _names(result["by_name"]))
+    if kinds := tables.kind_rows(result):
+        parts.append("## Strangers by kind\n\n" + markdown(kinds[0], kinds[1:]))
     parts.append(
         "## One effect at work, and the first that was claimed\n\n" + _confusion(result["confusion"])
     )

@@ -15,7 +15,6 @@ from .names import PHYSICS
 
 SCHEMA = "diabolo.proof/1"
 WITH_PHYSICS = ("single", "several", "with_fault")
-OUTSIDE = ("strangers", "outside")
 
 
 @dataclass(frozen=True)
@@ -110,7 +109,11 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
         rate("ties declared, SNR >= 10", (v.declares_tie for v in ties), least=0.90),
         mean("mean size of a class", classes, most=1.5),
         rate("classes of more than three", (size > 3.0 for size in classes), most=0.0),
-        rate("laws outside the bank misnamed", map(_misnamed, _of(verdicts, *OUTSIDE)), most=0.05),
+        rate(
+            "laws outside the bank misnamed",
+            (bool(v.false_physics) for v in verdicts if v.outside),
+            most=0.05,
+        ),
         rate("two effects both named, SNR >= 10", (_both(v) for v in pairs), least=0.80),
         rate("more physics than is there", (bool(v.false_physics) for v in _of(verdicts, *WITH_PHYSICS))),
         rate("false faults on nulls", (bool(v.false_faults) for v in _of(verdicts, "null"))),
@@ -120,13 +123,13 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
         rate("90 % intervals that cover, faults", (i.covers for i in measured if i.name not in PHYSICS)),
         rate("bad data refused", (v.headline == "INSUFFICIENT_DATA" for v in _of(verdicts, "bad"))),
         rate("answers that are errors", (v.headline == "ERROR" for v in verdicts)),
-        *(_of_strangers(verdicts) if _of(verdicts, "strangers") else []),
+        *(_of_strangers(verdicts) if any(v.outside and v.arm != "outside" for v in verdicts) else []),
     ]
 
 
 def _of_strangers(verdicts: list[Verdict]) -> list[Score]:
     """What laws get that no name stands for, where they stand out; one silence is one too many for few."""
-    clear = [(v, v.met) for v in verdicts if v.met and v.met.snr >= SURE]
+    clear = [(v, v.met) for v in verdicts if v.met and v.is_clear_stranger]
     closures = [v.closure for v, _ in clear if v.closure is not None]
     silent = (met.verdict == told.SILENT for _, met in clear)
     is_told = [met.verdict == told.TOLD for _, met in clear]
@@ -143,10 +146,6 @@ def _of_strangers(verdicts: list[Verdict]) -> list[Score]:
 
 def _in_answer(verdict: Verdict) -> bool:
     return verdict.is_in_answer(verdict.owed[0])
-
-
-def _misnamed(verdict: Verdict) -> bool:
-    return bool(verdict.false_physics)
 
 
 def _both(verdict: Verdict) -> bool:

@@ -256,6 +256,11 @@ def laws_of(parts: dict[str, Part]) -> list[dict[str, Any]]:
     ]
 
 
+def in_case(key: dict[str, Any]) -> Stranger | None:
+    """What is at work in a case; nothing in the arm `outside` of earlier batches, which were not asked."""
+    return None if key["arm"] == "outside" else KINDS.get(key["outside"])
+
+
 def laws_in(key: dict[str, Any], recording: Path) -> list[dict[str, Any]]:
     """Of the stranger of a case."""
     return laws_of(parts_of(key["outside"], key["scenario"], load_recording(recording)))

@@ -20,6 +20,8 @@ TAKEN_FOR = "taken for another"
 REFUSED = "refused"
 """Nothing can be concluded."""
 
+VERDICTS = (TOLD, TAKEN_FOR, REFUSED, SILENT)
+
 # Direction and modes of what may change in time, or act without a name.
 _QUANTITIES = {
     **{f"acceleration_{axis}": (axis, ANY_MODE) for axis in ("forward", "left", "up")},
@@ -102,26 +104,3 @@ def is_placed(
         return is_timely or drags or _IN_WORLD.get(word.direction, word.direction) in directions
 
     return any(map(is_right, said))
-
-
-def row(answer: dict[str, Any], beside: Collection[str] = ()) -> dict[str, Any]:
-    """What is told of a case (schema diabolo.diagnosis/1)."""
-    return {
-        "verdict": verdict(answer, beside),
-        "headline": answer["headline"],
-        "names": [effect["name"] for effect in answer["effects"]],
-        "explained": answer.get("adequacy", {}).get("explained"),
-        "sentence": answer["sentence"],
-    }
-
-
-def text_of(rows: list[dict[str, Any]]) -> str:
-    """A line for each case, then how many got what."""
-    lines = [f"{'law at work':14} {'what it got':18} share explained  answer"]
-    for one in rows:
-        share = "-" if one["explained"] is None else f"{100.0 * one['explained']:.0f} %"
-        lines.append(f"{one['kind']:14} {one['verdict']:18} {share:>15}  {one['sentence']}")
-    counts = [
-        (what, sum(one["verdict"] == what for one in rows)) for what in (TOLD, TAKEN_FOR, REFUSED, SILENT)
-    ]
-    return "\n".join([*lines, "", ", ".join(f"{what}: {count} of {len(rows)}" for what, count in counts)])
