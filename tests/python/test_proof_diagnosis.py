@@ -127,7 +127,7 @@ def scored(keys: list[dict[str, Any]], answer: Any) -> dict[str, score.Score]:
     answers = {key["case"]: kept(answer(key)) for key in keys}
     oracles = {key["case"]: kept(right(key)) for key in keys if physics_among(key["names"]) or key["outside"]}
     others = {key["case"]: kept(result([])) for key in keys if key["tie"]}
-    others |= {key["case"]: kept(result([], z=5.0)) for key in keys if key["outside"] and key["names"]}
+    others |= {key["case"]: kept(result([], z=5.0)) for key in keys if key["outside"]}
     return {found.name: found for found in score.scores(score.judged(keys, answers, oracles, others))}
 
 

@@ -112,15 +112,21 @@ def _tie(content: Content, generator: np.random.Generator) -> None:
         content.add([content.tie[0 if linear else 1]], {"air": {"linear_drag" if linear else "drag": size}})
 
 
-def _meet(content: Content, kind: str, generator: np.random.Generator) -> None:
+def _meet(content: Content, kind: str, departure: sizes.Departure) -> None:
     """A law that no name stands for, and what belongs to it."""
     content.outside = kind
-    content.add(list(strangers.KINDS[kind].names), strangers.KINDS[kind].draw(generator))
+    content.add(list(strangers.KINDS[kind].names), departure)
+
+
+def _outside(content: Content, generator: np.random.Generator) -> None:
+    kind = str(generator.choice([*strangers.BEFORE_THE_TENTH]))
+    _meet(content, kind, strangers.BEFORE_THE_TENTH[kind](generator))
 
 
 def _strangers(content: Content, generator: np.random.Generator) -> None:
     """One of all kinds: half of them alone, the others beside an effect or a fault."""
-    _meet(content, str(generator.choice([*strangers.KINDS])), generator)
+    kind = str(generator.choice([*strangers.KINDS]))
+    _meet(content, kind, strangers.KINDS[kind].draw(generator))
     beside = generator.uniform()
     if beside < 0.25:
         _add_physics_beside(content, generator)
@@ -162,9 +168,7 @@ _MAKERS: dict[str, Callable[[Content, np.random.Generator], None]] = {
     "with_fault": _with_fault,
     "tie": _tie,
     "strangers": _strangers,
-    "outside": lambda content, generator: _meet(
-        content, str(generator.choice(strangers.BEFORE_THE_TENTH)), generator
-    ),
+    "outside": _outside,
     "bad": _bad,
 }
 
@@ -173,7 +177,7 @@ def content_of(arm: str, generator: np.random.Generator) -> Content:
     """What is at work in a case of an arm, or of a kind of strangers."""
     content = Content()
     if arm in strangers.KINDS:
-        _meet(content, arm, generator)
+        _meet(content, arm, strangers.KINDS[arm].draw(generator))
     else:
         _MAKERS[arm](content, generator)
     return content

@@ -31,7 +31,7 @@ from . import (
     tables,
     tools,
 )
-from .names import physics_among
+from .names import NEVER_AT_WORK, physics_among
 
 ARMS_WITH_ORACLE = (*score.WITH_PHYSICS, "tie", "outside")
 DIAGNOSE = "diagnose"
@@ -133,9 +133,9 @@ def at_work(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
 
 
 def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
-    """The other name of each tie, and all names of a case with a stranger."""
+    """The other name of each tie, and all names of a case with a stranger, or one that never is at work."""
     others = {key["case"]: [n for n in key["tie"] if n not in key["names"]] for key in keys if key["tie"]}
-    return others | {case: key["names"] for case, key in with_strangers(keys).items()}
+    return others | {case: key["names"] or [NEVER_AT_WORK[0]] for case, key in with_strangers(keys).items()}
 
 
 def with_strangers(keys: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:

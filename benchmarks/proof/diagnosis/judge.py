@@ -13,7 +13,9 @@ from .answer import Answer
 from .material import is_material
 from .names import ANY_MODE, LOOSE, ON_STRING, PHYSICS, faults_among, physics_among
 
+Key = dict[str, Any]
 HORIZON = 1.0  # after which the gap is compared [s]
+LEAST_GAP, LEAST_STRANGERS_GAP = 1.5, 1.2  # of the base's error over the oracle's, to be compared
 SURE = 10.0  # standard deviations from which an effect has to be found
 
 
@@ -132,7 +134,7 @@ def _parameters(effect: dict[str, Any]) -> dict[str, Any]:
     return {parameter["name"]: parameter for parameter in effect["parameters"]}
 
 
-def _intervals(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> list[Interval]:
+def _intervals(key: Key, answer: Answer, oracle: Answer | None) -> list[Interval]:
     found: list[Interval] = []
     best = {} if oracle is None else {effect["name"]: _parameters(effect) for effect in oracle["effects"]}
     for effect in answer["effects"]:
@@ -151,13 +153,13 @@ def _intervals(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> li
     return found
 
 
-def beside(key: dict[str, Any]) -> list[str]:
+def beside(key: Key) -> list[str]:
     """What is at work beside a stranger, or where there is none."""
     law = strangers.in_case(key)
     return [name for name in key["names"] if not (law and law.is_form and name in law.names)]
 
 
-def _met(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answer | None) -> Met | None:
+def _met(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None) -> Met | None:
     """Nothing where it is not known how much the stranger stands out."""
     law = strangers.in_case(key)
     if law is None or oracle is None:
@@ -174,18 +176,22 @@ def _met(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answ
     return Met(told.verdict(answer, beside(key)), snr, is_placed)
 
 
-def _closure(answer: Answer, oracle: Answer | None, base: float | None) -> float | None:
-    """Counts where the base's error is at least half again the oracle's."""
-    if oracle is None:
+def _closure(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None) -> float | None:
+    """Counts where there is a gap; that of a stranger begins where all else is known."""
+    is_met = strangers.in_case(key) is not None
+    begin, which = (other, "augmented") if is_met else (answer, "base")
+    if oracle is None or begin is None:
         return None
+    base = answers.error_after(begin, which, HORIZON)
     augmented = answers.error_after(answer, "augmented", HORIZON)
     best = answers.error_after(oracle, "augmented", HORIZON)
-    if base is None or augmented is None or best is None or base < 1.5 * best or base <= best:
+    least = LEAST_STRANGERS_GAP if is_met else LEAST_GAP
+    if base is None or augmented is None or best is None or base < least * best or base <= best:
         return None
     return (base - augmented) / (base - best)
 
 
-def _tie_is_real(key: dict[str, Any], oracle: Answer | None, other: Answer | None) -> bool:
+def _tie_is_real(key: Key, oracle: Answer | None, other: Answer | None) -> bool:
     """Whether exchanging the names costs less than three standard deviations' worth."""
     if oracle is None or other is None or len(key["tie"]) != 2:
         return False
@@ -195,16 +201,12 @@ def _tie_is_real(key: dict[str, Any], oracle: Answer | None, other: Answer | Non
     return true is not None and exchanged is not None and true**2 - exchanged**2 < 9.0
 
 
-def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answer | None = None) -> Verdict:
+def judge(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None = None) -> Verdict:
     """Compares an answer with the truth.
 
     `oracle` is the answer of who was told all that is at work, `other` of who was told a tie's other name, or
     all but the stranger.
     """
-    told_rest = other if strangers.in_case(key) else None
-    base = answers.error_after(told_rest, "augmented", HORIZON) if told_rest else None
-    if base is None:
-        base = answers.error_after(answer, "base", HORIZON)
     physics = physics_among(key["names"])
     claimed = answers.claims(answer, "physics")
     faults = answers.claims(answer, "measurement")
@@ -230,7 +232,7 @@ def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Ans
         fault_z={name: value for name, value in z.items() if value is not None},
         intervals=_intervals(key, answer, oracle),
         tie_is_real=_tie_is_real(key, oracle, other),
-        closure=_closure(answer, oracle, base),
+        closure=_closure(key, answer, oracle, other),
         says_unnamed="learnt" in answer
         and (answer["headline"] == "UNNAMED_STRUCTURE" or bool(answer["learnt"])),
         met=_met(key, answer, oracle, other),

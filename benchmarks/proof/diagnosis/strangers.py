@@ -79,14 +79,16 @@ def _drag_power(generator: np.random.Generator) -> sizes.Departure:
     return {"air": {"drag": size, "drag_power": generator.uniform(2.8, 3.9)}}
 
 
-def _stribeck(generator: np.random.Generator) -> sizes.Departure:
-    rise = {"friction_rise": generator.uniform(0.15, 0.4), "stribeck_speed": generator.uniform(0.2, 0.6)}
+def _stribeck(generator: np.random.Generator, slow: float = 0.8, fast: float = 3.0) -> sizes.Departure:
+    """A spinning axle slips by a metre a second or two."""
+    rise = {"friction_rise": generator.uniform(0.15, 0.4), "stribeck_speed": generator.uniform(slow, fast)}
     return {"string": {"friction": log_uniform(generator, 0.02, 0.08), **rise}}
 
 
-def _stiffening(generator: np.random.Generator) -> sizes.Departure:
+def _stiffening(generator: np.random.Generator, least: float = 0.002, most: float = 0.008) -> sizes.Departure:
+    """The weight stretches such a string by some 5 mm."""
     stretch = sizes.elasticity(generator, 200.0, 500.0)
-    return sizes.merged(stretch, {"string": {"stiffening_stretch": log_uniform(generator, 0.008, 0.04)}})
+    return sizes.merged(stretch, {"string": {"stiffening_stretch": log_uniform(generator, least, most)}})
 
 
 def _bearing(generator: np.random.Generator) -> sizes.Departure:
@@ -99,8 +101,9 @@ def _lay(generator: np.random.Generator) -> sizes.Departure:
     return {"string": {"friction": log_uniform(generator, 0.05, 0.15), "lay": twist}}
 
 
-def _flank(generator: np.random.Generator) -> sizes.Departure:
-    groove = {"groove_radius": 0.005, "groove_half_width": generator.uniform(0.0015, 0.004)}
+def _flank(generator: np.random.Generator, narrow: float = 0.0002, wide: float = 0.0008) -> sizes.Departure:
+    """The axle leans by a few degrees."""
+    groove = {"groove_radius": 0.005, "groove_half_width": generator.uniform(narrow, wide)}
     rub = {"flank_friction": generator.uniform(0.2, 0.6), "flank_radius": generator.uniform(0.009, 0.015)}
     return {"diabolo": {**groove, **rub}}
 
@@ -220,7 +223,7 @@ KINDS: dict[str, Stranger] = {
     "bearing": Stranger(
         _bearing,
         "slip, torque",
-        lambda s, _: [Part("along", f"taut * pull * max(0, sign(spin) * {SLIPPING})", 0.2)],
+        lambda s, _: [Part("along", f"taut * {SLIPPING}", 0.3)],
         ("string_friction",),
         modes=(ON_STRING,),
     ),
@@ -233,8 +236,14 @@ KINDS: dict[str, Stranger] = {
         modes=(ON_STRING,),
     ),
 }
-BEFORE_THE_TENTH = ("stribeck", "stiffening", "bearing", "flank", "lay")
-"""What was drawn in the batches up to the ninth."""
+BEFORE_THE_TENTH: dict[str, Callable[[np.random.Generator], sizes.Departure]] = {
+    "stribeck": lambda g: _stribeck(g, 0.2, 0.6),
+    "stiffening": lambda g: _stiffening(g, 0.008, 0.04),
+    "bearing": _bearing,
+    "flank": lambda g: _flank(g, 0.0015, 0.004),
+    "lay": _lay,
+}
+"""What was drawn in the batches up to the ninth: most of it too small to stand out."""
 
 
 def parts_of(kind: str, scenario: Scenario, recording: Recording) -> dict[str, Part]:
