@@ -122,12 +122,22 @@ def right(key: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
+def oracle_of(key: dict[str, Any]) -> dict[str, Any]:
+    """The answer of who was told the names, and the laws without a name."""
+    found = right(key)
+    if key["arm"] == "strangers":
+        names = [rung["name"] for rung in found["ladder"] if rung["name"].startswith(key["outside"] + "_")]
+        worse = {"worse_without_ci95_m": [[0.08 / len(names), 0.1 / len(names)]]}
+        found["effects"] += [effect(name) | worse for name in names]
+    return found
+
+
 def scored(keys: list[dict[str, Any]], answer: Any) -> dict[str, score.Score]:
     """Scores by name; the oracle has the key."""
     answers = {key["case"]: kept(answer(key)) for key in keys}
-    oracles = {key["case"]: kept(right(key)) for key in keys if physics_among(key["names"]) or key["outside"]}
+    asked = [key for key in keys if physics_among(key["names"]) or key["outside"]]
+    oracles = {key["case"]: kept(oracle_of(key)) for key in asked}
     others = {key["case"]: kept(result([])) for key in keys if key["tie"]}
-    others |= {key["case"]: kept(result([], z=5.0)) for key in keys if key["outside"]}
     return {found.name: found for found in score.scores(score.judged(keys, answers, oracles, others))}
 
 
@@ -173,8 +183,7 @@ def test_names_of_what_is_beside_a_stranger_are_silent_about_it(keys: list[dict[
     met = [key for key in keys if key["outside"]]
     forms = [key for key in met if strangers.KINDS[key["outside"]].is_form]
     for key in met:
-        answers = kept(named(key)), kept(right(key)), kept(result([], z=5.0))
-        got = judge.judge(key, *answers).met
+        got = judge.judge(key, kept(named(key)), kept(right(key))).met
         assert got and got.verdict == (told.TAKEN_FOR if key in forms else told.SILENT)
     assert sum(len(key["names"]) > 0 for key in met) > len(forms) > 0
 

@@ -7,7 +7,7 @@ from typing import Any
 
 Answer = dict[str, Any]
 
-_KEPT_OF_EFFECT = ("name", "kind", "tied_with", "confidence")
+_KEPT_OF_EFFECT = ("name", "kind", "tied_with", "confidence", "worse_without_ci95_m")
 _KEPT_OF_PARAMETER = ("name", "value", "ci90")
 _KEPT_OF_RUNG = ("name", "z", "size_m")
 _KEPT_OF_FIT = ("horizons_s", "base_error_m", "augmented_error_m")
@@ -85,3 +85,14 @@ def error_after(answer: Answer, which: str, seconds: float) -> float | None:
         return None
     value = errors[horizons.index(seconds)]
     return None if value is None else float(value)
+
+
+def gap_without(answer: Answer, prefix: str, seconds: float) -> float:
+    """By how much held-out data is predicted worse without what a prefix names, where that is sure [m]."""
+    horizons = answer["fit"]["horizons_s"] or []
+    spans = [
+        effect["worse_without_ci95_m"][horizons.index(seconds)]
+        for effect in answer["effects"]
+        if effect["name"].startswith(prefix) and seconds in horizons and effect.get("worse_without_ci95_m")
+    ]
+    return float(sum(0.5 * (span[0] + span[1]) for span in spans if span and span[0] > 0.0))

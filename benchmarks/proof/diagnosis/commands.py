@@ -18,7 +18,6 @@ from . import (
     batch,
     draw,
     earlier,
-    judge,
     making,
     own_laws,
     page,
@@ -31,7 +30,7 @@ from . import (
     tables,
     tools,
 )
-from .names import NEVER_AT_WORK, physics_among
+from .names import physics_among
 
 ARMS_WITH_ORACLE = (*score.WITH_PHYSICS, "tie", "outside")
 DIAGNOSE = "diagnose"
@@ -127,15 +126,16 @@ def run_batch(places: Places, name: str, tool: str, minutes: float, jobs: int) -
 
 
 def at_work(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
-    """The physics of each case that has some, and all that is at work beside a stranger."""
+    """The physics of each case that has some, and all names of one with a stranger."""
     physics = {key["case"]: physics_among(key["names"]) for key in keys if key["arm"] in ARMS_WITH_ORACLE}
-    return physics | {case: judge.beside(key) for case, key in with_strangers(keys).items()}
+    return physics | {case: key["names"] for case, key in with_strangers(keys).items()}
 
 
 def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
-    """The other name of each tie, and all names of a case with a stranger, or one that never is at work."""
-    others = {key["case"]: [n for n in key["tie"] if n not in key["names"]] for key in keys if key["tie"]}
-    return others | {case: key["names"] or [NEVER_AT_WORK[0]] for case, key in with_strangers(keys).items()}
+    """The other name of each tie."""
+    return {
+        key["case"]: [name for name in key["tie"] if name not in key["names"]] for key in keys if key["tie"]
+    }
 
 
 def with_strangers(keys: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
@@ -149,7 +149,7 @@ def oracles(
     store: batch.Store,
     path_of: Callable[[str], Path],
 ) -> dict[str, dict[str, answer.Answer]]:
-    """Answers of who is told what is at work, strangers included, and of who is told what to exchange."""
+    """Answers of who is told what is at work, strangers included, and of who is told a tie's other name."""
 
     def asked(who: str, wanted: dict[str, list[str]], strange: dict[str, dict[str, Any]]) -> Any:
         names: dict[str, list[str]] = {}

@@ -15,7 +15,6 @@ from .names import ANY_MODE, LOOSE, ON_STRING, PHYSICS, faults_among, physics_am
 
 Key = dict[str, Any]
 HORIZON = 1.0  # after which the gap is compared [s]
-LEAST_GAP, LEAST_STRANGERS_GAP = 1.5, 1.2  # of the base's error over the oracle's, to be compared
 SURE = 10.0  # standard deviations from which an effect has to be found
 
 
@@ -153,13 +152,7 @@ def _intervals(key: Key, answer: Answer, oracle: Answer | None) -> list[Interval
     return found
 
 
-def beside(key: Key) -> list[str]:
-    """What is at work beside a stranger, or where there is none."""
-    law = strangers.in_case(key)
-    return [name for name in key["names"] if not (law and law.is_form and name in law.names)]
-
-
-def _met(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None) -> Met | None:
+def _met(key: Key, answer: Answer, oracle: Answer | None) -> Met | None:
     """Nothing where it is not known how much the stranger stands out."""
     law = strangers.in_case(key)
     if law is None or oracle is None:
@@ -168,27 +161,31 @@ def _met(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None) 
     z = {rung["name"]: abs(rung["z"] or 0.0) for rung in oracle["ladder"] if rung["name"].startswith(prefix)}
     most = max(z.values(), default=0.0)
     acts = [name.removeprefix(prefix) for name, one in z.items() if one >= 0.5 * most]
-    of_form = (answers.significance(other, law.names[0]) or 0.0) if other and law.is_form else 0.0
-    snr = math.sqrt(max(0.0, sum(one**2 for one in z.values()) - of_form**2))
+    snr = math.hypot(*z.values())
     scenario = key["scenario"]
     frequency = scenario.get("air", {}).get("gust_frequency")
     is_placed = told.is_placed(told.words(answer), law, acts, frequency, scenario["duration"])
-    return Met(told.verdict(answer, beside(key)), snr, is_placed)
+    forms = law.names if law.is_form else ()
+    beside = [name for name in key["names"] if name not in forms]
+    return Met(told.verdict(answer, beside), snr, is_placed)
 
 
-def _closure(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None) -> float | None:
-    """Counts where there is a gap; that of a stranger begins where all else is known."""
-    is_met = strangers.in_case(key) is not None
-    begin, which = (other, "augmented") if is_met else (answer, "base")
-    if oracle is None or begin is None:
+def _closure(key: Key, answer: Answer, oracle: Answer | None) -> float | None:
+    """Counts where the base's error is at least half again the oracle's.
+
+    The gap of a stranger is what the oracle lacks without it, and counts where it is sure.
+    """
+    if oracle is None:
         return None
-    base = answers.error_after(begin, which, HORIZON)
     augmented = answers.error_after(answer, "augmented", HORIZON)
     best = answers.error_after(oracle, "augmented", HORIZON)
-    least = LEAST_STRANGERS_GAP if is_met else LEAST_GAP
-    if base is None or augmented is None or best is None or base < least * best or base <= best:
+    if augmented is None or best is None:
         return None
-    return (base - augmented) / (base - best)
+    if strangers.in_case(key):
+        gap = answers.gap_without(oracle, key["outside"] + "_", HORIZON)
+        return 1.0 - (augmented - best) / gap if gap > 0.0 else None
+    base = answers.error_after(answer, "base", HORIZON)
+    return None if base is None or base < 1.5 * best or base <= best else (base - augmented) / (base - best)
 
 
 def _tie_is_real(key: Key, oracle: Answer | None, other: Answer | None) -> bool:
@@ -204,8 +201,7 @@ def _tie_is_real(key: Key, oracle: Answer | None, other: Answer | None) -> bool:
 def judge(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None = None) -> Verdict:
     """Compares an answer with the truth.
 
-    `oracle` is the answer of who was told all that is at work, `other` of who was told a tie's other name, or
-    all but the stranger.
+    `oracle` is the answer of who was told what is at work, `other` of who was told a tie's other name.
     """
     physics = physics_among(key["names"])
     claimed = answers.claims(answer, "physics")
@@ -232,8 +228,8 @@ def judge(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None 
         fault_z={name: value for name, value in z.items() if value is not None},
         intervals=_intervals(key, answer, oracle),
         tie_is_real=_tie_is_real(key, oracle, other),
-        closure=_closure(key, answer, oracle, other),
+        closure=_closure(key, answer, oracle),
         says_unnamed="learnt" in answer
         and (answer["headline"] == "UNNAMED_STRUCTURE" or bool(answer["learnt"])),
-        met=_met(key, answer, oracle, other),
+        met=_met(key, answer, oracle),
     )

@@ -41,7 +41,7 @@ class Stranger:
     names: tuple[str, ...] = ()
     """At work with it."""
     is_form: bool = False
-    """Whether it is another form of what `names` has."""
+    """Whether it is another form of what `names` has; `parts` are then what it does beyond that."""
     modes: tuple[str, ...] = (ON_STRING, FLYING)
     """Where it acts."""
 
@@ -131,7 +131,7 @@ def _pulls(scenario: Scenario, recording: Recording) -> list[Part]:
 def _windage(scenario: Scenario, recording: Recording) -> list[Part]:
     truth = scenario["air"]["windage"] / scenario["diabolo"]["axial_inertia"]
     power = scenario["air"]["windage_power"]
-    return [Part("spin", f"1e4 * (abs(spin) / 100)^{power} * tanh(-spin)", 1e-3, truth)]
+    return [Part("spin", f"(1e4 * (abs(spin) / 100)^{power} - spin^2) * tanh(-spin)", 1e-3, truth)]
 
 
 def _wake(scenario: Scenario, recording: Recording) -> list[Part]:
@@ -194,7 +194,9 @@ KINDS: dict[str, Stranger] = {
     "drag_power": Stranger(
         _drag_power,
         "speed",
-        lambda s, _: [Part("against", f"4 * (speed / 2)^{s['air']['drag_power']}", 0.2, s["air"]["drag"])],
+        lambda s, _: [
+            Part("against", f"(4 * (speed / 2)^{s['air']['drag_power']} - speed^2)", 0.2, s["air"]["drag"])
+        ],
         ("air_drag_quadratic",),
         True,
     ),
