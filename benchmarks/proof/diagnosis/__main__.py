@@ -59,7 +59,10 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def _add_quick(parser: argparse.ArgumentParser) -> None:
-    parser.description = "Exit status 1 where a score is off its bound by more than its interval allows."
+    parser.description = (
+        "Exit status 1 where a score is off its bound by more than its interval allows, "
+        "or more than 3 % of the strangers that stand out are met with silence."
+    )
     parser.add_argument("--cases", metavar="N", type=int, default=QUICK_CASES, help=f"default: {QUICK_CASES}")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
     _add_making(parser)
@@ -68,7 +71,7 @@ def _add_quick(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_strangers(parser: argparse.ArgumentParser) -> None:
-    parser.description = "Exit status 1 where a score is off its bound: one silence is."
+    parser.description = "Exit status as of quick."
     kinds = len(strangers.KINDS)
     parser.add_argument("--cases", metavar="N", type=int, default=kinds, help=f"default: {kinds}, one a kind")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
