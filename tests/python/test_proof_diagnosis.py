@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from diabolo import FormulaLaws, load_recording
 
 from benchmarks.proof import files
 from benchmarks.proof.diagnosis import (
@@ -21,8 +22,10 @@ from benchmarks.proof.diagnosis import (
     commands,
     draw,
     earlier,
+    gp,
     intervals,
     judge,
+    own_laws,
     page,
     record,
     run,
@@ -30,6 +33,7 @@ from benchmarks.proof.diagnosis import (
     seal,
     strangers,
     tables,
+    told,
     tools,
 )
 from benchmarks.proof.diagnosis.answer import kept
@@ -43,9 +47,12 @@ from benchmarks.proof.diagnosis.names import (
 
 ROOT = Path(__file__).resolve().parents[2]
 BATCHES = ROOT / "benchmarks" / "proof" / "diagnosis" / "batches"
+PLACE = {"quantity": "position", "mode": "ON_STRING", "direction": "left"}
 # Of the file that was published when the batch was sealed, as SHA-256.
 DIGEST_OF_NINTH = "e5826092c34483a1b97484d43ffa24b1ed76905f0475c6a970d3f8538febd26a"
 
+SILENT = "strangers met with silence, SNR >= 10"
+SWING = load_recording(ROOT / "data" / "recordings" / "swing.csv")
 SIZES = {
     "string_friction": {"coefficient": 0.2},
     "air_drag_quadratic": {"coefficient": 0.05},
@@ -73,9 +80,11 @@ def effect(
     }
 
 
-def result(effects: list[dict[str, Any]], headline: str = "NAMED", z: float = 30.0) -> dict[str, Any]:
-    """An answer that knows of all names."""
-    names = [*PHYSICS, *MEASUREMENT]
+def result(
+    effects: list[dict[str, Any]], headline: str = "NAMED", z: float = 30.0, own: tuple[str, ...] = ()
+) -> dict[str, Any]:
+    """An answer that knows of all names, and of some laws of one's own."""
+    names = [*PHYSICS, *MEASUREMENT, *own]
     return {
         "headline": headline if effects else "NOTHING_MISSING",
         "effects": effects,
@@ -103,13 +112,31 @@ def right(key: dict[str, Any]) -> dict[str, Any]:
     effects = [effect(name, truth=key["parameters"].get(name)) for name in key["names"]]
     if key["tie"]:
         effects = [effect(key["names"][0], tied_with=[n for n in key["tie"] if n != key["names"][0]])]
-    return result(effects)
+    if key["arm"] != "strangers":
+        return result(effects)
+    parts = strangers.parts_of(key["outside"], key["scenario"], SWING)
+    learnt = [{"acts": part.acts, "formula": "size", "numbers": []} for part in parts.values()]
+    found = result(effects, own=(*parts,)) | {"learnt": learnt}
+    found["headline"] = "NAMED" if effects else "UNNAMED_STRUCTURE"
+    found["fit"]["augmented_error_m"] = [0.01]
+    return found
+
+
+def oracle_of(key: dict[str, Any]) -> dict[str, Any]:
+    """The answer of who was told the names, and the laws without a name."""
+    found = right(key)
+    if key["arm"] == "strangers":
+        names = [rung["name"] for rung in found["ladder"] if rung["name"].startswith(key["outside"] + "_")]
+        worse = {"worse_without_ci95_m": [[0.08 / len(names), 0.1 / len(names)]]}
+        found["effects"] += [effect(name) | worse for name in names]
+    return found
 
 
 def scored(keys: list[dict[str, Any]], answer: Any) -> dict[str, score.Score]:
     """Scores by name; the oracle has the key."""
     answers = {key["case"]: kept(answer(key)) for key in keys}
-    oracles = {key["case"]: kept(right(key)) for key in keys if physics_among(key["names"])}
+    asked = [key for key in keys if physics_among(key["names"]) or key["outside"]]
+    oracles = {key["case"]: kept(oracle_of(key)) for key in asked}
     others = {key["case"]: kept(result([])) for key in keys if key["tie"]}
     return {found.name: found for found in score.scores(score.judged(keys, answers, oracles, others))}
 
@@ -139,6 +166,32 @@ def test_always_abstaining_fails(keys: list[dict[str, Any]]) -> None:
         "gap closed after 1 s",
     } <= found
     assert {"ties declared, SNR >= 10", "two effects both named, SNR >= 10"} <= found
+    assert {SILENT, "strangers told, SNR >= 10", "gap of strangers closed after 1 s"} <= found
+
+
+def test_always_something_unnamed_fails(keys: list[dict[str, Any]]) -> None:
+    found = failing(scored(keys, lambda key: result([]) | {"headline": "UNNAMED_STRUCTURE"}))
+    assert {"something unnamed on nulls and faults", "strangers told at the right place, SNR >= 10"} <= found
+    assert not {SILENT, "strangers told, SNR >= 10"} & found
+
+
+def test_names_of_what_is_beside_a_stranger_are_silent_about_it(keys: list[dict[str, Any]]) -> None:
+    def named(key: dict[str, Any]) -> dict[str, Any]:
+        effects = [effect(name, truth=key["parameters"].get(name)) for name in key["names"]]
+        return result(effects) | {"adequacy": {"adequate": True}}
+
+    met = [key for key in keys if key["outside"]]
+    forms = [key for key in met if strangers.KINDS[key["outside"]].is_form]
+    for key in met:
+        got = judge.judge(key, kept(named(key)), kept(right(key))).met
+        assert got and got.verdict == (told.TAKEN_FOR if key in forms else told.SILENT)
+    assert sum(len(key["names"]) > 0 for key in met) > len(forms) > 0
+
+
+def test_one_silence_fails_where_strangers_are_few(keys: list[dict[str, Any]]) -> None:
+    few = [key for key in keys if key["arm"] == "strangers"][:3]
+    assert not {SILENT} & failing(scored(few, right))
+    assert {SILENT} <= failing(scored(few, lambda key: result([]) if key is few[0] else right(key)))
 
 
 def test_a_class_of_everything_fails(keys: list[dict[str, Any]]) -> None:
@@ -278,6 +331,8 @@ def test_arms_have_their_shares(keys: list[dict[str, Any]]) -> None:
     for cases in (1, 7, 8, 24, 100):
         assert sum(arms.allot(cases).values()) == cases
     assert min(arms.allot(8).values()) == 1
+    assert arms.SHARES["strangers"] >= 120 and arms.allot(16)["strangers"] >= 2
+    assert {key["outside"] for key in keys if key["arm"] == "strangers"} == {*strangers.KINDS}
     assert sum(key["structure"] == "chain" for key in keys) >= 150
     assert {name for key in keys for name in key["names"]} == {*PHYSICS, *MEASUREMENT} - {*NEVER_AT_WORK}
 
@@ -307,35 +362,81 @@ def test_only_what_is_at_work_is_in_the_key(keys: list[dict[str, Any]]) -> None:
         physics, faults = physics_among(key["names"]), faults_among(key["names"])
         assert len(physics) + len(faults) == len(key["names"])
         assert bool(physics) == (key["arm"] in ("single", "several", "with_fault", "tie")) or key["outside"]
-        assert bool(faults) == (key["arm"] in ("faults", "with_fault"))
+        assert bool(faults) == (key["arm"] in ("faults", "with_fault")) or key["outside"]
 
 
 def test_a_stranger_is_alone_at_work_and_says_where_it_acts() -> None:
-    words = {"time", "place", "speed", "spin", "tension", "string", "tips"}
+    words = {"time", "place", "speed", "spin", "tension", "slip", "string", "torque", "tips"}
     for kind, law in strangers.KINDS.items():
         content = arms.content_of(kind, np.random.default_rng(1))
         assert content.outside == kind and content.names == [*law.names] and not content.steps
         assert sum(len(fields) for fields in content.departure.values()) > 0
         assert {"ON_STRING"} <= {*law.modes} <= {"ON_STRING", "FLYING"}
         assert {*law.depends.split(", ")} <= words
+        scenario = draw.draw(draw.Plan(1, 1, kind, "springs")).scenario
+        FormulaLaws(strangers.laws_of(strangers.parts_of(kind, scenario, SWING)))  # as a user's own
+    assert {word for law in strangers.KINDS.values() for word in law.depends.split(", ")} == words
 
 
 @pytest.mark.parametrize(
     ("headline", "adequacy", "expected"),
     [
-        ("NOTHING_MISSING", {"adequate": True}, strangers.SILENT),
-        ("NAMED", {"adequate": True}, strangers.TAKEN_FOR),
-        ("NAMED", {}, strangers.SILENT),
-        ("NAMED", {"adequate": False, "places": [{"left": 0.003}]}, strangers.TOLD),
-        ("UNNAMED_STRUCTURE", {"adequate": False}, strangers.TOLD),
-        ("INSUFFICIENT_DATA", {}, strangers.REFUSED),
+        ("NOTHING_MISSING", {"adequate": True}, told.SILENT),
+        ("NAMED", {"adequate": True}, told.TAKEN_FOR),
+        ("NAMED", {}, told.SILENT),
+        ("NAMED", {"adequate": False, "places": [PLACE]}, told.TOLD),
+        ("UNNAMED_STRUCTURE", {"adequate": False}, told.TOLD),
+        ("INSUFFICIENT_DATA", {}, told.REFUSED),
     ],
 )
 def test_silence_is_told_from_a_word(headline: str, adequacy: dict[str, Any], expected: str) -> None:
-    answer = {"headline": headline, "adequacy": adequacy, "effects": [], "sentence": ""}
-    row = {"kind": "gust", **strangers.row(answer)}
-    assert row["verdict"] == expected
-    assert f"{expected}: 1 of 1" in strangers.text_of([row])
+    effects = [effect("wind")] if headline == "NAMED" else []
+    answer = {"headline": headline, "adequacy": adequacy, "effects": effects}
+    assert told.verdict(answer) == expected
+
+
+def changing(quantity: str, trend: float | None = None, frequency: float | None = None) -> dict[str, Any]:
+    change = {"quantity": quantity, "trend_per_s": trend, "frequency_hz": frequency}
+    return {"adequacy": {"changes": [change]}}
+
+
+@pytest.mark.parametrize(
+    ("kind", "acts", "frequency", "answer", "expected"),
+    [
+        ("gust", ["left"], 0.5, changing("acceleration_left"), True),
+        ("gust", ["left"], 0.5, changing("string_tangent", frequency=0.52), True),
+        ("gust", ["left"], 0.5, changing("acceleration_up", frequency=0.52), True),
+        ("gust", ["left"], 0.5, changing("acceleration_up", frequency=0.7), False),
+        ("gust", ["left"], 0.5, changing("spin_on_string", frequency=0.5), False),
+        ("creep", ["string"], None, changing("acceleration_forward", trend=0.1), True),
+        ("creep", ["string"], None, changing("flight_vertical"), False),
+        ("constant_drag", ["against"], None, {"adequacy": {"places": [PLACE]}}, True),
+        ("constant_drag", ["against"], None, {"adequacy": {"places": [PLACE | {"direction": ""}]}}, False),
+    ],
+)
+def test_a_word_is_at_its_place(
+    kind: str, acts: list[str], frequency: float | None, answer: dict[str, Any], expected: bool
+) -> None:
+    assert told.is_placed(told.words(answer), strangers.KINDS[kind], acts, frequency, 15.0) is expected
+
+
+def test_an_own_law_missed_or_claimed_where_it_is_not_fails() -> None:
+    size = {"name": "creep_string", "ci90": [1.0, 2.0], "truth": 1.5}
+    there = {"case": "a", "kind": "creep", "at_work": "creep_string", "sizes": [size], "sentence": ""}
+    elsewhere = {"case": "b", "kind": "creep", "at_work": None, "sizes": [], "sentence": ""}
+    for named, claimed, failures in ((True, [], 0), (False, [], 1), (True, ["creep_string"], 1)):
+        rows = [{**there, "named": named, "claimed": []}, {**elsewhere, "claimed": claimed}]
+        found = own_laws.scores(rows)
+        assert sum(one.fails for one in found) == failures
+        assert ("missed: " in own_laws.text_of(rows)) is not named and found[-1].value == 1.0
+
+
+def test_a_gaussian_process_predicts_a_law_and_no_noise() -> None:
+    generator = np.random.default_rng(3)
+    inputs, times = generator.normal(size=(900, 2)), np.arange(900) / 50.0
+    noise = 0.1 * generator.normal(size=900)
+    assert gp.explained(inputs, np.sin(2.0 * inputs[:, 0]) + noise, times) > 0.9
+    assert gp.explained(inputs, noise, times) < gp.LEAST_SHARE
 
 
 def recording(rows: int = 400, rate: float = 100.0) -> camera_steps.Tidy:
@@ -488,7 +589,8 @@ def test_scoring_opens_a_batch_once_and_records_it(
     monkeypatch.setattr(commands.plant, "check", lambda program: None)
     monkeypatch.setattr(commands.batch, "make", lambda *arguments, **options: [])  # all is there
     keys = {entry["case"]: store.key(entry["case"]) for entry in description["sealed"]}
-    monkeypatch.setattr(commands.tools, "restricted", lambda path, names: right(keys[path.stem]))
+    monkeypatch.setattr(commands.tools, "restricted", lambda path, names, laws: right(keys[path.stem]))
+    monkeypatch.setattr(commands.strangers, "laws_in", lambda key, recording: [])
     with pytest.raises(ValueError, match="batch made: 12 cases have no answer of diagnose; run made first"):
         commands.score_batch(places, "made", "diagnose", 1, None)
     run.resume([*keys], places.answers("made", "diagnose"), lambda case: right(keys[case]))

@@ -22,10 +22,11 @@ from .. import plant
 from . import commands, strangers, tools
 
 BUILD = Path("build/proof/diagnosis")
-QUICK_CASES, SEALED_CASES, PAIRS = 24, 600, 30
+QUICK_CASES, SEALED_CASES, PAIRS, OWN_CASES = 24, 600, 30, 40
 EXAMPLE = """\
   make plant && python -m benchmarks.proof.diagnosis quick --cases 24
-  python -m benchmarks.proof.diagnosis strangers --cases 9
+  python -m benchmarks.proof.diagnosis strangers --cases 14
+  python -m benchmarks.proof.diagnosis own-laws --cases 40
   python -m benchmarks.proof.diagnosis simulators --cases 30
   python -m benchmarks.proof.diagnosis seal tenth --cases 600      # then commit batches/tenth.json
   python -m benchmarks.proof.diagnosis run tenth --minutes 60      # goes on where it was stopped
@@ -39,6 +40,9 @@ def make_parser() -> argparse.ArgumentParser:
     _add_quick(actions.add_parser("quick", help="a few cases, not sealed: make, diagnose and score them"))
     _add_strangers(
         actions.add_parser("strangers", help="laws that no name stands for: is the answer silent about one?")
+    )
+    _add_own_laws(
+        actions.add_parser("own-laws", help="formulas of a user's own: named where they are at work alone?")
     )
     _add_simulators(
         actions.add_parser("simulators", help="plants with half of their physics: is what they lack named?")
@@ -55,7 +59,10 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def _add_quick(parser: argparse.ArgumentParser) -> None:
-    parser.description = "Exit status 1 where a score is off its bound by more than its interval allows."
+    parser.description = (
+        "Exit status 1 where a score is off its bound by more than its interval allows, "
+        "or more than 3 % of the strangers that stand out are met with silence."
+    )
     parser.add_argument("--cases", metavar="N", type=int, default=QUICK_CASES, help=f"default: {QUICK_CASES}")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
     _add_making(parser)
@@ -64,11 +71,22 @@ def _add_quick(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_strangers(parser: argparse.ArgumentParser) -> None:
-    parser.description = "Exit status 1 where an answer is silent about a law that is at work."
+    parser.description = "Exit status as of quick."
     kinds = len(strangers.KINDS)
     parser.add_argument("--cases", metavar="N", type=int, default=kinds, help=f"default: {kinds}, one a kind")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
     _add_making(parser)
+    _add_tool(parser)
+    _add_json(parser)
+
+
+def _add_own_laws(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Exit status 1 where less than 95 % are named, or one is claimed that is not there."
+    parser.add_argument(
+        "--cases", metavar="N", type=int, default=OWN_CASES, help=f"with and without; default: {OWN_CASES}"
+    )
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the cases; default: 1")
+    plant.add_option(parser)
     _add_json(parser)
 
 
@@ -123,6 +141,7 @@ def act(given: argparse.Namespace) -> int:
     for option, least, most in (("cases", 1, 9999), ("jobs", 1, 256), ("seed", 0, LARGEST_SEED)):
         if hasattr(given, option):
             whole_number(f"--{option}", getattr(given, option), least, most)
+    commands.tool_named(getattr(given, "tool", commands.DIAGNOSE))
     if not getattr(given, "minutes", math.inf) > 0.0:
         raise ValueError(f"--minutes: {given.minutes}; expected more than 0")
     sources = Path(__file__).parent
@@ -136,7 +155,8 @@ def act(given: argparse.Namespace) -> int:
 
 ACTIONS: dict[str, Callable[[commands.Places, argparse.Namespace], int]] = {
     "quick": lambda at, g: commands.quick(at, g.cases, g.seed, g.tool, g.jobs, g.json),
-    "strangers": lambda at, g: commands.meet_strangers(at, g.cases, g.seed, g.jobs, g.json),
+    "strangers": lambda at, g: commands.meet_strangers(at, g.cases, g.seed, g.tool, g.jobs, g.json),
+    "own-laws": lambda at, g: commands.give_own_laws(at, g.cases, g.seed, g.json),
     "simulators": lambda at, g: commands.compare_simulators(at, g.cases, g.seed, g.json),
     "seal": lambda at, g: commands.seal_batch(at, g.name, g.cases, g.jobs),
     "run": lambda at, g: commands.run_batch(at, g.name, g.tool, g.minutes, g.jobs),

@@ -7,10 +7,13 @@ from typing import Any
 
 Answer = dict[str, Any]
 
-_KEPT_OF_EFFECT = ("name", "kind", "tied_with", "confidence")
+_KEPT_OF_EFFECT = ("name", "kind", "tied_with", "confidence", "worse_without_ci95_m")
 _KEPT_OF_PARAMETER = ("name", "value", "ci90")
 _KEPT_OF_RUNG = ("name", "z", "size_m")
 _KEPT_OF_FIT = ("horizons_s", "base_error_m", "augmented_error_m")
+_KEPT_OF_PLACE = ("quantity", "mode", "direction")
+_KEPT_OF_CHANGE = ("quantity", "trend_per_s", "frequency_hz")
+_KEPT_OF_LEARNT = ("acts", "formula", "numbers")
 
 
 def rounded(value: Any) -> Any:
@@ -38,10 +41,18 @@ def kept(result: Answer) -> Answer:
         }
         for effect in result.get("effects", [])
     ]
+    adequacy = result.get("adequacy", {})
+    left = {
+        "adequate": adequacy.get("adequate"),
+        "places": [_part(_KEPT_OF_PLACE, place) for place in adequacy.get("places", [])],
+        "changes": [_part(_KEPT_OF_CHANGE, change) for change in adequacy.get("changes", [])],
+    }
     return {
         "headline": result["headline"],
         "effects": rounded(effects),
         "unnamed": rounded(result.get("unnamed", [])),
+        "learnt": rounded([_part(_KEPT_OF_LEARNT, law) for law in result.get("learnt", [])]),
+        "adequacy": rounded(left),
         "ladder": rounded([_part(_KEPT_OF_RUNG, rung) for rung in result.get("ladder", [])]),
         "fit": rounded(_part(_KEPT_OF_FIT, result.get("fit", {}))),
     }
@@ -74,3 +85,14 @@ def error_after(answer: Answer, which: str, seconds: float) -> float | None:
         return None
     value = errors[horizons.index(seconds)]
     return None if value is None else float(value)
+
+
+def gap_without(answer: Answer, prefix: str, seconds: float) -> float:
+    """By how much held-out data is predicted worse without what a prefix names, where that is sure [m]."""
+    horizons = answer["fit"]["horizons_s"] or []
+    spans = [
+        effect["worse_without_ci95_m"][horizons.index(seconds)]
+        for effect in answer["effects"]
+        if effect["name"].startswith(prefix) and seconds in horizons and effect.get("worse_without_ci95_m")
+    ]
+    return float(sum(0.5 * (span[0] + span[1]) for span in spans if span and span[0] > 0.0))

@@ -15,11 +15,11 @@ from . import sizes, strangers
 SHARES: dict[str, int] = {
     "null": 150,
     "faults": 150,
-    "single": 130,
-    "several": 60,
-    "with_fault": 50,
+    "single": 75,
+    "several": 40,
+    "with_fault": 30,
     "tie": 20,
-    "outside": 25,
+    "strangers": 120,
     "bad": 15,
 }
 CHAIN_SHARE = 0.3  # of the cases, whatever their arm, come from the second plant
@@ -112,31 +112,42 @@ def _tie(content: Content, generator: np.random.Generator) -> None:
         content.add([content.tie[0 if linear else 1]], {"air": {"linear_drag" if linear else "drag": size}})
 
 
+def _meet(content: Content, kind: str, departure: sizes.Departure) -> None:
+    """A law that no name stands for, and what belongs to it."""
+    content.outside = kind
+    content.add(list(strangers.KINDS[kind].names), departure)
+
+
 def _outside(content: Content, generator: np.random.Generator) -> None:
-    content.outside = str(generator.choice(["stribeck", "stiffening", "bearing", "flank", "lay"]))
-    if content.outside == "stribeck":
-        rise = {"friction_rise": generator.uniform(0.15, 0.4), "stribeck_speed": generator.uniform(0.2, 0.6)}
-        content.add(
-            ["string_friction"], {"string": {"friction": sizes.log_uniform(generator, 0.02, 0.08), **rise}}
+    kind = str(generator.choice([*strangers.BEFORE_THE_TENTH]))
+    _meet(content, kind, strangers.BEFORE_THE_TENTH[kind](generator))
+
+
+def _strangers(content: Content, generator: np.random.Generator) -> None:
+    """One of all kinds: half of them alone, the others beside an effect or a fault."""
+    kind = str(generator.choice([*strangers.KINDS]))
+    _meet(content, kind, strangers.KINDS[kind].draw(generator))
+    beside = generator.uniform()
+    if beside < 0.25:
+        _add_physics_beside(content, generator)
+    elif beside < 0.5:
+        _add_faults(content, generator, 1)
+
+
+def _add_physics_beside(content: Content, generator: np.random.Generator) -> None:
+    """An effect by which none of the stranger's numbers changes."""
+
+    def is_taken(departure: sizes.Departure) -> bool:
+        return any(
+            fields.keys() & content.departure.get(part, {}).keys() for part, fields in departure.items()
         )
-    elif content.outside == "stiffening":
-        departure = sizes.elasticity(generator, 200.0, 500.0)
-        departure["string"]["stiffening_stretch"] = sizes.log_uniform(generator, 0.008, 0.04)
-        content.add(["string_elasticity"], departure)
-    elif content.outside == "bearing":
-        torque = sizes.log_uniform(generator, 1e-4, 1e-3)
-        friction = generator.uniform(0.12, 0.35)
-        content.add(
-            ["string_friction"], {"string": {"friction": friction}, "diabolo": {"bearing_torque": torque}}
-        )
-    elif content.outside == "lay":
-        twist = generator.uniform(0.2, 0.6) * generator.choice([-1.0, 1.0])
-        friction = sizes.log_uniform(generator, 0.05, 0.15)
-        content.add(["string_friction"], {"string": {"friction": friction, "lay": twist}})
-    else:
-        groove = {"groove_radius": 0.005, "groove_half_width": generator.uniform(0.0015, 0.004)}
-        rub = {"flank_friction": generator.uniform(0.2, 0.6), "flank_radius": generator.uniform(0.009, 0.015)}
-        content.add([], {"diabolo": {**groove, **rub}})
+
+    names = [n for n in sizes.PHYSICS_NAMES if n not in content.names]
+    while True:
+        (name,) = _choose(generator, names, _WEIGHTS, 1)
+        departure = sizes.physics(name, generator)
+        if not is_taken(departure):
+            return content.add([name, *_WITH_IT.get(name, [])], departure)
 
 
 def _bad(content: Content, generator: np.random.Generator) -> None:
@@ -156,6 +167,7 @@ _MAKERS: dict[str, Callable[[Content, np.random.Generator], None]] = {
     "several": _several,
     "with_fault": _with_fault,
     "tie": _tie,
+    "strangers": _strangers,
     "outside": _outside,
     "bad": _bad,
 }
@@ -164,9 +176,8 @@ _MAKERS: dict[str, Callable[[Content, np.random.Generator], None]] = {
 def content_of(arm: str, generator: np.random.Generator) -> Content:
     """What is at work in a case of an arm, or of a kind of strangers."""
     content = Content()
-    if stranger := strangers.KINDS.get(arm):
-        content.outside = arm
-        content.add(list(stranger.names), stranger.draw(generator))
+    if arm in strangers.KINDS:
+        _meet(content, arm, strangers.KINDS[arm].draw(generator))
     else:
         _MAKERS[arm](content, generator)
     return content

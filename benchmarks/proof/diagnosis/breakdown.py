@@ -7,7 +7,7 @@ import itertools
 from collections import Counter
 from typing import Any
 
-from . import intervals
+from . import intervals, told
 from .judge import SURE, Verdict
 from .names import MEASUREMENT, PHYSICS
 
@@ -92,6 +92,18 @@ def by_name(verdicts: list[Verdict]) -> list[dict[str, Any]]:
     return rows
 
 
+def by_kind(verdicts: list[Verdict]) -> list[dict[str, Any]]:
+    """Each kind of strangers: how many cases, how many of them stand out, and what these got."""
+    rows = []
+    for kind in sorted({v.outside for v in verdicts if v.outside and v.arm != "outside"}):
+        cases = [v for v in verdicts if v.outside == kind]
+        clear = [v.met for v in cases if v.met and v.is_clear_stranger]
+        got = {what: sum(met.verdict == what for met in clear) for what in told.VERDICTS}
+        placed = sum(met.verdict == told.TOLD and met.is_placed for met in clear)
+        rows.append({"kind": kind, "cases": len(cases), "clear": len(clear), **got, "at its place": placed})
+    return rows
+
+
 def faults_of(verdict: Verdict) -> list[str]:
     """What is wrong with an answer, in words; empty where nothing is."""
     said = [f"false physics {name}" for name in verdict.false_physics]
@@ -117,6 +129,13 @@ def faults_of(verdict: Verdict) -> list[str]:
             said.append(f"missed fault {name} ({'z not known' if z is None else f'z {z:.0f}'})")
     if verdict.bad and verdict.headline != "INSUFFICIENT_DATA":
         said.append(f"bad data not refused ({verdict.bad})")
+    if verdict.met and verdict.is_clear_stranger:
+        got = verdict.met.verdict
+        if got != told.TOLD or not verdict.met.is_placed:
+            place = " at another place" if got == told.TOLD else ""
+            said.append(f"{got}{place} (SNR {verdict.met.snr:.0f})")
+    if verdict.arm in ("null", "faults") and verdict.says_unnamed:
+        said.append("something unnamed")
     if verdict.headline == "ERROR":
         said.append("an error instead of an answer")
     return said
@@ -145,6 +164,7 @@ def failures(verdicts: list[Verdict]) -> list[dict[str, Any]]:
 def tables(verdicts: list[Verdict]) -> dict[str, Any]:
     return {
         "by_name": by_name(verdicts),
+        "by_kind": by_kind(verdicts),
         "confusion": confusion(verdicts),
         "power": power(verdicts),
         "reliability": reliability(verdicts),

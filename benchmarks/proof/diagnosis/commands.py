@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,9 +19,11 @@ from . import (
     draw,
     earlier,
     making,
+    own_laws,
     page,
     record,
     run,
+    score,
     seal,
     simulators,
     strangers,
@@ -29,7 +32,7 @@ from . import (
 )
 from .names import physics_among
 
-ARMS_WITH_ORACLE = ("single", "several", "with_fault", "tie", "outside")
+ARMS_WITH_ORACLE = (*score.WITH_PHYSICS, "tie", "outside")
 DIAGNOSE = "diagnose"
 
 
@@ -123,8 +126,9 @@ def run_batch(places: Places, name: str, tool: str, minutes: float, jobs: int) -
 
 
 def at_work(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
-    """The physics of each case that has some."""
-    return {key["case"]: physics_among(key["names"]) for key in keys if key["arm"] in ARMS_WITH_ORACLE}
+    """The physics of each case that has some, and all names of one with a stranger."""
+    physics = {key["case"]: physics_among(key["names"]) for key in keys if key["arm"] in ARMS_WITH_ORACLE}
+    return physics | {case: key["names"] for case, key in with_strangers(keys).items()}
 
 
 def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
@@ -134,23 +138,39 @@ def exchanged(keys: list[dict[str, Any]]) -> dict[str, list[str]]:
     }
 
 
+def with_strangers(keys: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    return {key["case"]: key for key in keys if strangers.in_case(key)}
+
+
 def oracles(
     places: Places,
-    wanted: dict[str, list[str]],
+    keys: list[dict[str, Any]],
     answers: dict[str, answer.Answer],
     store: batch.Store,
-    path: Path,
-) -> dict[str, answer.Answer]:
-    """Answers of who is told the names, for as much of them as the tool knows."""
-    told: dict[str, list[str]] = {}
-    for case, names in wanted.items():
-        ladder = {rung["name"] for rung in answers.get(case, {}).get("ladder", [])}
-        if known := [name for name in names if name in ladder]:
-            told[case] = known
-    run.resume(
-        list(told), path, lambda case: tools.restricted(store.recording(case), told[case]), places.report
-    )
-    return {case: found for case, found in run.answers(path).items() if case in told}
+    path_of: Callable[[str], Path],
+) -> dict[str, dict[str, answer.Answer]]:
+    """Answers of who is told what is at work, strangers included, and of who is told a tie's other name."""
+
+    def asked(who: str, wanted: dict[str, list[str]], strange: dict[str, dict[str, Any]]) -> Any:
+        names: dict[str, list[str]] = {}
+        for case in wanted.keys() & answers.keys():
+            ladder = {rung["name"] for rung in answers[case]["ladder"]}
+            known = [name for name in wanted[case] if name in ladder]
+            if known or case in strange:
+                names[case] = known
+
+        def ask(case: str) -> dict[str, Any]:
+            recording = store.recording(case)
+            laws = strangers.laws_in(strange[case], recording) if case in strange else []
+            return tools.restricted(recording, [*names[case], *(law["name"] for law in laws)], laws)
+
+        run.resume(sorted(names), path_of(who), ask, places.report)
+        return {case: found for case, found in run.answers(path_of(who)).items() if case in names}
+
+    return {
+        record.ORACLE: asked(record.ORACLE, at_work(keys), with_strangers(keys)),
+        record.EXCHANGED: asked(record.EXCHANGED, exchanged(keys), {}),
+    }
 
 
 def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, jobs: int) -> record.Record:
@@ -165,12 +185,9 @@ def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, job
     batch.make(store, places.program, sealed["seed"], sealed["cases"], True, jobs, places.report)
     keys = seal.open_keys(sealed, store)
     own = found[DIAGNOSE]
-    told = {
-        who: oracles(places, wanted, own, store, places.answers(name, who))
-        for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
-    }
+    asked = oracles(places, keys, own, store, lambda who: places.answers(name, who))
     whole = {who: by_case for who, by_case in found.items() if cases <= by_case.keys()}
-    opened = record.Record(sealed, keys, whole | told)
+    opened = record.Record(sealed, keys, whole | asked)
     opened.write(places.record(name))
     places.published(name).unlink(missing_ok=True)  # the record has the seal
     return opened
@@ -179,7 +196,6 @@ def open_batch(places: Places, name: str, sealed: dict[str, Any], tool: str, job
 def score_batch(places: Places, name: str, tool: str, jobs: int, json_file: Path | None) -> int:
     """Opens a batch that was run here; scores one that is recorded already from its record."""
     check_name(name)
-    tool_named(tool)
     if places.published(name).exists():
         found = open_batch(places, name, seal.read(places.published(name)), tool, jobs)
     else:
@@ -219,13 +235,31 @@ def retire_batch(places: Places, name: str) -> int:
 
 def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file: Path | None) -> int:
     """Cases that are not sealed: made, diagnosed and scored at once."""
-    chosen = tool_named(tool)
     plant.check(places.program)
     store = places.store(f"quick_{seed}_{cases}")
     planned = batch.make(
         store, places.program, seed, cases, making.knows_chain(places.program), jobs, places.report
     )
-    stamp = tools.digest()[:12]
+    return _ask_and_score(places, store, planned, seed, tool, json_file)
+
+
+def meet_strangers(
+    places: Places, cases: int, seed: int, tool: str, jobs: int, json_file: Path | None
+) -> int:
+    """Laws that no name stands for, each alone, one kind after the other."""
+    plant.check(places.program)
+    store = places.store(f"strangers_{seed}_{cases}")
+    store.fit_for(batch.stamp(places.program, seed, cases))
+    kinds = [*strangers.KINDS]
+    planned = [draw.Plan(seed, n + 1, kinds[n % len(kinds)], "springs") for n in range(cases)]
+    batch.make_planned(store, places.program, planned, jobs, places.report)
+    return _ask_and_score(places, store, planned, seed, tool, json_file)
+
+
+def _ask_and_score(
+    places: Places, store: batch.Store, planned: list[draw.Plan], seed: int, tool: str, json_file: Path | None
+) -> int:
+    chosen, stamp = tool_named(tool), tools.digest()[:12]
 
     def answers_of(who: str) -> Path:
         path = store.folder / f"{who}_{stamp}.jsonl"
@@ -238,31 +272,24 @@ def quick(places: Places, cases: int, seed: int, tool: str, jobs: int, json_file
     found = run.answers(results)
     keys = [store.key(case) for case in names]
     own = found if tool == DIAGNOSE else run.answers(answers_of(DIAGNOSE))
-    told = {
-        who: oracles(places, wanted, own, store, answers_of(who))
-        for who, wanted in ((record.ORACLE, at_work(keys)), (record.EXCHANGED, exchanged(keys)))
-    }
-    result = record.summary(keys, {tool: found, **told}, tool)
+    asked = oracles(places, keys, own, store, answers_of)
+    result = record.summary(keys, {tool: found, **asked}, tool)
     return _finish({"batch": None, "tool": tool, "seed": seed, **result}, json_file)
 
 
-def meet_strangers(places: Places, cases: int, seed: int, jobs: int, json_file: Path | None) -> int:
-    """Laws that no name stands for, one kind after the other; the exit status is 1 where one is met with
-    silence."""
+def give_own_laws(places: Places, cases: int, seed: int, json_file: Path | None) -> int:
+    """A user's own laws at work, and not at work; the exit status is 1 where one is missed or claimed too
+    often."""
     plant.check(places.program)
-    store = places.store(f"strangers_{seed}_{cases}")
-    store.fit_for(batch.stamp(places.program, seed, cases))
-    kinds = [*strangers.KINDS]
-    planned = [draw.Plan(seed, n + 1, kinds[n % len(kinds)], "springs") for n in range(cases)]
-    batch.make_planned(store, places.program, planned, jobs, places.report)
+    store = places.store(f"own_laws_{seed}")
+    store.fit_for(batch.stamp(places.program, seed, 0))
     rows = []
-    for done, plan in enumerate(planned):
-        places.report(f"{plan.name}: {done} of {cases} done", done / cases)
-        rows.append({"kind": plan.arm, **strangers.row(tools.full(store.recording(plan.name)))})
+    for ask in (own_laws.rows_at_work, own_laws.rows_elsewhere):
+        rows += ask(places.program, store, seed, cases, places.report)
     if json_file is not None:
         files.write_json(json_file, {"seed": seed, "cases": rows})
-    print(strangers.text_of(rows))
-    return 1 if any(row["verdict"] == strangers.SILENT for row in rows) else 0
+    print(own_laws.text_of(rows))
+    return 1 if any(one.fails for one in own_laws.scores(rows)) else 0
 
 
 def compare_simulators(places: Places, cases: int, seed: int, json_file: Path | None) -> int:

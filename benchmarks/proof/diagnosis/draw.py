@@ -66,10 +66,13 @@ class Drawn:
         }
 
 
-def plans(seed: int, cases: int, with_chain: bool = True) -> list[Plan]:
-    """Arms and plants in a drawn order: neither number nor name of a case says what it holds."""
+def plans(seed: int, cases: int, with_chain: bool = True, counts: dict[str, int] | None = None) -> list[Plan]:
+    """Arms and plants in a drawn order: neither number nor name of a case says what it holds.
+
+    `counts` of the arms are those of `arms.allot` where none are given.
+    """
     generator = np.random.default_rng([seed])
-    order = [arm for arm, count in arms.allot(cases).items() for _ in range(count)]
+    order = [arm for arm, count in (counts or arms.allot(cases)).items() for _ in range(count)]
     drawn = [order[i] for i in generator.permutation(cases)]
     chains = np.zeros(cases, dtype=bool)
     chains[generator.permutation(cases)[: int(np.ceil(arms.CHAIN_SHARE * cases))]] = with_chain

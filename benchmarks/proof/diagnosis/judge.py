@@ -3,14 +3,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
 from . import answer as answers
+from . import strangers, told
 from .answer import Answer
 from .material import is_material
 from .names import ANY_MODE, LOOSE, ON_STRING, PHYSICS, faults_among, physics_among
 
+Key = dict[str, Any]
 HORIZON = 1.0  # after which the gap is compared [s]
 SURE = 10.0  # standard deviations from which an effect has to be found
 
@@ -31,6 +34,16 @@ class Interval:
     @property
     def covers(self) -> bool:
         return self.low <= self.truth <= self.high
+
+
+@dataclass(frozen=True)
+class Met:
+    """What a law that no name stands for got."""
+
+    verdict: str
+    snr: float
+    is_placed: bool
+    """Whether a word has its mode, and its direction or time."""
 
 
 @dataclass
@@ -63,6 +76,14 @@ class Verdict:
     """Whether the other name of a tie explains the data as well."""
     closure: float | None = None
     """Share of the gap between base and oracle that the answer closes."""
+    says_unnamed: bool = False
+    """Whether something without a name is reported; answers before the tenth batch were not asked."""
+    met: Met | None = None
+    """What a stranger got, where one was at work."""
+
+    @property
+    def is_clear_stranger(self) -> bool:
+        return self.met is not None and self.met.snr >= SURE
 
     @property
     def owed(self) -> list[str]:
@@ -112,7 +133,7 @@ def _parameters(effect: dict[str, Any]) -> dict[str, Any]:
     return {parameter["name"]: parameter for parameter in effect["parameters"]}
 
 
-def _intervals(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> list[Interval]:
+def _intervals(key: Key, answer: Answer, oracle: Answer | None) -> list[Interval]:
     found: list[Interval] = []
     best = {} if oracle is None else {effect["name"]: _parameters(effect) for effect in oracle["effects"]}
     for effect in answer["effects"]:
@@ -131,19 +152,43 @@ def _intervals(key: dict[str, Any], answer: Answer, oracle: Answer | None) -> li
     return found
 
 
-def _closure(answer: Answer, oracle: Answer | None) -> float | None:
-    """Counts where the base's error is at least half again the oracle's."""
+def _met(key: Key, answer: Answer, oracle: Answer | None) -> Met | None:
+    """Nothing where it is not known how much the stranger stands out."""
+    law = strangers.in_case(key)
+    if law is None or oracle is None:
+        return None
+    prefix = key["outside"] + "_"
+    z = {rung["name"]: abs(rung["z"] or 0.0) for rung in oracle["ladder"] if rung["name"].startswith(prefix)}
+    most = max(z.values(), default=0.0)
+    acts = [name.removeprefix(prefix) for name, one in z.items() if one >= 0.5 * most]
+    snr = math.hypot(*z.values())
+    scenario = key["scenario"]
+    frequency = scenario.get("air", {}).get("gust_frequency")
+    is_placed = told.is_placed(told.words(answer), law, acts, frequency, scenario["duration"])
+    forms = law.names if law.is_form else ()
+    beside = [name for name in key["names"] if name not in forms]
+    return Met(told.verdict(answer, beside), snr, is_placed)
+
+
+def _closure(key: Key, answer: Answer, oracle: Answer | None) -> float | None:
+    """Counts where the base's error is at least half again the oracle's.
+
+    The gap of a stranger is what the oracle lacks without it, and counts where it is sure.
+    """
     if oracle is None:
         return None
-    base = answers.error_after(answer, "base", HORIZON)
     augmented = answers.error_after(answer, "augmented", HORIZON)
     best = answers.error_after(oracle, "augmented", HORIZON)
-    if base is None or augmented is None or best is None or base < 1.5 * best or base <= best:
+    if augmented is None or best is None:
         return None
-    return (base - augmented) / (base - best)
+    if strangers.in_case(key):
+        gap = answers.gap_without(oracle, key["outside"] + "_", HORIZON)
+        return 1.0 - (augmented - best) / gap if gap > 0.0 else None
+    base = answers.error_after(answer, "base", HORIZON)
+    return None if base is None or base < 1.5 * best or base <= best else (base - augmented) / (base - best)
 
 
-def _tie_is_real(key: dict[str, Any], oracle: Answer | None, other: Answer | None) -> bool:
+def _tie_is_real(key: Key, oracle: Answer | None, other: Answer | None) -> bool:
     """Whether exchanging the names costs less than three standard deviations' worth."""
     if oracle is None or other is None or len(key["tie"]) != 2:
         return False
@@ -153,10 +198,10 @@ def _tie_is_real(key: dict[str, Any], oracle: Answer | None, other: Answer | Non
     return true is not None and exchanged is not None and true**2 - exchanged**2 < 9.0
 
 
-def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Answer | None = None) -> Verdict:
+def judge(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None = None) -> Verdict:
     """Compares an answer with the truth.
 
-    `oracle` is the answer of who was told the physics at work, `other` of who was told a tie's other name.
+    `oracle` is the answer of who was told what is at work, `other` of who was told a tie's other name.
     """
     physics = physics_among(key["names"])
     claimed = answers.claims(answer, "physics")
@@ -183,5 +228,8 @@ def judge(key: dict[str, Any], answer: Answer, oracle: Answer | None, other: Ans
         fault_z={name: value for name, value in z.items() if value is not None},
         intervals=_intervals(key, answer, oracle),
         tie_is_real=_tie_is_real(key, oracle, other),
-        closure=_closure(answer, oracle),
+        closure=_closure(key, answer, oracle),
+        says_unnamed="learnt" in answer
+        and (answer["headline"] == "UNNAMED_STRUCTURE" or bool(answer["learnt"])),
+        met=_met(key, answer, oracle),
     )

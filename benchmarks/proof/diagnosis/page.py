@@ -30,7 +30,8 @@ that no batch can be chosen. Hashes of keys and recordings, the keys and the ans
 | word | meaning |
 |---|---|
 | null | a case in which nothing is at work but small faults, each below the floor of a claim |
-| oracle | the diagnosis that is told which effects are at work |
+| stranger | a law that no name stands for |
+| oracle | the diagnosis that is told what is at work |
 | SNR | z-score of an effect in the oracle's fit |
 | z | z-score of a fault in the diagnosis's own fit |
 | mode | where an effect acts: on the taut string, with a loose string, in flight |
@@ -167,6 +168,8 @@ def text_of(
     if others:
         parts.append("## Simpler tools on the same recordings\n\n" + _compared(result, others))
     parts.append("## By name\n\n" + _names(result["by_name"]))
+    if kinds := tables.kind_rows(result):
+        parts.append("## Strangers by kind\n\n" + markdown(kinds[0], kinds[1:]))
     parts.append(
         "## One effect at work, and the first that was claimed\n\n" + _confusion(result["confusion"])
     )

@@ -30,13 +30,20 @@ def kept_of_key(key: Key) -> Key:
     """A key without most of its scenario: the seed draws it again."""
     scenario = key["scenario"]
     kept = {"duration": scenario["duration"], "start": {"spin": scenario["start"]["spin"]}}
+    if "gust_frequency" in scenario.get("air", {}):
+        kept["air"] = {"gust_frequency": scenario["air"]["gust_frequency"]}
     return {**{name: key[name] for name in _KEPT_OF_KEY}, "scenario": kept}
+
+
+def _without_sizes(answer: Answer) -> Answer:
+    """Sizes of effects count in the oracle's answer alone."""
+    return {**answer, "ladder": [{"name": rung["name"], "z": rung["z"]} for rung in answer["ladder"]]}
 
 
 def summary(keys: list[Key], answers: dict[str, dict[str, Answer]], tool: str) -> dict[str, Any]:
     """The scores of a tool."""
-    told = (answers.get(who, {}) for who in (ORACLE, EXCHANGED))
-    return score.summary(score.judged(keys, answers[tool], *told))
+    oracles = (answers.get(who, {}) for who in (ORACLE, EXCHANGED))
+    return score.summary(score.judged(keys, answers[tool], *oracles))
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,8 @@ class Record:
         """
         seed = self.sealed["seed"]
         by_case = {key["case"]: key for key in self.keys}
-        plans = {plan.name: plan for plan in draw.plans(seed, self.sealed["cases"])}
+        drawn = draw.plans(seed, self.sealed["cases"], counts=self.sealed["arms"])
+        plans = {plan.name: plan for plan in drawn}
 
         def is_sealed(case: str, hash_of_key: str) -> bool:
             key = by_case[case]
@@ -73,6 +81,7 @@ class Record:
         lines = [self.sealed]
         for key in self.keys:
             found = {who: by[key["case"]] for who, by in self.answers.items() if key["case"] in by}
+            found = {who: one if who == ORACLE else _without_sizes(one) for who, one in found.items()}
             lines.append({"key": kept_of_key(key), "answers": found})
         files.write_packed(path, lines)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import statistics
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from . import intervals
+from . import intervals, told
 from .answer import Answer
 from .judge import SURE, Verdict, judge
 from .names import PHYSICS
@@ -29,6 +29,8 @@ class Score:
     interval: tuple[float, float] | None
     least: float | None = None
     most: float | None = None
+    is_strict: bool = False
+    """Whether its interval excuses nothing."""
 
     @property
     def keeps(self) -> bool | None:
@@ -40,6 +42,8 @@ class Score:
     @property
     def fails(self) -> bool:
         """Whether it is off its bounds by more than its interval allows."""
+        if self.is_strict:
+            return self.keeps is False
         return self.value is not None and self.interval is not None and not self._within(self.interval)
 
     def _within(self, span: tuple[float, float]) -> bool:
@@ -89,7 +93,9 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
     classes = [1.0 + len(v.tied[name]) for v in verdicts for name in v.claimed]
     ratios = [i.width_ratio for i in of_physics if i.width_ratio is not None]
     closures = [v.closure for v in verdicts if v.closure is not None and v.arm in WITH_PHYSICS]
-    strong_faults = [(v, f) for v in verdicts for f in v.faults if v.fault_z.get(f, 0.0) >= SURE]
+    strong_faults = [
+        (v, f) for v in verdicts if not v.outside for f in v.faults if v.fault_z.get(f, 0.0) >= SURE
+    ]
     return [
         rate("false physics on nulls", (bool(v.claimed) for v in _of(verdicts, "null")), most=0.045),
         rate("false physics on faults only", (bool(v.claimed) for v in _of(verdicts, "faults")), most=0.05),
@@ -103,7 +109,11 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
         rate("ties declared, SNR >= 10", (v.declares_tie for v in ties), least=0.90),
         mean("mean size of a class", classes, most=1.5),
         rate("classes of more than three", (size > 3.0 for size in classes), most=0.0),
-        rate("laws outside the bank misnamed", map(_misnamed, _of(verdicts, "outside")), most=0.10),
+        rate(
+            "laws outside the bank misnamed",
+            (bool(v.false_physics) for v in verdicts if v.outside),
+            most=0.05,
+        ),
         rate("two effects both named, SNR >= 10", (_both(v) for v in pairs), least=0.80),
         rate("more physics than is there", (bool(v.false_physics) for v in _of(verdicts, *WITH_PHYSICS))),
         rate("false faults on nulls", (bool(v.false_faults) for v in _of(verdicts, "null"))),
@@ -113,15 +123,29 @@ def scores(verdicts: list[Verdict]) -> list[Score]:
         rate("90 % intervals that cover, faults", (i.covers for i in measured if i.name not in PHYSICS)),
         rate("bad data refused", (v.headline == "INSUFFICIENT_DATA" for v in _of(verdicts, "bad"))),
         rate("answers that are errors", (v.headline == "ERROR" for v in verdicts)),
+        *(_of_strangers(verdicts) if any(v.outside and v.arm != "outside" for v in verdicts) else []),
+    ]
+
+
+def _of_strangers(verdicts: list[Verdict]) -> list[Score]:
+    """What laws get that no name stands for, where they stand out; one silence is one too many for few."""
+    clear = [(v, v.met) for v in verdicts if v.met and v.is_clear_stranger]
+    closures = [v.closure for v, _ in clear if v.closure is not None]
+    silent = (met.verdict == told.SILENT for _, met in clear)
+    is_told = [met.verdict == told.TOLD for _, met in clear]
+    placed = [so and met.is_placed for so, (_, met) in zip(is_told, clear, strict=True)]
+    calm = _of(verdicts, "null", "faults")
+    return [
+        replace(rate("strangers met with silence, SNR >= 10", silent, most=0.03), is_strict=True),
+        rate("strangers told, SNR >= 10", is_told, least=0.85),
+        rate("strangers told at the right place, SNR >= 10", placed, least=0.85),
+        median("gap of strangers closed after 1 s", closures, least=0.60),
+        rate("something unnamed on nulls and faults", (v.says_unnamed for v in calm), most=0.045),
     ]
 
 
 def _in_answer(verdict: Verdict) -> bool:
     return verdict.is_in_answer(verdict.owed[0])
-
-
-def _misnamed(verdict: Verdict) -> bool:
-    return bool(verdict.false_physics)
 
 
 def _both(verdict: Verdict) -> bool:
@@ -146,12 +170,14 @@ def judged(
     ]
 
 
+def plain(score: Score) -> dict[str, Any]:
+    """As JSON."""
+    return {**asdict(score), "keeps": score.keeps, "fails": score.fails}
+
+
 def summary(verdicts: list[Verdict]) -> dict[str, Any]:
     """Everything that a page or a program may want, as JSON."""
     from . import breakdown
-
-    def plain(score: Score) -> dict[str, Any]:
-        return {**asdict(score), "keeps": score.keeps, "fails": score.fails}
 
     return {
         "schema": SCHEMA,

@@ -61,8 +61,9 @@ def _lasting(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return result
 
 
-def library(recording: Recording) -> tuple[Array, Array]:
-    """Left-over acceleration (rows x 3) and the terms (rows x 3 x terms), both free of the string's pull."""
+def library(recording: Recording) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Left-over acceleration (rows x 3) and the terms (rows x 3 x terms), both free of the string's pull, and
+    which of the samples these rows are."""
     seen = recording.left_valid & recording.right_valid & recording.diabolo_valid
     track = np.where(seen[:, np.newaxis], recording.diabolo, np.nan)
     velocity, acceleration = derivatives(track, recording.rate)
@@ -96,7 +97,7 @@ def library(recording: Recording) -> tuple[Array, Array]:
     terms = terms - np.einsum("td,tdk->tk", shadow, terms)[:, np.newaxis] * shadow[:, :, np.newaxis]
     known = np.isfinite(left_over).all(axis=1) & np.isfinite(terms).all(axis=(1, 2))
     known &= _lasting(taut) | _lasting(loose)  # catches are no law
-    return left_over[known], terms[known]
+    return left_over[known], terms[known], known
 
 
 def thresholded(target: Array, terms: Array) -> Array:
@@ -116,7 +117,7 @@ def thresholded(target: Array, terms: Array) -> Array:
 
 def diagnose(path: Path) -> dict[str, Any]:
     """An answer of the schema of the diagnosis, as far as this method has one."""
-    target, terms = library(load_recording(path))
+    target, terms, _ = library(load_recording(path))
     count = len(TERMS)
     sizes = np.sqrt(np.mean(terms**2, axis=(0, 1)) * 3.0) if len(target) else np.zeros(count)
     found = thresholded(target.ravel(), terms.reshape(-1, count)) if len(target) > 50 else np.zeros(count)

@@ -68,9 +68,17 @@ def failure_rows(result: dict[str, Any]) -> list[list[str]]:
 FAILURE_HEADER = ["case", "arm", "plant", "at work", "claimed", "what is wrong"]
 
 
+def kind_rows(result: dict[str, Any]) -> list[list[str]]:
+    """What each kind of strangers got, below a header; empty where none was met."""
+    rows = result["by_kind"]
+    return [[*rows[0]], *([str(cell) for cell in row.values()] for row in rows)] if rows else []
+
+
 def text_of(result: dict[str, Any]) -> str:
     """Scores and failures for a terminal."""
     scores = plain(HEADER, [row_of(score) for score in result["scores"]])
+    if kinds := kind_rows(result):
+        scores += "\n\n" + plain(kinds[0], kinds[1:])
     rows = failure_rows(result)
     if not rows:
         return scores + "\n\nevery answer is right in all it says"

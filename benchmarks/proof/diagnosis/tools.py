@@ -13,10 +13,11 @@ import diabolo
 from diabolo import diagnose, load_recording
 
 from .. import files
-from . import sindy
+from . import gp, sindy
 from .names import MEASUREMENT, PHYSICS
 
 Tool = Callable[[Path], dict[str, Any]]
+Laws = Iterable[dict[str, Any]]
 
 
 def digest() -> str:
@@ -26,14 +27,14 @@ def digest() -> str:
     return files.digest_of_text("".join(f"{part.name} {files.digest_of(part)}\n" for part in parts))
 
 
-def restricted(path: Path, names: Iterable[str]) -> dict[str, Any]:
-    """The diagnosis that may claim nothing but these names."""
-    return diagnose(load_recording(path), bank=names).to_dict()
+def restricted(path: Path, names: Iterable[str], laws: Laws = ()) -> dict[str, Any]:
+    """The diagnosis that may claim nothing but these names, laws of one's own among them."""
+    return diagnose(load_recording(path), bank=names, laws=laws).to_dict()
 
 
-def full(path: Path) -> dict[str, Any]:
+def full(path: Path, laws: Laws = ()) -> dict[str, Any]:
     """The diagnosis as anyone would ask for it."""
-    return diagnose(load_recording(path)).to_dict()
+    return diagnose(load_recording(path), laws=laws).to_dict()
 
 
 @functools.cache
@@ -92,4 +93,5 @@ TOOLS: dict[str, Tool] = {
     "parameter_fit": parameter_fit,
     "bic": bic,
     "sindy": sindy.diagnose,
+    "gp": gp.diagnose,
 }
