@@ -116,15 +116,21 @@ class Guesses {
   /// amplitude * factor * sin(2 pi frequency t + phase).
   void swinging(Acts acts, const std::string& factor, double frequency, double span,
                 const std::string& words) {
-    const std::string angle = "2 * pi * " + shown(frequency) + " * t";
     const std::vector<LawNumber> numbers{amplitude(acts),
                                          {"frequency", "Hz", 0.1 / span, frequency,
                                           std::max(0.0, frequency - 1.0 / span), frequency + 1.0 / span},
                                          {"phase", "rad", 0.3, 0.0, -10.0, 10.0}};
     list.push_back(
         {made(acts, product(joined(factor, "sin(2 * pi * frequency * t + phase)")), words, numbers),
-         {made(acts, product(joined(factor, "sin(" + angle + ")")), words, {amplitude(acts)}),
-          made(acts, product(joined(factor, "cos(" + angle + ")")), words, {amplitude(acts)})}});
+         quadratures(acts, factor, frequency, words)});
+  }
+
+  /// amplitude * factor * sin(2 pi frequency t), and the same of the cosine.
+  static std::vector<Law> quadratures(Acts acts, const std::string& factor, double frequency,
+                                      const std::string& words) {
+    const std::string angle = "(2 * pi * " + shown(frequency) + " * t)";
+    return {made(acts, product(joined(factor, "sin" + angle)), words, {amplitude(acts)}),
+            made(acts, product(joined(factor, "cos" + angle)), words, {amplitude(acts)})};
   }
 
  private:

@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/diagnosis_options.hpp"
+#include "diabolo/diagnose/fast_swings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/law_guesses.hpp"
 #include "diabolo/diagnose/refine.hpp"
@@ -129,6 +131,20 @@ std::vector<ScoredGuess> best_guesses(const std::vector<LawGuess>& guesses, cons
   return best;
 }
 
+/// Oscillations too fast for windows to follow.
+template <class D>
+std::vector<LawGuess> fast_guesses(const Fit& fit, const Model& physics, const ActiveSet& set, int threads,
+                                   const FitWatch& watch) {
+  const std::size_t used = numbers_of(physics.effects.get<FormulaLaws>());
+  return fast_swings(fit, used, Law::kMostNumbers - used, [&](const std::vector<Law>& probes) {
+    ActiveSet asked = set;
+    for (std::size_t i = 0; i < probes.size(); ++i) asked[index_of(own_number(used + i))] = true;
+    Fit looked = fit;
+    linearize<D>(looked, with_laws(physics, probes), asked, threads, watch);
+    return looked;
+  });
+}
+
 /// Fits a guess from where its probes are, with its shape, and with what is sure beside it.
 template <class D>
 LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics, const ActiveSet& set,
@@ -232,7 +248,10 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
                                    const DiagnosisOptions& options, const FitWatch& watch) {
   constexpr std::size_t kMostFits = 4;
   constexpr double kMayOvertake = 4.0;  // a shape of its own may bring so many times what a guess promises
-  const std::vector<LawGuess> guesses = law_guesses(fit, windows);
+  std::vector<LawGuess> guesses = law_guesses(fit, windows);
+  if (fit.fit_takes.size() == 1)
+    std::ranges::move(diagnose_detail::fast_guesses<D>(fit, physics, set, options.threads, watch),
+                      std::back_inserter(guesses));
   std::vector<LearntLaw> trials;
   for (const auto& scored :
        diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits, options.threads, watch)) {
