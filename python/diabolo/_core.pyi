@@ -759,42 +759,6 @@ class LandingRestitution:
     @coefficient.setter
     def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
-class GyroscopicTilt:
-    """
-    Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I.
-    """
-    __hash__: typing.ClassVar[None] = None
-    @staticmethod
-    def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __copy__(self) -> GyroscopicTilt:
-        ...
-    def __deepcopy__(self, memo: dict) -> GyroscopicTilt:
-        ...
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> dict:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
-        ...
-    def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
-    @property
-    def gain(self) -> float:
-        """
-        mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]
-        """
-    @gain.setter
-    def gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
 class UnnamedForce:
     """
     A force without a name, as a diagnosis found it: accelerations times powers of speed and spin.
@@ -882,6 +846,42 @@ class UnnamedForce:
         """
     @string_tangent.setter
     def string_tangent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class GyroscopicTilt:
+    """
+    Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I.
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def fields() -> list:
+        """
+        Name, unit and range of every field (ParameterInfo).
+        """
+    def __copy__(self) -> GyroscopicTilt:
+        ...
+    def __deepcopy__(self, memo: dict) -> GyroscopicTilt:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def to_dict(self) -> dict:
+        """
+        All fields by name.
+        """
+    @property
+    def gain(self) -> float:
+        """
+        mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]
+        """
+    @gain.setter
+    def gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
 class FormulaLaws:
     """
