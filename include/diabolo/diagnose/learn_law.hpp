@@ -232,10 +232,12 @@ inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, co
   };
   const auto worse = [](const Interval& i) { return i.high < 0.0; };
   const auto& judges = learnt.law.acts == Acts::kSpin ? learnt.spin_worsening_ci95 : learnt.worsening_ci95;
-  const bool better = any(judges, [](const Interval&i) { return i.low > 0.0; }),
-             leans_against = any(judges, [](const Interval&i) { return i.low + i.high < 0.0; });
+  const bool better = any(judges, [](const Interval& i) { return i.low > 0.0; });
+  double leaning = 0.0;  // over all horizons, each in its own width
+  for (const std::optional<Interval>& i : judges)
+    if (i && i->high > i->low) leaning += (i->low + i->high) / (i->high - i->low);
   return !any(learnt.worsening_ci95, worse) && !any(learnt.spin_worsening_ci95, worse) &&
-         (better || (learnt.gain > kGainAlone && !leans_against));
+         (better || (learnt.gain > kGainAlone && leaning >= 0.0));
 }
 
 }  // namespace diagnose_detail
