@@ -83,6 +83,10 @@ class TipMotion {
     for (std::size_t i = 0; i < times_.size(); ++i) directions_[i] << left[i], right[i];
   }
 
+  /// What Tips::time is at time zero [s]; zero, where nothing is said.
+  void start_clock(double clock) { clock_ = clock; }
+  double clock() const { return clock_; }
+
   double begin() const { return times_.front(); }  ///< [s]
   double end() const { return times_.back(); }     ///< [s]
   std::size_t size() const { return times_.size(); }
@@ -92,7 +96,7 @@ class TipMotion {
   /// What was given for instant number `i`, as tips at rest.
   Tips<Scalar> pose(std::size_t i) const {
     Tips<Scalar> tips;
-    tips.time = times_[i];
+    tips.time = times_[i] + clock_;
     tips.left = values_[i].template head<3>();
     tips.right = values_[i].template tail<3>();
     if (directions_.empty()) return tips;
@@ -104,7 +108,7 @@ class TipMotion {
   /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
   Tips<Scalar> at(double time, std::size_t& hint) const {
     Tips<Scalar> tips = read(time, hint);
-    tips.time = time;
+    tips.time = time + clock_;
     return tips;
   }
 
@@ -175,6 +179,7 @@ class TipMotion {
     }
   }
 
+  double clock_ = 0.0;
   Interpolation interpolation_;
   std::vector<double> times_;
   std::vector<Vector6> values_, curvatures_;  ///< second derivatives [m/s^2]; of a spline only

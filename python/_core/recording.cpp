@@ -131,12 +131,12 @@ py::tuple to_tuple(const Recording& r) {
                         numbers(r.diabolo.position), r.rate, known(r.diabolo_orientation),
                         known(r.left_orientation), known(r.right_orientation), r.name, r.properties.mass,
                         r.properties.diameter, r.properties.length, r.properties.axle_radius, r.string_length,
-                        r.frame, r.notes);
+                        r.frame, r.notes, r.clock);
 }
 
 Recording from_tuple(const py::tuple& t) {
-  if (t.size() != 16)
-    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 16");
+  if (t.size() != 17)
+    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 17");
   const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
   const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
   Recording recording =
@@ -146,6 +146,7 @@ Recording from_tuple(const py::tuple& t) {
                      t[13].cast<double>());
   recording.frame = t[14].cast<std::vector<long>>();
   recording.notes = t[15].cast<std::vector<std::string>>();
+  recording.clock = t[16].cast<double>();
   check_recording(recording);
   return recording;
 }
@@ -337,6 +338,8 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
         return view(r.time.data(), {r.time.size()}, self);
       },
       "[s], shape (N,).");
+  cls.def_readonly("clock", &Recording::clock,
+                   "What laws in time go by, at the first sample [s]: a part keeps that of the whole.");
   bind_track(cls, "left", &Recording::left, "Left stick tip [m], shape (N, 3).");
   bind_track(cls, "right", &Recording::right, "Right stick tip [m], shape (N, 3).");
   bind_track(cls, "diabolo", &Recording::diabolo, "Centre of the axle [m], shape (N, 3).");

@@ -179,3 +179,24 @@ TEST_CASE("On the real takes the fair start predicts better than the published o
     }
   }
 }
+
+TEST_CASE("A law in time is predicted in a part as in the whole") {
+  Model model = consistent_model();
+  const Law gust("gust", "a gust", Acts::kLeft, "size * sin(2 * pi * 0.7 * t)",
+                 {{"size", "m/s^2", 1.0, 0.0, -9.0, 9.0}});
+  model.effects.get<FormulaLaws>() = FormulaLaws<double>({gust});
+  model.effects.get<FormulaLaws>().numbers[0] = 2.0;
+  const Recording whole = beaten(5);
+  const Eigen::Index first = 240;
+  HorizonOptions options;
+  options.starts_every = 240.0 / whole.rate;
+  options.horizons = {0.5};
+  const HorizonTask in_whole(whole, model, options),
+      in_part(cut(whole, first, whole.size() - 1), model, options);
+  const double of_whole = in_whole.errors(1).front().model, of_part = in_part.errors(0).front().model;
+  CAPTURE(of_whole, of_part);
+  CHECK(of_part == Approx(of_whole).epsilon(0.02));
+  Recording forgetful = cut(whole, first, whole.size() - 1);
+  forgetful.clock = 0.0;
+  CHECK(std::abs(HorizonTask(forgetful, model, options).errors(0).front().model - of_whole) > 0.1 * of_whole);
+}

@@ -44,6 +44,18 @@ TEST_CASE("Rows lie at their frame numbers, not at the rounded times of a file")
   CHECK(row_times(recording)[199] == recording.time[199] - recording.time[0]);
 }
 
+TEST_CASE("The tips of a part go by the clock of the whole") {
+  Recording whole = test::with_tips(300, test::beating_tips(2, 0.0), 120.0);
+  for (const Interpolation kind : {Interpolation::kHeld, Interpolation::kSpline}) {
+    const Recording part = cut(cut(whole, 60, 299), 60, 239);
+    CHECK(part.clock == Approx(1.0));
+    const auto of_whole = RecordedTips(whole, kind).motion(120, 299),
+               of_part = RecordedTips(part, kind).motion(0, 179);
+    CHECK(of_part->at(0.5).time == Approx(of_whole->at(1.5).time));
+    CHECK(of_part->pose(7).time == Approx(of_whole->pose(kind == Interpolation::kHeld ? 7 : 127).time));
+  }
+}
+
 TEST_CASE("A held tip that is missing stays where it was seen last") {
   const Recording whole = test::with_tips(30, test::beating_tips(4, 0.0), 120.0);
   const TipMotion<double> motion = tip_motion(drop(whole, &Recording::left, 10, 14), Interpolation::kHeld);

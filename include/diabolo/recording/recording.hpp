@@ -67,6 +67,7 @@ struct Recording {
   OrientationTrack left_orientation, right_orientation;  ///< body x runs along the stick, outwards
   DiaboloProperties properties = kRedDiabolo;
   double string_length = kPublishedStringLength;  ///< [m]
+  double clock = 0.0;              ///< of laws in time, at sample 0 [s]: a part keeps that of the whole
   std::vector<std::string> notes;  ///< what its reader changed or took for granted, a clause each
 
   Eigen::Index size() const { return time.size(); }
@@ -95,6 +96,7 @@ inline Recording cut(const Recording& recording, Eigen::Index first, Eigen::Inde
   Recording result = recording;
   result.frame.assign(recording.frame.begin() + first, recording.frame.begin() + last + 1);
   result.time = recording.time.segment(first, n);
+  result.clock += recording.time[first] - recording.time[0];
   result.left = cut_track(recording.left);
   result.right = cut_track(recording.right);
   result.diabolo = cut_track(recording.diabolo);

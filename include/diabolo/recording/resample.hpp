@@ -32,6 +32,7 @@ inline Recording resample(const Recording& recording, const Eigen::VectorXd& tim
   if (last < 0) throw RecordingError(where + ": the recording has no samples");
   Recording result = recording;
   result.time = times;
+  if (size > 0) result.clock += times[0] - recording.time[0];
   result.frame.assign(static_cast<std::size_t>(size), 0);
   result.left = result.right = result.diabolo = Track::missing(size);
   const auto missing_like = [size](const OrientationTrack& track) {

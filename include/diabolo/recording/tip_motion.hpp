@@ -80,14 +80,15 @@ inline Track fill_gaps(Track tip, const TipSpan& span, const Eigen::VectorXd& ti
   return tip;
 }
 
-/// The stick tips of a recording, ready to be followed; time zero at its row 0. Held: a missing tip stays
-/// where it was seen last (see kHeldDelay). Linear and spline: each tip runs through its own valid samples.
-/// Rows that one of the tips does not reach are left out; both tips rest there.
+/// The stick tips of a recording, ready to be followed; time zero at its row 0, Tips::time by its clock.
+/// Held: a missing tip stays where it was seen last (see kHeldDelay). Linear and spline: each tip runs
+/// through its own valid samples. Rows that one of the tips does not reach are left out; both tips rest
+/// there.
 class RecordedTips {
  public:
   /// Throws RecordingError where the tips are never seen at the same time.
   RecordedTips(const Recording& recording, Interpolation interpolation)
-      : interpolation_(interpolation), times_(row_times(recording)) {
+      : interpolation_(interpolation), clock_(recording.clock), times_(row_times(recording)) {
     for (const auto& [track, sticks] : {std::pair{&recording.left_orientation, &left_sticks_},
                                         std::pair{&recording.right_orientation, &right_sticks_}})
       for (const Eigen::Matrix3d& frame : stick_frames(*track, recording.size()))
@@ -126,10 +127,12 @@ class RecordedTips {
     }
     TipMotion<double> motion(std::move(instants), left, right, interpolation_);
     motion.point_along(left_sticks, right_sticks);
+    motion.start_clock(clock_);
     return motion;
   }
 
   Interpolation interpolation_;
+  double clock_;
   Eigen::VectorXd times_;
   Track left_, right_;                                       ///< gaps filled
   std::vector<Vector3<double>> left_sticks_, right_sticks_;  ///< directions; zero where not recorded
