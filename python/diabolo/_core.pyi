@@ -1289,6 +1289,11 @@ class Recording:
         What its reader changed, and what is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each.
         """
     @property
+    def clock(self) -> float:
+        """
+        What laws in time go by, at the first sample [s]: a part keeps that of the whole.
+        """
+    @property
     def diabolo(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         Centre of the axle [m], shape (N, 3).
