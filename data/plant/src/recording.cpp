@@ -32,7 +32,8 @@ void write_position(std::ostream& out, const std::optional<Pose>& pose) {
 }
 
 void write_orientation(std::ostream& out, const std::optional<Pose>& pose) {
-  for (int i = 0; i < 4; ++i) out << ',' << (pose ? text_of(pose->orientation.coeffs()(i), kOrientationDecimals) : "");
+  for (int i = 0; i < 4; ++i)
+    out << ',' << (pose ? text_of(pose->orientation.coeffs()(i), kOrientationDecimals) : "");
 }
 
 void write_vector(std::ostream& out, const Vec3& vector) {
