@@ -323,7 +323,7 @@ def test_an_inconsistent_state_is_refused(played: Recording) -> None:
     rebuild, arguments, state = played.__reduce_ex__(2)[:3]
     for broken, text in (
         (state[:-1], "a state of 16 items; expected 17"),
-        ((*state[:-2], [0, 1], []), "2 frame numbers and 481 times"),
+        ((*state[:-3], [0, 1], [], 0.0), "2 frame numbers and 481 times"),
         ((state[0].ravel()[:-1], *state[1:]), r"left: shape \(481, 3\); expected \(480, 3\)"),
     ):
         with pytest.raises(ValueError, match=text):
