@@ -51,9 +51,12 @@ inline double gain_at(double frequency, double carrier, const std::vector<Demodu
 inline std::pair<double, double> best_beside(double carrier, const std::vector<Demodulated>& windows,
                                              double span) {
   std::pair<double, double> best{carrier, 0.0};
-  for (double frequency = carrier - kBeside; frequency < carrier + kBeside; frequency += 0.25 / span)
+  const double step = 0.25 / span;
+  for (int i = 0; i * step < 2.0 * kBeside; ++i) {
+    const double frequency = carrier - kBeside + i * step;
     if (const double gain = gain_at(frequency, carrier, windows); gain > best.second)
       best = {frequency, gain};
+  }
   return best;
 }
 
