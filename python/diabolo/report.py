@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -59,6 +59,7 @@ def report_html(
         adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
         learnt=[_learnt(item, horizons) for item in _rows(result, "learnt")],
         unnamed=[_unnamed(item) for item in _rows(result, "unnamed")],
+        differing=[row for item in _rows(result, "differing") for row in _differing(item)],
         replay=None if worst is None else replay_html(worst),
         located=_located(locate, shown, thresholds["physics"]),
         first_located=FIRST_RECORDINGS,
@@ -189,21 +190,14 @@ def _joined(parts: Iterable[str]) -> str:
 
 def _fit(fit: dict[str, Any]) -> dict[str, Any]:
     """Errors on data that was not fitted, before and after, and whether they differ."""
-    horizons, before = fit.get("horizons_s") or [], fit.get("base_error_m") or []
-    after = fit.get("augmented_error_m") or [None] * len(before)
-    intervals = fit.get("improvement_ci95_m") or [None] * len(before)
-    starts = fit.get("start_error_m") or [None] * len(before)
-    rows = [
-        row
-        for row in zip(horizons, before, after, intervals, starts, strict=False)
-        if None not in row[:2] and row[0] > 0
-    ]
+    rows = _held_out(fit, ("base_error_m", "augmented_error_m", "improvement_ci95_m", "start_error_m"))
     unused = fit.get("holdout_unused") or []
     left = f" Held out, but without a start that could be compared: {_joined(unused)}." if unused else ""
     if not rows:
         return {
             "sentence": f"There is no held-out error: nothing could be predicted and compared.{left}",
             "rows": [],
+            "spin": [],
         }
     horizon, base, augmented, interval, start = rows[-1]
     held_out = {
@@ -226,24 +220,48 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         sentence += _improvement(base - augmented, interval)
         if start is not None:
             sentence += f" The noise of the starts alone would make {_millimetres(start)}."
-    table = [
-        [
-            quantity(row[0], "s"),
-            _millimetres(row[1]),
-            _millimetres(row[2]),
-            "not known" if None in row[1:4] else _millimetres(row[1] - row[2], row[3]),
-            _millimetres(row[4]),
-        ]
-        for row in rows
-    ]
     tile_label = f"error after {quantity(horizon, 's')}, data not fitted"
     return {
         "sentence": sentence + left,
-        "rows": table,
+        "rows": _error_table(rows, _millimetres),
+        "spin": _error_table(_held_out(fit, SPIN_ERRORS), _radians_per_second),
         "tile": tile,
         "tile_label": tile_label,
         "figure": figures.error_figure(rows),
     }
+
+
+SPIN_ERRORS = (
+    "base_spin_error_radps",
+    "augmented_spin_error_radps",
+    "spin_improvement_ci95_radps",
+    "start_spin_error_radps",
+)
+
+
+def _held_out(fit: dict[str, Any], names: Sequence[str]) -> list[tuple[Any, ...]]:
+    """Horizon, errors before and after, the improvement's interval, and the starts' noise, where known."""
+    horizons = fit.get("horizons_s") or []
+    columns = [fit.get(name) or [None] * len(horizons) for name in names]
+    rows = zip(horizons, *columns, strict=False)
+    return [row for row in rows if None not in row[:2] and row[0] > 0]
+
+
+def _error_table(rows: Iterable[Sequence[Any]], shown: Callable[..., str]) -> list[list[str]]:
+    return [
+        [
+            quantity(row[0], "s"),
+            shown(row[1]),
+            shown(row[2]),
+            "not known" if None in row[1:4] else shown(row[1] - row[2], row[3]),
+            shown(row[4]),
+        ]
+        for row in rows
+    ]
+
+
+def _radians_per_second(spin: float | None, interval: Any = None) -> str:
+    return quantity(spin, "rad/s", interval)
 
 
 def _millimetres(length: float | None, interval: Any = None) -> str:
@@ -276,6 +294,22 @@ def _adequacy(adequacy: dict[str, Any], times_noise: float) -> dict[str, Any]:
         "places": [[_place(row), *_left_over(row)] for row in _rows(adequacy, "places")],
         "changes": [_change(row) for row in _rows(adequacy, "changes")],
     }
+
+
+def _differing(item: dict[str, Any]) -> list[list[Any]]:
+    """What each recording, fitted by itself, asks for."""
+    return [
+        [
+            {"words": item.get("what") or words(item.get("name")), "key": item.get("name") or ""},
+            alone.get("recording"),
+            [
+                f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
+                for row in _rows(alone, "parameters")
+            ],
+            _number(item.get("z"), 1),
+        ]
+        for alone in _rows(item, "recordings")
+    ]
 
 
 def _left_over(row: dict[str, Any]) -> list[Any]:

@@ -164,6 +164,24 @@ INVENTED: dict[str, Any] = {
         },
     ],
     "unnamed": [],
+    "differing": [
+        {
+            "name": "string_friction",
+            "kind": "physics",
+            "what": "friction of the string",
+            "z": 14.2,
+            "recordings": [
+                {
+                    "recording": recording,
+                    "parameters": [{"name": "coefficient", "value": value, "unit": "1", "ci90": interval}],
+                }
+                for recording, value, interval in (
+                    ("invented_throw", 0.104, [0.091, 0.117]),
+                    ("invented_swing", 0.41, [0.38, 0.44]),
+                )
+            ],
+        }
+    ],
     "upper_limits": [
         {"name": "air_drag_linear", "parameter": "rate", "limit95": 0.011, "unit": "1/s"},
         {"name": "air_drag_quadratic", "parameter": "coefficient", "limit95": 0.0062, "unit": "1/m"},
@@ -182,6 +200,10 @@ INVENTED: dict[str, Any] = {
         "augmented_error_m": [0.0017, 0.0041, 0.0093, 0.0214],
         "improvement_ci95_m": [[0.0001, 0.0007], [0.0022, 0.0044], [0.0112, 0.0174], [0.0590, 0.0812]],
         "start_error_m": [0.0011, 0.0024, 0.0051, 0.0093],
+        "base_spin_error_radps": [0.2, 0.4, None, 1.6],
+        "augmented_spin_error_radps": [0.2, 0.3, None, 0.5],
+        "spin_improvement_ci95_radps": [[-0.05, 0.05], [0.04, 0.16], None, [0.9, 1.3]],
+        "start_spin_error_radps": [0.1, 0.1, None, 0.1],
         "windows": 412,
     },
     "next_experiment": [
@@ -273,8 +295,11 @@ def test_the_page_gives_the_answer_first_and_its_parts_in_order() -> None:
         INVENTED["sentence"],
         "error after 1 s, data not fitted",
         "On whole recordings that the fit did not see",
+        "1 s 1.6 rad/s 0.5 rad/s 1.1 [0.9, 1.3] rad/s 0.1 rad/s",
         "Sideways lift by the spin (Magnus) magnus_lift",
         "Strongest: in flight: axle × velocity",
+        "friction of the string string_friction invented_throw coefficient 0.104 [0.091, 0.117]",
+        "friction of the string string_friction invented_swing coefficient 0.410 [0.380, 0.440]",
         "Rejected: its sign is against physics",
         "More is left than the camera's noise would leave",
         "position 12 mm 1.4 mm 0.6 mm 2.3 40",
