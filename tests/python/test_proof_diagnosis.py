@@ -49,7 +49,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BATCHES = ROOT / "benchmarks" / "proof" / "diagnosis" / "batches"
 PLACE = {"quantity": "position", "mode": "ON_STRING", "direction": "left"}
 # Of the file that was published when the batch was sealed, as SHA-256.
-DIGEST_OF_NINTH = "e5826092c34483a1b97484d43ffa24b1ed76905f0475c6a970d3f8538febd26a"
+DIGEST_OF_TENTH = "2af90fa00949b1cdb4c68e124dedbf832008a79a3efa96c766d0de637eb4a535"
 
 SILENT = "strangers met with silence, SNR >= 10"
 SWING = load_recording(ROOT / "data" / "recordings" / "swing.csv")
@@ -508,14 +508,14 @@ def test_intervals_of_rates() -> None:
         (["quick", "--cases", "0"], "--cases: 0; expected a whole number from 1 to 9999"),
         (["quick", "--tool", "guess"], "--tool guess: expected one of diagnose, no_faults"),
         (["run", "never-sealed"], "never-sealed.json: there is no such file; expected a sealed batch"),
-        (["run", "ninth"], "ninth.jsonl.xz: the keys of batch ninth are open; seal a fresh one"),
-        (["seal", "ninth"], "ninth.jsonl.xz: batch ninth is scored already; choose another name"),
+        (["run", "tenth"], "tenth.jsonl.xz: the keys of batch tenth are open; seal a fresh one"),
+        (["seal", "tenth"], "tenth.jsonl.xz: batch tenth is scored already; choose another name"),
         (["score", "never-sealed"], "never-sealed.jsonl.xz: there is no such file; `score` writes it"),
-        (["score", "ninth", "--tool", "parameter_fit"], "ninth.jsonl.xz: no answers of parameter_fit"),
+        (["score", "tenth", "--tool", "parameter_fit"], "tenth.jsonl.xz: no answers of parameter_fit"),
         (["seal", "../elsewhere"], "expected a name of letters"),
-        (["run", "ninth", "--minutes", "nan"], "--minutes: nan; expected more than 0"),
-        (["run", "ninth", "--minutes", "-1"], "--minutes: -1.0; expected more than 0"),
-        (["page", "ninth", "--out", "nowhere/page.md"], "nowhere/page.md: there is no folder"),
+        (["run", "tenth", "--minutes", "nan"], "--minutes: nan; expected more than 0"),
+        (["run", "tenth", "--minutes", "-1"], "--minutes: -1.0; expected more than 0"),
+        (["page", "tenth", "--out", "nowhere/page.md"], "nowhere/page.md: there is no folder"),
     ],
 )
 def test_the_command_says_what_is_missing(
@@ -539,45 +539,45 @@ def test_the_product_does_not_know_the_proof() -> None:
 
 
 @pytest.fixture
-def ninth(tmp_path: Path) -> commands.Places:
+def tenth(tmp_path: Path) -> commands.Places:
     """Of a copy of the batches."""
     shutil.copytree(BATCHES, tmp_path / "batches")
     return commands.Places(tmp_path, tmp_path / "build", tmp_path / "no plant", run.silent)
 
 
 def test_the_last_batch_scored_again_from_its_record_gives_its_page(
-    ninth: commands.Places, tmp_path: Path
+    tenth: commands.Places, tmp_path: Path
 ) -> None:
-    assert commands.write_page(ninth, "ninth", tmp_path / "proof.md") == 0
+    assert commands.write_page(tenth, "tenth", tmp_path / "proof.md") == 0
     assert (tmp_path / "proof.md").read_text() == (ROOT / "docs" / "proof.md").read_text()
 
 
 def test_a_record_that_is_not_what_was_sealed_is_told(
-    ninth: commands.Places, capsys: pytest.CaptureFixture[str]
+    tenth: commands.Places, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = record.read(ninth.record("ninth"))
+    found = record.read(tenth.record("tenth"))
     closed = set(found.not_as_sealed())
     assert len(closed) < 60  # none, but where the processor rounds otherwise
     changed = [key for key in found.keys if key["case"] not in closed and key["parameters"]][:2]
     changed[0]["names"] = [*changed[0]["names"], "wind"]
     next(iter(changed[1]["parameters"].values())).clear()
     assert set(found.not_as_sealed()) == closed | {key["case"] for key in changed}
-    found.write(ninth.record("ninth"))
-    commands.score_batch(ninth, "ninth", "diagnose", 1, None)
+    found.write(tenth.record("tenth"))
+    commands.score_batch(tenth, "tenth", "diagnose", 1, None)
     told = capsys.readouterr().out.splitlines()[0]
-    assert told == f"{598 - len(closed)} of 600 keys, drawn again, are those sealed"
+    assert told == f"{238 - len(closed)} of 240 keys, drawn again, are those sealed"
 
 
-def test_a_retired_batch_keeps_its_scores(ninth: commands.Places) -> None:
-    scores = record.read(ninth.record("ninth")).summary("diagnose")["scores"]
-    assert commands.retire_batch(ninth, "ninth") == 0
-    assert [path.name for path in ninth.earlier.parent.iterdir()] == ["earlier.jsonl.xz"]
-    batches = earlier.read(ninth.earlier)
-    assert [*batches][-2:] == ["eighth", "ninth"]
-    assert batches["ninth"]["seal"] == DIGEST_OF_NINTH
-    assert [score["hits"] for score in batches["ninth"]["scores"]] == [score["hits"] for score in scores]
-    with pytest.raises(ValueError, match=r"ninth\.jsonl\.xz: there is no such file"):
-        commands.score_batch(ninth, "ninth", "diagnose", 1, None)
+def test_a_retired_batch_keeps_its_scores(tenth: commands.Places) -> None:
+    scores = record.read(tenth.record("tenth")).summary("diagnose")["scores"]
+    assert commands.retire_batch(tenth, "tenth") == 0
+    assert [path.name for path in tenth.earlier.parent.iterdir()] == ["earlier.jsonl.xz"]
+    batches = earlier.read(tenth.earlier)
+    assert [*batches][-2:] == ["ninth", "tenth"]
+    assert batches["tenth"]["seal"] == DIGEST_OF_TENTH
+    assert [score["hits"] for score in batches["tenth"]["scores"]] == [score["hits"] for score in scores]
+    with pytest.raises(ValueError, match=r"tenth\.jsonl\.xz: there is no such file"):
+        commands.score_batch(tenth, "tenth", "diagnose", 1, None)
 
 
 def test_scoring_opens_a_batch_once_and_records_it(

@@ -28,10 +28,10 @@ EXAMPLE = """\
   python -m benchmarks.proof.diagnosis strangers --cases 14
   python -m benchmarks.proof.diagnosis own-laws --cases 40
   python -m benchmarks.proof.diagnosis simulators --cases 30
-  python -m benchmarks.proof.diagnosis seal tenth --cases 600      # then commit batches/tenth.json
-  python -m benchmarks.proof.diagnosis run tenth --minutes 60      # goes on where it was stopped
-  python -m benchmarks.proof.diagnosis score tenth && python -m benchmarks.proof.diagnosis page tenth
-  python -m benchmarks.proof.diagnosis score ninth                 # again from its record"""
+  python -m benchmarks.proof.diagnosis seal next --cases 600       # then commit batches/next.json
+  python -m benchmarks.proof.diagnosis run next --minutes 60       # goes on where it was stopped
+  python -m benchmarks.proof.diagnosis score next && python -m benchmarks.proof.diagnosis page next
+  python -m benchmarks.proof.diagnosis score tenth                 # again from its record"""
 
 
 def make_parser() -> argparse.ArgumentParser:
