@@ -26,5 +26,6 @@ void bind_diagnosis_result(pybind11::module_& module);
 void bind_diagnosis(pybind11::module_& module);
 void bind_player(pybind11::module_& module);
 void bind_robot(pybind11::module_& module);
+void bind_learn(pybind11::module_& module);
 
 }  // namespace diabolo::python

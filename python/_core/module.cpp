@@ -27,6 +27,7 @@ PYBIND11_MODULE(_core, module) {
   bind_diagnosis(module);
   bind_player(module);
   bind_robot(module);
+  bind_learn(module);
   bind_pickles();
   check_arguments(module);
   pybind11::register_local_exception_translator([](std::exception_ptr thrown) {

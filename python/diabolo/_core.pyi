@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Arena', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -3542,6 +3542,78 @@ class RobotLimits:
         ...
     def __setstate__(self, arg0: tuple) -> None:
         ...
+class HandLimits:
+    """
+    What the tips may do under an agent.
+    
+    speed [m/s] and acceleration [m/s^2] of either tip along each axis; gap [m]: between the tips along y;
+    string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
+    left half (along y) the left tip keeps to, and the right tip to the other.
+    """
+    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None:
+        ...
+    @property
+    def acceleration(self) -> float:
+        ...
+    @property
+    def centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def gap(self) -> float:
+        ...
+    @property
+    def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def speed(self) -> float:
+        ...
+    @property
+    def string_margin(self) -> float:
+        ...
+class Arena:
+    """
+    Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites.
+    """
+    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ...) -> None:
+        ...
+    def pose(self, environment: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+        """
+        State of the diabolo, left tip and right tip.
+        """
+    def reset(self, environment: typing.SupportsInt | typing.SupportsIndex, state: State | None = None, goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, model: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
+        """
+        Begins its next episode, with what is given in place of what is drawn.
+        """
+    def seed(self, environment: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Its episodes begin anew with this seed.
+        """
+    def step(self, actions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        Plays a period. actions: shares of the tips' accelerations, shape (count, 6).
+        """
+    @property
+    def count(self) -> int:
+        ...
+    @property
+    def final_observations(self) -> numpy.ndarray:
+        """
+        Of episodes that the same step has reset.
+        """
+    @property
+    def observations(self) -> numpy.ndarray:
+        """
+        float32, shape (count, 25).
+        """
+    @property
+    def rewards(self) -> numpy.ndarray:
+        ...
+    @property
+    def terminated(self) -> numpy.ndarray:
+        ...
+    @property
+    def truncated(self) -> numpy.ndarray:
+        ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """
     The figure of that name from a pose of the tips and a state of the diabolo.
@@ -3614,6 +3686,10 @@ def model_for(model: Model, recording: Recording) -> Model:
     """
     See diabolo.model_for.
     """
+def observation_infos() -> list:
+    """
+    What an agent sees: name, unit, size and meaning.
+    """
 def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
     """
     See diabolo.plan.
@@ -3673,6 +3749,10 @@ def stretch_starts(recording: Recording) -> list:
 def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> float:
     """
     See diabolo.success_rate.
+    """
+def task_infos() -> list:
+    """
+    What can be played: name, meaning, reward, seconds and goal of each.
     """
 def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list[Recording], list[str]]:
     """

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "diabolo/learn/flight_tasks.hpp"
+#include "diabolo/learn/string_tasks.hpp"
+#include "diabolo/text/shown.hpp"
+
+namespace diabolo {
+
+/// A task chosen at run time.
+struct Task {
+  const TaskInfo* info;
+  Worth (*judge)(const Moment&, Memory&);
+};
+
+namespace learn_detail {
+
+template <class... Tasks>
+constexpr std::array<Task, sizeof...(Tasks)> listed() {
+  return {Task{&Tasks::kInfo, &Tasks::judge}...};
+}
+
+}  // namespace learn_detail
+
+/// All tasks, the easy ones first. A new one is a struct with kInfo and judge(), and its name here.
+inline constexpr std::array kTasks =
+    learn_detail::listed<HoldTask, SwingTask, SpinUpTask, HopTask, ThrowAndCatchTask>();
+
+/// The task of that name. Throws std::invalid_argument where there is none.
+inline const Task& task_named(std::string_view name) {
+  std::string known;
+  for (const Task& task : kTasks) {
+    if (task.info->name == name) return task;
+    known += (known.empty() ? "" : ", ") + std::string(task.info->name);
+  }
+  throw std::invalid_argument("task: found " + shown(name) + "; expected one of " + known);
+}
+
+}  // namespace diabolo

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/batch/lanes.hpp"
+#include "diabolo/learn/episode.hpp"
+#include "diabolo/math/worker_pool.hpp"
+#include "diabolo/model.hpp"
+#include "diabolo/plan/hang_at_rest.hpp"
+
+namespace diabolo {
+
+/// What happens once an episode is over (the words of Gymnasium).
+enum class Autoreset {
+  kNextStep,  ///< the next step resets it, whatever its action
+  kSameStep,  ///< the step that ends it resets it; what it ended with is kept aside
+  kDisabled,  ///< its owner resets it; until then its steps do nothing
+};
+
+inline constexpr std::array<std::string_view, 3> names_of(Autoreset) {
+  return {"next_step", "same_step", "disabled"};
+}
+
+/// What is played in an arena.
+struct ArenaOptions {
+  std::string task = "Hold";
+  std::size_t count = 1;  ///< of environments
+  double period = 0.01;   ///< between actions [s]
+  int steps = 10;         ///< of the simulation in a period
+  Autoreset autoreset = Autoreset::kNextStep;
+  int threads = 1;  ///< 0: one for every processor
+  HandLimits limits{};
+
+  /// Throws std::invalid_argument naming what is out of its range.
+  void validate() const {
+    if (count < 1) throw std::invalid_argument("count: 0; expected at least one environment");
+    if (!(period >= 1e-3 && period <= 0.1))
+      throw std::invalid_argument("period: " + shown(period) + " s; expected 0.001 to 0.1 s");
+    if (steps < 1 || steps > 1000)
+      throw std::invalid_argument("steps: " + std::to_string(steps) + "; expected 1 to 1000");
+  }
+};
+
+/// What an episode begins with in place of what it would draw.
+struct Given {
+  std::optional<State<double>> state{};
+  std::optional<Goal> goal{};
+  std::optional<std::size_t> model{};  ///< its number
+};
+
+/// Environments in which agents play, side by side: actions in, observations and rewards out. Each plays the
+/// same bits alone and among others, with any number of threads. A step takes no memory.
+class Arena {
+ public:
+  // One entry (observations: kObservationSize) for each environment, written by reset() and step().
+  std::vector<float> observations, final_observations;
+  std::vector<double> rewards;
+  std::vector<std::uint8_t> terminated, truncated;
+
+  /// Each episode draws its model from `models`, which have the same rules. Throws std::invalid_argument.
+  Arena(const ArenaOptions& options, std::vector<Model> models, const BatchKernel& kernel)
+      : observations(options.count * kObservationSize),
+        final_observations(observations),
+        rewards(options.count),
+        terminated(options.count),
+        truncated(options.count),
+        options_(options),
+        task_(task_named(options.task)),
+        models_(std::move(models)),
+        kernel_(kernel),
+        workers_(options.threads),
+        episodes_((options.validate(), options.count)),
+        scratch_(workers_.threads(), std::vector<Tips<double>>(kMostLanes * tip_count())) {
+    if (models_.empty()) throw std::invalid_argument("models: none; expected at least one");
+    limits().validate();
+    for (const Model& model : models_) {
+      if (!model.parameters.same_rules(models_.front().parameters) ||
+          !same_laws(model.effects.get<FormulaLaws>(), models_.front().effects.get<FormulaLaws>()))
+        throw std::invalid_argument("models: they differ in rules or formulas; expected the same in all");
+      const FullPredictor<double> predictor(model.parameters, model.effects);
+      hanging_.push_back(hang_at_rest(predictor, home(model), 0.5 * (task().least_spin + task().most_spin)));
+    }
+    for (std::size_t i = 0; i < episodes_.size(); ++i) episodes_[i].seed = i;
+  }
+
+  const ArenaOptions& options() const { return options_; }
+  const HandLimits& limits() const { return options_.limits; }
+  const TaskInfo& task() const { return *task_.info; }
+  std::size_t count() const { return episodes_.size(); }
+  const Episode& episode(std::size_t i) const { return episodes_.at(i); }
+  const Model& model_of(std::size_t i) const { return models_[episodes_.at(i).model]; }
+
+  /// Environment `i` begins its episodes anew with this seed.
+  void seed(std::size_t i, std::uint64_t seed) {
+    episodes_.at(i).seed = seed;
+    episodes_[i].number = 0;
+  }
+
+  /// Begins the next episode of environment `i`, with what `given` has in place of what is drawn. Throws
+  /// std::invalid_argument where a number of it is not finite, or there is no such model.
+  void reset(std::size_t i, const Given& given = {}) {
+    Episode& episode = episodes_.at(i);
+    if (given.model && *given.model >= models_.size())
+      throw std::invalid_argument("model: found " + std::to_string(*given.model) + "; expected less than " +
+                                  std::to_string(models_.size()) + ", the number of models");
+    for (const double number : given.goal.value_or(Goal{}))
+      if (!std::isfinite(number)) throw std::invalid_argument("goal: not finite; expected numbers");
+    if (given.state && !is_finite_state(*given.state))
+      throw std::invalid_argument("state: not finite; expected numbers");
+    begin(episode);
+    if (given.model) episode.model = *given.model;
+    if (given.goal) episode.goal = *given.goal;
+    if (given.state) episode.state = *given.state;
+    observe_into(observations, i);
+  }
+
+  /// Plays a period. `actions`: 6 shares of the tips' acceleration (see move_hands) for each environment.
+  /// Throws std::invalid_argument, before anything moves, where one is not a number.
+  void step(const float* actions) {
+    for (std::size_t k = 0; k < 6 * count(); ++k)
+      if (!std::isfinite(actions[k]))
+        throw std::invalid_argument("actions, environment " + std::to_string(k / 6) + ", number " +
+                                    std::to_string(k % 6) + ": not finite; expected -1 to 1");
+    const std::size_t lanes = static_cast<std::size_t>(kernel_.lanes), groups = (count() + lanes - 1) / lanes;
+    workers_.run([&](std::size_t thread) {
+      for (std::size_t group = thread; group < groups; group += workers_.threads())
+        play_group(group * lanes, std::min(lanes, count() - group * lanes), actions, scratch_[thread]);
+    });
+  }
+
+ private:
+  std::size_t tip_count() const { return static_cast<std::size_t>(options_.steps) + 1; }
+
+  /// Where the tips are at first, left over right, but for the shift that each episode draws.
+  TipColumn<double> home(const Model& model) const {
+    TipColumn<double> tips;
+    const double aside = std::min(0.4 * limits().half.y(), 0.2 * model.parameters.string_length);
+    const Vector3<double> apart(0.0, std::max(aside, 0.5 * limits().gap), 0.0);
+    tips << limits().centre + apart, limits().centre - apart;
+    return tips;
+  }
+
+  void begin(Episode& episode) const {
+    Draw draw(episode.seed, episode.number);
+    const std::uint64_t seed = episode.seed, number = episode.number + 1;
+    episode = {};
+    episode.seed = seed;
+    episode.number = number;
+    episode.model = draw.index(models_.size());
+    const Vector3<double>& half = limits().half;
+    const Vector3<double> shift(0.0, draw.uniform(-0.2, 0.2) * half.y(), draw.uniform(-0.3, 0.3) * half.z());
+    const TipColumn<double> tips = home(models_[episode.model]);
+    episode.hands.position = {tips.head<3>() + shift, tips.tail<3>() + shift};
+    episode.state = hanging_[episode.model];
+    episode.state.position += shift;
+    episode.state.spin = draw.uniform(task().least_spin, task().most_spin);
+    episode.rest = episode.state.position;
+    for (std::size_t k = 0; k < kMostGoalNumbers; ++k)
+      episode.goal[k] = draw.uniform(task().goal[k].low, task().goal[k].high);
+  }
+
+  void observe_into(std::vector<float>& to, std::size_t i) {
+    observe(episodes_[i], limits().centre, to.data() + kObservationSize * i);
+  }
+
+  /// Environments [first, first + used) play a period, a lane each; unused lanes repeat the last one.
+  void play_group(std::size_t first, std::size_t used, const float* actions,
+                  std::vector<Tips<double>>& tips) {
+    State<double> after[kMostLanes];
+    LaneBlock block{};
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(kernel_.lanes); ++lane) {
+      const std::size_t i = first + std::min(lane, used - 1);
+      Episode& episode = episodes_[i];
+      Tips<double>* path = tips.data() + lane * tip_count();
+      if (lane < used) {
+        const Hands begun = episode.hands;
+        if (!episode.over)
+          move_hands(episode.hands, actions + 6 * i, limits(),
+                     models_[episode.model].parameters.string_length, options_.period);
+        const double end = static_cast<double>(options_.steps);
+        for (std::size_t k = 0; k < tip_count(); ++k) {
+          path[k] = tips_between(begun, episode.hands, static_cast<double>(k) / end, options_.period);
+          path[k].time = options_.period * (episode.periods + static_cast<double>(k) / end);
+        }
+      } else {
+        path = tips.data() + (used - 1) * tip_count();
+      }
+      after[lane] = episode.state;
+      block.parameters[lane] = &models_[episode.model].parameters;
+      block.effects[lane] = &models_[episode.model].effects;
+      block.states[lane] = &after[lane];
+      block.tips[lane] = path;
+    }
+    block.dt = options_.period / options_.steps;
+    block.steps = static_cast<std::size_t>(options_.steps);
+    kernel_.run(block);
+    for (std::size_t lane = 0; lane < used; ++lane) conclude(first + lane, after[lane]);
+  }
+
+  /// Takes over what environment `i` played.
+  void conclude(std::size_t i, const State<double>& after) {
+    Episode& episode = episodes_[i];
+    rewards[i] = 0.0;
+    terminated[i] = truncated[i] = 0;
+    if (episode.over) {
+      if (options_.autoreset == Autoreset::kNextStep) begin(episode);
+      observe_into(observations, i);
+      return;
+    }
+    const Parameters<double>& parameters = models_[episode.model].parameters;
+    const State<double> before = std::exchange(episode.state, after);
+    const bool failed = !is_finite_state(after);
+    if (failed) episode.state = before;
+    ++episode.periods;
+    Worth worth;
+    if (!failed)
+      worth = task_.judge({.before = before,
+                           .after = after,
+                           .hands = episode.hands,
+                           .centre = limits().centre,
+                           .rest = episode.rest,
+                           .gravity = parameters.gravity,
+                           .period = options_.period,
+                           .goal = episode.goal},
+                          episode.memory);
+    const bool lost = failed || dropped(episode, limits().centre, parameters.string_length);
+    rewards[i] = worth.reward - (lost ? kDropCosts : 0.0);
+    terminated[i] = lost || worth.achieved;
+    truncated[i] =
+        !terminated[i] && episode.periods * options_.period > task().seconds - 0.5 * options_.period;
+    episode.over = terminated[i] || truncated[i];
+    if (episode.over && options_.autoreset == Autoreset::kSameStep) {
+      observe_into(final_observations, i);
+      begin(episode);
+    }
+    observe_into(observations, i);
+  }
+
+  static bool is_finite_state(const State<double>& s) {
+    return s.position.allFinite() && s.velocity.allFinite() && std::isfinite(s.spin) &&
+           s.string_acceleration.allFinite();
+  }
+
+  static constexpr double kDropCosts = 1.0;
+
+  ArenaOptions options_;
+  const Task& task_;
+  std::vector<Model> models_;
+  std::vector<State<double>> hanging_;  ///< below the tips at home, for each model
+  BatchKernel kernel_;
+  WorkerPool workers_;
+  std::vector<Episode> episodes_;
+  std::vector<std::vector<Tips<double>>> scratch_;  ///< of each thread
+};
+
+}  // namespace diabolo

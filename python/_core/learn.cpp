@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/batch/kernels.hpp"
+#include "diabolo/learn/arena.hpp"
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "choices.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using namespace py::literals;
+using Actions = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+std::unique_ptr<Arena> make_arena(const std::string& task, std::vector<Model> models, std::size_t count,
+                                  double period, int steps, const std::string& autoreset, int threads,
+                                  const HandLimits& limits) {
+  const ArenaOptions options{.task = task,
+                             .count = count,
+                             .period = period,
+                             .steps = steps,
+                             .autoreset = choice_from_python<Autoreset>(autoreset, "autoreset"),
+                             .threads = threads,
+                             .limits = limits};
+  return std::make_unique<Arena>(options, std::move(models), best_batch_kernel());
+}
+
+/// What an arena writes, an entry for each environment: not copied, and no longer lived than the arena.
+template <class T>
+py::array view_of(const py::object& arena, std::vector<T>& numbers, py::ssize_t count) {
+  const auto width = static_cast<py::ssize_t>(numbers.size()) / count;
+  return width == 1 ? py::array_t<T>({count}, numbers.data(), arena)
+                    : py::array_t<T>({count, width}, numbers.data(), arena);
+}
+
+template <class Member>
+auto viewed(Member member) {
+  return [member](const py::object& self) {
+    auto& arena = self.cast<Arena&>();
+    return view_of(self, arena.*member, static_cast<py::ssize_t>(arena.count()));
+  };
+}
+
+void step(Arena& arena, const Actions& actions) {
+  expect_shape(actions, "actions", {static_cast<py::ssize_t>(arena.count()), 6});
+  const float* const from = actions.data();
+  const py::gil_scoped_release unlocked;
+  arena.step(from);
+}
+
+std::size_t checked(const Arena& arena, std::size_t i) {
+  if (i >= arena.count())
+    throw std::invalid_argument("environment: " + std::to_string(i) + "; expected less than " +
+                                std::to_string(arena.count()));
+  return i;
+}
+
+void reset(Arena& arena, std::size_t i, const std::optional<State<double>>& state,
+           const std::optional<std::vector<double>>& goal, const std::optional<std::size_t>& model) {
+  Given given{.state = state, .goal = {}, .model = model};
+  if (goal) {
+    const auto& wanted = arena.task().goal;
+    const auto size = std::ranges::count_if(wanted, [](const GoalInfo& info) { return !info.name.empty(); });
+    if (static_cast<std::ptrdiff_t>(goal->size()) != size)
+      throw std::invalid_argument("goal: " + std::to_string(goal->size()) + " numbers; expected " +
+                                  std::to_string(size));
+    given.goal = Goal{};
+    std::ranges::copy(*goal, given.goal->begin());
+  }
+  arena.reset(checked(arena, i), given);
+}
+
+py::tuple pose(const Arena& arena, std::size_t i) {
+  const Episode& episode = arena.episode(checked(arena, i));
+  return py::make_tuple(episode.state, episode.hands.position[0], episode.hands.position[1]);
+}
+
+py::list task_infos() {
+  py::list tasks;
+  for (const Task& task : kTasks) {
+    py::list goal;
+    for (const GoalInfo& number : task.info->goal)
+      if (!number.name.empty())
+        goal.append(py::dict("name"_a = number.name, "unit"_a = number.unit, "low"_a = number.low,
+                             "high"_a = number.high, "meaning"_a = number.meaning));
+    tasks.append(py::dict("name"_a = task.info->name, "meaning"_a = task.info->meaning,
+                          "reward"_a = task.info->reward, "seconds"_a = task.info->seconds, "goal"_a = goal,
+                          "spin"_a = py::make_tuple(task.info->least_spin, task.info->most_spin)));
+  }
+  return tasks;
+}
+
+py::list observation_infos() {
+  py::list infos;
+  for (const ObservationInfo& info : kObservations)
+    infos.append(py::dict("name"_a = info.name, "unit"_a = info.unit, "size"_a = info.size,
+                          "meaning"_a = info.meaning));
+  return infos;
+}
+
+}  // namespace
+
+void bind_learn(py::module_& module) {
+  const HandLimits usual;
+  py::class_<HandLimits>(module, "HandLimits",
+                         R"(What the tips may do under an agent.
+
+speed [m/s] and acceleration [m/s^2] of either tip along each axis; gap [m]: between the tips along y;
+string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
+left half (along y) the left tip keeps to, and the right tip to the other.)")
+      .def(py::init([](double speed, double acceleration, double gap, double string_margin,
+                       const Vector3<double>& centre, const Vector3<double>& half) {
+             const HandLimits limits{speed, acceleration, gap, string_margin, centre, half};
+             limits.validate();
+             return limits;
+           }),
+           "speed"_a = usual.speed, "acceleration"_a = usual.acceleration, "gap"_a = usual.gap,
+           "string_margin"_a = usual.string_margin, "centre"_a = usual.centre, "half"_a = usual.half)
+      .def_readonly("speed", &HandLimits::speed)
+      .def_readonly("acceleration", &HandLimits::acceleration)
+      .def_readonly("gap", &HandLimits::gap)
+      .def_readonly("string_margin", &HandLimits::string_margin)
+      .def_readonly("centre", &HandLimits::centre)
+      .def_readonly("half", &HandLimits::half);
+  py::class_<Arena>(module, "Arena",
+                    "Environments side by side, in the compiled core: what diabolo.envs is made of. Its "
+                    "arrays are its own memory, which each step overwrites.")
+      .def(py::init(&make_arena), "task"_a, "models"_a, "count"_a = 1, "period"_a = 0.01, "steps"_a = 10,
+           "autoreset"_a = "next_step", "threads"_a = 1, py::arg_v("limits", usual, "HandLimits()"))
+      .def(
+          "seed",
+          [](Arena& arena, std::size_t i, std::uint64_t seed) { arena.seed(checked(arena, i), seed); },
+          "environment"_a, "seed"_a, "Its episodes begin anew with this seed.")
+      .def("reset", &reset, "environment"_a, "state"_a = py::none(), "goal"_a = py::none(),
+           "model"_a = py::none(), "Begins its next episode, with what is given in place of what is drawn.")
+      .def("step", &step, "actions"_a,
+           "Plays a period. actions: shares of the tips' accelerations, shape (count, 6).")
+      .def("pose", &pose, "environment"_a, "State of the diabolo, left tip and right tip.")
+      .def_property_readonly("count", &Arena::count)
+      .def_property_readonly("observations", viewed(&Arena::observations), "float32, shape (count, 25).")
+      .def_property_readonly("final_observations", viewed(&Arena::final_observations),
+                             "Of episodes that the same step has reset.")
+      .def_property_readonly("rewards", viewed(&Arena::rewards))
+      .def_property_readonly("terminated", viewed(&Arena::terminated))
+      .def_property_readonly("truncated", viewed(&Arena::truncated));
+  module.def("task_infos", &task_infos,
+             "What can be played: name, meaning, reward, seconds, goal and first spin of each.");
+  module.def("observation_infos", &observation_infos, "What an agent sees: name, unit, size and meaning.");
+}
+
+}  // namespace diabolo::python

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""Environments for Gymnasium: `gymnasium.make("Diabolo/Hold-v0")` once this is imported.
+
+import gymnasium, diabolo.envs
+
+env = gymnasium.make("Diabolo/SpinUp-v0")
+many = gymnasium.make_vec("Diabolo/SpinUp-v0", num_envs=1024, vectorization_mode="vector_entry_point")
+"""
+
+from __future__ import annotations
+
+from gymnasium.envs.registration import register
+
+from .._core import HandLimits, observation_infos, task_infos
+from .single import DiaboloEnv
+from .vector import DiaboloVectorEnv
+
+__all__ = ["TASKS", "DiaboloEnv", "DiaboloVectorEnv", "HandLimits", "observation_infos", "task_infos"]
+
+TASKS: tuple[str, ...] = tuple(info["name"] for info in task_infos())
+"""What can be played, the easy ones first."""
+
+for _task in TASKS:
+    register(
+        f"Diabolo/{_task}-v0",
+        entry_point="diabolo.envs.single:DiaboloEnv",
+        vector_entry_point="diabolo.envs.vector:DiaboloVectorEnv",
+        kwargs={"task": _task},
+    )

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""What the environments have in common: spaces, models, and options of a reset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from .._core import Model, Parameters, State, StringFriction, observation_infos
+from ..checks import instance_of, list_of, number, shown, whole_number
+
+AnyModels: TypeAlias = Model | Parameters | Sequence[Model | Parameters] | None
+
+ACTION = Box(-1.0, 1.0, (6,), np.float32)
+"""Shares of the tips' largest accelerations along x, y and z: left, then right."""
+OBSERVATION = Box(-1e3, 1e3, (sum(info["size"] for info in observation_infos()),), np.float32)
+"""See diabolo.envs.observation_infos()."""
+
+OPTIONS = ("state", "goal", "model")
+
+
+def usual_model() -> Model:
+    """A string that rubs on the axle, so that the spin can be driven."""
+    return Model(Parameters(), name="rubbing", string_friction=StringFriction(coefficient=0.3))
+
+
+def models_of(given: AnyModels) -> list[Model]:
+    """Those that episodes are played with; each draws one."""
+    if given is None:
+        return [usual_model()]
+    models = list_of("model", given, (Model, Parameters), least=1)
+    return [one if isinstance(one, Model) else Model(one) for one in models]
+
+
+def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:
+    """The options of a reset, checked: state (a State), goal (numbers), model (which one, a number)."""
+    options = dict(given or {})
+    if unknown := sorted(map(str, options.keys() - {*OPTIONS})):
+        raise ValueError(f"options: found {shown(unknown[0])}; expected {', '.join(OPTIONS)}")
+    if options.get("state") is not None:
+        instance_of("options, state", options["state"], State)
+    if options.get("model") is not None:
+        options["model"] = whole_number("options, model", options["model"], 0, models - 1)
+    if options.get("goal") is not None:
+        options["goal"] = [number("options, goal", one) for one in np.atleast_1d(options["goal"])]
+    return options

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: MIT
+"""Environments: what Gymnasium expects of them, laws of episodes, and bad input."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import diabolo
+import numpy as np
+import pytest
+from diabolo import Model, Parameters, State, StringFriction
+
+gymnasium = pytest.importorskip("gymnasium")
+from diabolo.envs import TASKS, DiaboloEnv, DiaboloVectorEnv, HandLimits, observation_infos, task_infos  # noqa: E402
+from gymnasium.utils.env_checker import check_env  # noqa: E402
+from gymnasium.vector import AutoresetMode  # noqa: E402
+
+STILL = np.zeros(6, np.float32)
+
+
+def actions(count: int, steps: int, seed: int = 2410) -> Any:
+    return np.random.default_rng(seed).uniform(-1.0, 1.0, (steps, count, 6)).astype(np.float32)
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_gymnasium_finds_nothing_wrong(task: str) -> None:
+    env = gymnasium.make(f"Diabolo/{task}-v0")
+    check_env(env.unwrapped, skip_render_check=True)
+    seconds = next(info["seconds"] for info in task_infos() if info["name"] == task)
+    env.reset(seed=1)
+    for _ in range(round(seconds / 0.01)):
+        *_, terminated, truncated, _ = env.step(STILL)
+        if terminated:
+            break
+    assert terminated or truncated
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_an_environment_plays_the_same_alone_and_among_others(task: str) -> None:
+    models = [Model(Parameters(), string_friction=StringFriction(coefficient=mu)) for mu in (0.1, 0.3)]
+    many = DiaboloVectorEnv(5, task, models, threads=2, autoreset_mode=AutoresetMode.SAME_STEP)
+    one = DiaboloEnv(task, models)
+    first, _ = many.reset(seed=30)
+    alone, _ = one.reset(seed=33)
+    np.testing.assert_array_equal(first[3], alone)
+    for given in actions(5, 900):
+        observations, rewards, terminated, truncated, infos = many.step(given)
+        seen, reward, over, cut, _ = one.step(given[3])
+        assert (reward, over, cut) == (rewards[3], terminated[3], truncated[3])
+        if over or cut:
+            np.testing.assert_array_equal(infos["final_obs"][3], seen)
+            seen, _ = one.reset()
+        np.testing.assert_array_equal(observations[3], seen)
+
+
+def test_the_next_step_resets_and_counts_for_nothing() -> None:
+    env = DiaboloVectorEnv(2, "Hold", autoreset_mode="NextStep")
+    first, _ = env.reset(seed=4)
+    for _ in range(500):
+        observations, _, terminated, truncated, infos = env.step(np.zeros((2, 6)))
+    assert truncated.all() and not terminated.any() and infos == {}
+    last = observations
+    observations, rewards, terminated, truncated, _ = env.step(np.ones((2, 6)))
+    assert not truncated.any() and not rewards.any()
+    assert not np.array_equal(observations, last)
+    np.testing.assert_array_equal(observations[:, 16:22], 0.0)  # tips at rest: the action was not played
+    assert not np.array_equal(observations, first)  # a fresh episode, not the first again
+
+
+def test_without_autoreset_only_those_of_a_mask_begin_anew() -> None:
+    env = DiaboloVectorEnv(3, "Hold", autoreset_mode=AutoresetMode.DISABLED)
+    env.reset(seed=5)
+    for given in actions(3, 20):
+        before, *_ = env.step(given)
+    after, _ = env.reset(options={"reset_mask": np.array([False, True, False])})
+    np.testing.assert_array_equal(after[[0, 2]], before[[0, 2]])
+    assert not np.array_equal(after[1], before[1])
+
+
+def test_the_same_seed_is_the_same_episode() -> None:
+    env = DiaboloEnv("ThrowAndCatch")
+    first, second, again = env.reset(seed=7)[0], env.reset()[0], env.reset(seed=7)[0]
+    np.testing.assert_array_equal(first, again)
+    assert not np.array_equal(first, second)
+    assert not np.array_equal(DiaboloEnv("Hold").reset()[0], DiaboloEnv("Hold").reset()[0])
+
+
+def test_observations_are_what_their_table_says() -> None:
+    env = DiaboloEnv("ThrowAndCatch")
+    place = State([0.1, 0.2, 2.0], [0.3, 0.4, 0.5], 90.0, "flying")
+    seen, _ = env.reset(seed=1, options={"state": place, "goal": [0.6, -0.1]})
+    parts, begin = {}, 0
+    for info in observation_infos():
+        parts[info["name"]] = seen[begin : begin + info["size"]]
+        begin += info["size"]
+    assert begin == env.observation_space.shape[0]
+    centre = HandLimits().centre
+    middle = centre + 0.5 * (parts["left"] + parts["right"])
+    np.testing.assert_allclose(parts["diabolo"] + middle, [0.1, 0.2, 2.0], atol=1e-6)
+    np.testing.assert_allclose(parts["velocity"], [0.3, 0.4, 0.5], atol=1e-6)
+    assert parts["spin"] == pytest.approx([0.9])
+    np.testing.assert_array_equal(parts["string"], [0, 0, 1])
+    np.testing.assert_allclose(parts["goal"], [0.6, -0.1], atol=1e-6)
+
+
+def test_an_episode_is_what_a_rollout_of_the_same_tips_gives() -> None:
+    model = Model(Parameters(), string_friction=StringFriction(coefficient=0.3))
+    env = DiaboloEnv("SpinUp", model)
+    env.reset(seed=3)
+    state, left, right = env._arena.pose(0)
+    # A push of the right tip upwards: its height is 0.5 a t^2, on a grid of a millisecond.
+    time = np.arange(201) / 1000.0
+    lift = 0.5 * 0.2 * HandLimits().acceleration * time**2
+    rights = right + lift[:, None] * [0.0, 0.0, 1.0]
+    tips = diabolo.TipMotion(time, np.tile(left, (201, 1)), rights, interpolation="spline")
+    start = [*state.position, *state.velocity, state.spin]
+    expected = diabolo.rollout(model, start, tips, steps=200, string_state=state.string_state).states[-1]
+    for _ in range(20):
+        env.step([0.0, 0.0, 0.0, 0.0, 0.0, 0.2])
+    end = env._arena.pose(0)[0]
+    np.testing.assert_allclose(end.position, expected[:3], atol=2e-4)
+    assert end.spin == pytest.approx(expected[6], abs=0.05)
+
+
+def test_memory_is_handed_out_or_copied_as_asked() -> None:
+    shared, copied = (DiaboloVectorEnv(2, "Hold", copy=copy) for copy in (False, True))
+    kept = [env.reset(seed=1)[0] for env in (shared, copied)]
+    before = [one.copy() for one in kept]
+    for env in (shared, copied):
+        env.step(np.ones((2, 6)))
+    assert not np.array_equal(kept[0], before[0])
+    np.testing.assert_array_equal(kept[1], before[1])
+    del shared
+    assert np.isfinite(kept[0]).all()  # an array keeps what it looks into
+
+
+def test_wild_actions_stay_finite_and_within_limits() -> None:
+    env = DiaboloVectorEnv(64, "ThrowAndCatch", threads=1)
+    env.reset(seed=11)
+    random = np.random.default_rng(2411)
+    limits = HandLimits()
+    held = np.zeros((64, 6), np.float32)
+    for _ in range(2000):
+        again = random.random(64) < 0.1
+        held[again] = random.choice([-1e30, -1.0, 0.0, 1.0, 1e30], (again.sum(), 6))
+        observations, rewards, *_ = env.step(held)
+        assert np.isfinite(observations).all() and np.isfinite(rewards).all()
+        tips = observations[:, 10:16].reshape(-1, 2, 3)
+        assert (np.abs(tips) <= limits.half + 1e-6).all()
+        assert (np.linalg.norm(tips[:, 0] - tips[:, 1], axis=1) < Parameters().string_length).all()
+
+
+@pytest.mark.parametrize(
+    ("call", "complaint"),
+    [
+        (lambda: DiaboloEnv("Fly"), 'task: found "Fly"; expected one of Hold, Swing'),
+        (lambda: DiaboloEnv(model=3), "model: "),
+        (lambda: DiaboloEnv(model=[]), "model: "),
+        (lambda: DiaboloEnv(period=1.0), "period: 1 s; expected 0.001 to 0.1 s"),
+        (lambda: DiaboloEnv(steps=0), "steps: 0; expected 1 to 1000"),
+        (lambda: DiaboloEnv(render_mode="human"), "render_mode: 'human'; expected None"),
+        (lambda: HandLimits(speed=-1.0), "limits, speed: -1; expected a positive number"),
+        (lambda: DiaboloVectorEnv(0), "num_envs: 0; expected a whole number from 1"),
+        (
+            lambda: DiaboloVectorEnv(2, autoreset_mode="soon"),
+            "autoreset_mode: 'soon'; expected one of 'NextStep'",
+        ),
+        (lambda: DiaboloVectorEnv(2, threads=-1), "threads: -1"),
+        (lambda: DiaboloVectorEnv(2).reset(seed=[1]), "seed: 1 seeds; expected 2"),
+        (lambda: DiaboloVectorEnv(2).reset(seed=-1), "seed: -1"),
+        (lambda: DiaboloVectorEnv(2).reset(options={"reset_mask": [1, 0]}), "options, reset_mask: "),
+        (
+            lambda: DiaboloEnv().reset(options={"speed": 1}),
+            "options: found 'speed'; expected state, goal, model",
+        ),
+        (lambda: DiaboloEnv().reset(options={"model": 1}), "options, model: 1"),
+        (lambda: DiaboloEnv().reset(options={"goal": [1.0]}), "goal: 1 numbers; expected 2"),
+        (lambda: DiaboloEnv("SpinUp").reset(options={"goal": [1.0]}), "goal: 1 numbers; expected 0"),
+        (lambda: DiaboloEnv().reset(options={"goal": [np.nan, 0.0]}), "goal: not finite"),
+    ],
+)
+def test_bad_input_is_told_in_one_sentence(call: Any, complaint: str) -> None:
+    with pytest.raises(ValueError) as caught:
+        call()
+    assert complaint in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_bad_actions_are_refused_before_anything_moves() -> None:
+    env = DiaboloVectorEnv(2, "Hold")
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(np.zeros((2, 6)))
+    before, _ = env.reset(seed=1)
+    bad = np.zeros((2, 6), np.float32)
+    bad[1, 2] = np.nan
+    with pytest.raises(ValueError, match="actions, environment 1, number 2: not finite; expected -1 to 1"):
+        env.step(bad)
+    with pytest.raises(ValueError, match=r"actions: .*\(2, 6\)"):
+        env.step(np.zeros((3, 6)))
+    after, *_ = env.step(np.zeros((2, 6)))
+    np.testing.assert_allclose(after, before, atol=0.05)
+
+
+def test_the_page_has_what_the_code_says() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "environments.md").read_text(encoding="utf-8")
+    for task in task_infos():
+        reward = task["reward"].replace("|", r"\|")
+        assert f"| `{task['name']}` | {task['meaning']} | {task['seconds']:g} s |" in page
+        assert f"| `{task['name']}` | {reward} |" in page
+        for number in task["goal"]:
+            assert f"`{number['name']}` {number['low']:g} to {number['high']:g} {number['unit']}" in page
+        low, high = task["spin"]
+        assert f"{low:g} to {high:g} rad/s" in page
+    for info in observation_infos():
+        assert f"| `{info['name']}` | {info['size']} | {info['unit']} | {info['meaning']} |" in page
+
+
+def test_the_package_needs_no_gymnasium() -> None:
+    script = "import sys; sys.modules['gymnasium'] = None; import diabolo; print(diabolo.__version__)"
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, check=True).stdout
