@@ -173,6 +173,22 @@ TEST_CASE("seeds decide episodes") {
   CHECK(drawn(1) != drawn(2));
 }
 
+TEST_CASE("an episode begins with what is given, and draws the rest") {
+  Model longer = rubbing();
+  longer.parameters.string_length = 1.6;
+  Arena one = arena({.task = "Hold"}, {rubbing(), longer});
+  const auto begun = [&](std::size_t model) {
+    one.seed(0, 5);
+    one.reset(0, {.goal = Goal{0.1, 0.2}, .model = model});
+    return one.episode(0);
+  };
+  const Episode first = begun(0), second = begun(1);
+  CHECK(first.goal == Goal{0.1, 0.2});
+  CHECK(first.state.spin == second.state.spin);
+  CHECK(second.state.position.z() < first.state.position.z() - 0.05);  // it hangs from its own string
+  CHECK(second.rest == second.state.position);
+}
+
 TEST_CASE("what cannot be played is refused before anything moves") {
   Arena one = arena({.count = 2});
   one.reset(0);

@@ -116,8 +116,7 @@ class Arena {
       if (!std::isfinite(number)) throw std::invalid_argument("goal: not finite; expected numbers");
     if (given.state && !is_finite_state(*given.state))
       throw std::invalid_argument("state: not finite; expected numbers");
-    begin(episode);
-    if (given.model) episode.model = *given.model;
+    begin(episode, given.model);
     if (given.goal) episode.goal = *given.goal;
     if (given.state) episode.state = *given.state;
     observe_into(observations, i);
@@ -149,13 +148,14 @@ class Arena {
     return tips;
   }
 
-  void begin(Episode& episode) const {
+  void begin(Episode& episode, const std::optional<std::size_t>& model = {}) const {
     Draw draw(episode.seed, episode.number);
     const std::uint64_t seed = episode.seed, number = episode.number + 1;
     episode = {};
     episode.seed = seed;
     episode.number = number;
-    episode.model = draw.index(models_.size());
+    const std::size_t drawn = draw.index(models_.size());
+    episode.model = model.value_or(drawn);
     const Vector3<double>& half = limits().half;
     const Vector3<double> shift(0.0, draw.uniform(-0.2, 0.2) * half.y(), draw.uniform(-0.3, 0.3) * half.z());
     const TipColumn<double> tips = home(models_[episode.model]);
