@@ -148,6 +148,10 @@ left half (along y) the left tip keeps to, and the right tip to the other.)")
       .def("step", &step, "actions"_a,
            "Plays a period. actions: shares of the tips' accelerations, shape (count, 6).")
       .def("pose", &pose, "environment"_a, "State of the diabolo, left tip and right tip.")
+      .def(
+          "model_of",
+          [](const Arena& arena, std::size_t i) { return arena.episode(checked(arena, i)).model; },
+          "environment"_a, "Number of the model that it plays with.")
       .def_property_readonly("count", &Arena::count)
       .def_property_readonly("observations", viewed(&Arena::observations), "float32, shape (count, 25).")
       .def_property_readonly("final_observations", viewed(&Arena::final_observations),

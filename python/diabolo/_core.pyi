@@ -3576,6 +3576,10 @@ class Arena:
     """
     def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ...) -> None:
         ...
+    def model_of(self, environment: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        Number of the model that it plays with.
+        """
     def pose(self, environment: typing.SupportsInt | typing.SupportsIndex) -> tuple:
         """
         State of the diabolo, left tip and right tip.
@@ -3752,7 +3756,7 @@ def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> 
     """
 def task_infos() -> list:
     """
-    What can be played: name, meaning, reward, seconds and goal of each.
+    What can be played: name, meaning, reward, seconds, goal and first spin of each.
     """
 def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list[Recording], list[str]]:
     """

@@ -123,6 +123,20 @@ def test_an_episode_is_what_a_rollout_of_the_same_tips_gives() -> None:
     assert end.spin == pytest.approx(expected[6], abs=0.05)
 
 
+def test_a_picture_shows_where_the_diabolo_is() -> None:
+    pytest.importorskip("matplotlib")
+    env = gymnasium.make("Diabolo/ThrowAndCatch-v0", render_mode="rgb_array")
+    env.reset(seed=1)
+    hanging = env.render()
+    assert hanging.shape == (480, 480, 3) and hanging.dtype == np.uint8
+    env.reset(seed=1, options={"state": State([0.0, 0.3, 1.8], spin=90.0, string_state="flying")})
+    flying = env.render()
+    orange = [np.argwhere((one == [0xC7, 0x6F, 0x00]).all(axis=2)).mean(axis=0) for one in (hanging, flying)]
+    assert orange[1][0] < orange[0][0] - 100  # higher
+    assert orange[1][1] < orange[0][1] - 20  # to the left
+    assert DiaboloEnv().render() is None
+
+
 def test_memory_is_handed_out_or_copied_as_asked() -> None:
     shared, copied = (DiaboloVectorEnv(2, "Hold", copy=copy) for copy in (False, True))
     kept = [env.reset(seed=1)[0] for env in (shared, copied)]
@@ -159,7 +173,8 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (lambda: DiaboloEnv(model=[]), "model: "),
         (lambda: DiaboloEnv(period=1.0), "period: 1 s; expected 0.001 to 0.1 s"),
         (lambda: DiaboloEnv(steps=0), "steps: 0; expected 1 to 1000"),
-        (lambda: DiaboloEnv(render_mode="human"), "render_mode: 'human'; expected None"),
+        (lambda: DiaboloEnv(render_mode="human"), "render_mode: 'human'; expected 'rgb_array' or None"),
+        (lambda: DiaboloVectorEnv(2, render_mode="rgb_array"), "render_mode: 'rgb_array'; expected None"),
         (lambda: HandLimits(speed=-1.0), "limits, speed: -1; expected a positive number"),
         (lambda: DiaboloVectorEnv(0), "num_envs: 0; expected a whole number from 1"),
         (

@@ -97,7 +97,6 @@ class Arena {
   const TaskInfo& task() const { return *task_.info; }
   std::size_t count() const { return episodes_.size(); }
   const Episode& episode(std::size_t i) const { return episodes_.at(i); }
-  const Model& model_of(std::size_t i) const { return models_[episodes_.at(i).model]; }
 
   /// Environment `i` begins its episodes anew with this seed.
   void seed(std::size_t i, std::uint64_t seed) {

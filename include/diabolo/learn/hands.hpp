@@ -119,9 +119,10 @@ void move_hands(Hands& hands, const Number* action, const HandLimits& limits, do
   const double farthest = string_length - limits.string_margin;
   if (learn_detail::farthest_apart(hands, next, limits, period) > farthest) {
     double possible = 0.0;
-    for (double step = 0.5; step > 1e-3; step *= 0.5)
-      if (learn_detail::farthest_apart(hands, between(possible + step), limits, period) <= farthest)
-        possible += step;
+    for (int halving = 1; halving <= 10; ++halving)
+      if (const double more = possible + std::ldexp(1.0, -halving);
+          learn_detail::farthest_apart(hands, between(more), limits, period) <= farthest)
+        possible = more;
     next = between(possible);
   }
   for (std::size_t side = 0; side < 2; ++side) {

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import Arena, HandLimits
+from ..checks import shown
+from .picture import picture
 from .spaces import ACTION, OBSERVATION, AnyModels, models_of, options_of
 
 
@@ -21,11 +23,12 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     model: what it is played with; of several, each episode draws one.
     period: between actions [s]; steps: of the simulation in a period.
     limits: of the tips.
+    render_mode: "rgb_array" lets render() draw (`pip install '.[plot]'`).
 
     Raises ValueError about bad input, also for actions that are not numbers.
     """
 
-    metadata = {"render_modes": []}  # noqa: RUF012 (an instance's, by Gymnasium's declaration)
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 100}  # noqa: RUF012 (an instance's, by Gymnasium's declaration)
     action_space = ACTION
     observation_space = OBSERVATION
 
@@ -39,11 +42,13 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         limits: HandLimits | None = None,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode is not None:
-            raise ValueError(f"render_mode: {render_mode!r}; expected None")
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode: {shown(render_mode)}; expected 'rgb_array' or None")
         models = models_of(model)
-        self._models = len(models)
-        self._arena = Arena(task, models, 1, period, steps, "disabled", 1, limits or HandLimits())
+        self.render_mode, self._task, self._limits = render_mode, task, limits or HandLimits()
+        self._lengths = [one.parameters.string_length for one in models]
+        self._arena = Arena(task, models, 1, period, steps, "disabled", 1, self._limits)
+        self.metadata = {**self.metadata, "render_fps": round(1.0 / period)}
         arena = self._arena
         self._observation, self._reward = arena.observations[0], arena.rewards
         self._terminated, self._truncated = arena.terminated, arena.truncated
@@ -54,7 +59,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an episode. options: a state, a goal or the number of the model in place of what is drawn."""
-        given = options_of(options, self._models)
+        given = options_of(options, len(self._lengths))
         super().reset(seed=seed)
         if seed is not None or not self._begun:
             self._arena.seed(0, int(self.np_random_seed if seed is None else seed) % 2**64)
@@ -75,3 +80,12 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             bool(self._truncated[0]),
             {},
         )
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """What the player sees, RGB, shape (480, 480, 3); None without a render_mode."""
+        if self.render_mode is None:
+            return None
+        if not self._begun:
+            raise gymnasium.error.ResetNeeded("render: called before the first reset")
+        state, left, right = self._arena.pose(0)
+        return picture(self._task, state, (left, right), self._limits, self._lengths[self._arena.model_of(0)])
