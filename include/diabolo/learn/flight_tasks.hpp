@@ -64,7 +64,7 @@ struct HopTask {
       {{{"height", "m", 0.1, 0.2, "of the apex above the middle of the tips' box"}, {}}}};
 
   static Worth judge(const Moment& m, Memory& memory) {
-    using namespace learn_detail;
+    using learn_detail::caught_now, learn_detail::close_to, learn_detail::shaped;
     const double change = shaped(m, memory, m.goal[0]);
     return {change + (caught_now(m, memory) ? close_to(memory.apex - m.goal[0], 0.1) : 0.0)};
   }
@@ -83,7 +83,7 @@ struct ThrowAndCatchTask {
         {"y", "m", -0.3, 0.3, "of the catch, from the middle of the tips' box"}}}};
 
   static Worth judge(const Moment& m, Memory& memory) {
-    using namespace learn_detail;
+    using learn_detail::caught_now, learn_detail::close_to, learn_detail::shaped;
     constexpr double kKept = 0.5;  // [s]
     const bool thrown = memory.flights > 0, caught = caught_now(m, memory);
     if (thrown) return {0.0, memory.caught >= kKept};
