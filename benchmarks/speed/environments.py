@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import argparse
 import time
 from collections.abc import Callable
 from statistics import median
@@ -79,14 +80,17 @@ def cart_pole() -> tuple[float, float]:
     return periods_a_second(step, 1), periods_a_second(lambda: many.step(actions), COUNT)
 
 
-def main() -> int:
-    command.make_parser("benchmarks.speed.environments", __doc__, EXAMPLE).parse_args()
+def measure(_: argparse.Namespace) -> int:
     print(f"| model | one environment | {COUNT} together |\n|---|---|---|")
     for name, model in MODELS.items():
         print(f"| {name} | {alone(model) / 1e3:.0f} k/s | {together(model) / 1e6:.2f} M/s |", flush=True)
     one, many = cart_pole()
     print(f"| Gymnasium's CartPole | {one / 1e3:.0f} k/s | {many / 1e6:.2f} M/s |")
     return 0
+
+
+def main() -> int:
+    return command.run(command.make_parser("benchmarks.speed.environments", __doc__, EXAMPLE), measure)
 
 
 if __name__ == "__main__":
