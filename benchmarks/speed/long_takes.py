@@ -22,7 +22,11 @@ from numpy.typing import NDArray
 from .. import command
 from ..proof import plant
 
-SCENARIOS = sorted((Path(__file__).parents[2] / "data" / "recordings").glob("*.scenario.json"))
+SCENARIOS = sorted(
+    path
+    for path in (Path(__file__).parents[2] / "data" / "recordings").glob("*.scenario.json")
+    if not path.name.startswith("puzzle_")  # those of the demo, of other plants
+)
 UNSEEN = 0.5
 """Between the plays that make one take [s]."""
 
