@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Air', 'Arena', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -2180,6 +2180,11 @@ class LearntLawFound:
         What the formula is the size of, see FormulaLaws.
         """
     @property
+    def dependence_p_value(self) -> float | None:
+        """
+        The chance that exchanged strengths gain as much: small where it depends on what it says.
+        """
+    @property
     def formula(self) -> str:
         """
         Of the numbers and of FormulaLaws.variables().
@@ -2188,6 +2193,16 @@ class LearntLawFound:
     def gain(self) -> float:
         """
         In chi^2, of windows that were left out.
+        """
+    @property
+    def gain_by_strength(self) -> float | None:
+        """
+        In chi^2, of windows that were left out, where it is as strong in each as it is on average there; null where it does not change from window to window, or too fast for them.
+        """
+    @property
+    def gain_permuted(self) -> float | None:
+        """
+        The same once these strengths are exchanged among the windows, the median of many times.
         """
     @property
     def law(self) -> str:
@@ -2573,6 +2588,11 @@ class LocatedWindow:
     def z(self) -> list[float | None]:
         """
         Of what is missing, direction by direction.
+        """
+    @property
+    def z_after(self) -> list[float | None]:
+        """
+        Of what is left with what was found.
         """
 class Location:
     """
@@ -3617,6 +3637,46 @@ class Arena:
         ...
     @property
     def truncated(self) -> numpy.ndarray:
+        ...
+class Agent:
+    """
+    An agent: a network that sees observations and gives actions, and what it was trained for.
+    
+    task: its name; period [s] between its actions; steps of the simulation in a period; layers: (weights, bias) of each,
+    weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1.
+    """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> Agent:
+        """
+        Reads a file of the schema diabolo.agent/1.
+        """
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, task: str, period: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Actions, shape (6,) or (n, 6), of observations, (25,) or (n, 25).
+        """
+    def to_json(self) -> str:
+        """
+        The text of its file.
+        """
+    @property
+    def layers(self) -> list:
+        ...
+    @property
+    def period(self) -> float:
+        ...
+    @property
+    def steps(self) -> int:
+        ...
+    @property
+    def task(self) -> str:
         ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """

@@ -20,6 +20,8 @@ UNSEEN = "#dfe3e8"
 MODE_COLORS = {"ON_STRING": "#3b6ea5", "LOOSE": "#d9a441", "FLYING": "#8e6bb0"}
 LEFT_OVER = ["#f1f3f5", "#f59e0b", "#dc2626", "#580c1f"]
 """From nothing to what is farthest off, as in the view."""
+DEVIATIONS = {"z": "base", "z_after": "corrected"}
+"""Fields of a window, and what they are of."""
 RESIDUALS = {"residual_before_m": "base", "residual_after_m": "corrected", "residual_noise_m": "noise alone"}
 AXES = ("forward", "left", "up")
 MOST_ROWS = 12_000
@@ -38,7 +40,9 @@ class Scale(NamedTuple):
 
     @classmethod
     def of(cls, windows: Windows) -> Scale:
-        deviations = [abs(z) for window in windows for z in window.get("z") or [] if z is not None]
+        deviations = [
+            abs(z) for window in windows for key in DEVIATIONS for z in window.get(key) or [] if z is not None
+        ]
         sizes = [window[key] for window in windows for key in RESIDUALS if window.get(key)]
         return cls(max([1.0, *deviations]), min(sizes, default=1e-4), max(sizes, default=1e-2))
 
@@ -126,7 +130,11 @@ def take_figure(
     panels: list[tuple[int, Callable[[Any, int], None]]] = []
     if windows:
         if directions:
-            panels.append((24 * len(directions), partial(_missing, windows, directions, scale)))
+            panels += [
+                (24 * len(directions), partial(_missing, windows, key, directions, scale))
+                for key in DEVIATIONS
+                if any(window.get(key) for window in windows)
+            ]
         panels += [(20, partial(_modes, windows, words)), (84, partial(_left_over, windows, scale))]
     if replay is not None:
         panels.append((110, partial(_distances, replay, rows)))
@@ -202,14 +210,16 @@ def _heat(
     figure.update_yaxes(autorange="reversed", ticks="", showline=False, row=row)
 
 
-def _missing(windows: Windows, directions: Sequence[str], scale: Scale, figure: Any, row: int) -> None:
-    """What the base alone leaves out, direction by direction."""
+def _missing(
+    windows: Windows, key: str, directions: Sequence[str], scale: Scale, figure: Any, row: int
+) -> None:
+    """What the base alone leaves out, or what is left once it is corrected, direction by direction."""
     values = {
-        direction: [dict(enumerate(window.get("z") or [])).get(index) for window in windows]
+        direction: [dict(enumerate(window.get(key) or [])).get(index) for window in windows]
         for index, direction in enumerate(directions)
     }
     ticks = (-1000, -100, -10, 0, 10, 100, 1000)
-    title = "standard<br>deviations"
+    title = f"{DEVIATIONS[key]}<br>[deviations]"
     _heat(figure, row, windows, values, math.asinh, (-scale.z, scale.z), ticks, title, "RdBu_r")
 
 

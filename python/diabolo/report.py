@@ -482,8 +482,19 @@ def _learnt(item: dict[str, Any], horizons: list[float]) -> dict[str, Any]:
     return {
         "law": item.get("law") or "a law",
         "formula": item.get("formula") or "not given",
-        "facts": "; ".join(_without(item, horizons)),
+        "facts": "; ".join([*_without(item, horizons), *_dependence(item)]),
     }
+
+
+def _dependence(item: dict[str, Any]) -> list[str]:
+    chance = item.get("dependence_p_value")
+    if chance is None:
+        return []
+    gains = [_number(item.get(key), 1) for key in ("gain_by_strength", "gain_permuted")]
+    return [
+        f"by its strength in each window those left out gain {gains[0]} in chi^2, by strengths exchanged at "
+        f"random {gains[1]} (p = {chance:.3g})"
+    ]
 
 
 def _unnamed(item: dict[str, Any]) -> dict[str, Any]:

@@ -72,6 +72,9 @@ inline std::string three_digits(double value) {
   return text;
 }
 
+/// A dependence is shown that strengths exchanged among the windows gain as much as so rarely.
+inline constexpr double kShownDependence = 0.05;
+
 /// A learnt law with its size and its interval: "against the velocity, of constant size: 0.41 [0.38, 0.44]
 /// m/s^2".
 inline std::string learnt_plainly(const Learnt& learnt) {
@@ -85,7 +88,8 @@ inline std::string learnt_plainly(const Learnt& learnt) {
             three_digits(value - reach) + ", " + three_digits(value + reach) + "]" +
             (number.unit == "1" ? "" : " " + number.unit);
   }
-  return text;
+  const bool sure = !learnt.dependence || learnt.dependence->p_value <= kShownDependence;
+  return text + (sure ? "" : " (that it depends on this is not shown)");
 }
 
 /// How much of the gap what was found explains, and what it leaves: sentences after the answer's.

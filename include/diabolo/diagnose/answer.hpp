@@ -142,12 +142,21 @@ inline constexpr std::array kMayChange{
     MayChange{Unknown::kSpinFree, "spin_off_string", "rad/s^2"},
     MayChange{Unknown::kStringLength, "string_length", "m"}};
 
+/// Whether a law depends on what its formula says, see dependence_of().
+struct Dependence {
+  double gain;      ///< of windows that were left out, by strengths as the law says, in chi^2
+  double permuted;  ///< the same where these are exchanged among the windows, the median
+  double p_value;   ///< the chance that exchanged ones gain as much
+};
+
 /// A law by a formula that was learnt from what is left over, and is in the model.
 struct Learnt {
   Law law;
-  std::vector<double> value, deviation;  ///< of its numbers, in their units
-  double gain = 0.0;                     ///< of windows that were left out, in chi^2
-  std::vector<std::optional<Interval>> worsening_ci95, spin_worsening_ci95;  ///< see Finding
+  std::vector<double> value{}, deviation{};  ///< of its numbers, in their units
+  std::size_t first = 0;                     ///< place of its first number among those of the model's laws
+  double gain = 0.0;                         ///< of windows that were left out, in chi^2
+  std::optional<Dependence> dependence{};
+  std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
 };
 
 /// What was seen in a window before anything was added, and what is left.
@@ -156,7 +165,7 @@ struct WindowFinding {
   double begin, end;  ///< [s]
   StringState mode;
   double residual_before, residual_after;  ///< root mean square, position [m]
-  std::array<double, 7> z;                 ///< of the latent accelerations before; NaN where they say nothing
+  std::array<double, 7> z, z_after;        ///< of the latent accelerations; NaN where they say nothing
   /// Of kMayChange with what was found: half the slope and half the curvature of -chi^2, in the scales of
   /// kUnknownInfos.
   std::array<double, kMayChange.size()> slope{}, curvature{};

@@ -68,6 +68,7 @@ class ClaimSearch {
     refine<D>(fit_, physics_, ActiveSet::Constant(false), 2, options_.threads,
               step("fitting starts", 0.05, 0.15));
     remember_before(result_, fit_);
+    before_ = fit_.systems;
   }
 
   /// Fits everything, keeps what is sure and exchanges it for what explains more. Another delay than thought
@@ -155,6 +156,7 @@ class ClaimSearch {
   Model physics_;
   Bank bank_;
   Fit fit_;
+  std::vector<WindowSystem> before_;  ///< of the base alone
   ActiveSet set_ = ActiveSet::Constant(false);
   std::vector<Replacement> exchanged_;
   bool backwards_ = false;

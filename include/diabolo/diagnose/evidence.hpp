@@ -33,6 +33,22 @@ class Evidence {
   /// How much wider the residuals are than the noise says.
   double dispersion() const { return dispersion_; }
 
+  /// The same, were what an unknown does in each window so many times as large.
+  Evidence rescaled(Unknown unknown, const std::vector<double>& factors) const {
+    const int u = index_of(unknown);
+    Evidence result = *this;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      Part& part = result.parts_[i];
+      part.information.row(u) *= factors[i];
+      part.information.col(u) *= factors[i];
+      part.slope[u] *= factors[i];
+      result.information_.row(u) += part.information.row(u) - parts_[i].information.row(u);
+      result.slope_[u] += part.slope[u] - parts_[i].slope[u];
+    }
+    result.information_.col(u) = result.information_.row(u).transpose();
+    return result;
+  }
+
   /// Best scaled unknowns where all but `free` are zero.
   UnknownVector solve(const ActiveSet& free) const { return solve(free, information_, slope_); }
 

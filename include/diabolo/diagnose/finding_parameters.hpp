@@ -53,6 +53,11 @@ inline LearntLawFound learnt_of(const Learnt& learnt) {
     found.numbers.push_back(with_deviation(learnt.law.numbers[i].name, learnt.value[i], learnt.deviation[i],
                                            learnt.law.numbers[i].unit));
   found.gain = learnt.gain;
+  if (learnt.dependence) {
+    found.gain_by_strength = learnt.dependence->gain;
+    found.gain_permuted = learnt.dependence->permuted;
+    found.dependence_p_value = learnt.dependence->p_value;
+  }
   found.worse_without_ci95_m = learnt.worsening_ci95;
   found.spin_worse_without_ci95_radps = learnt.spin_worsening_ci95;
   return found;

@@ -23,13 +23,24 @@ namespace diabolo {
 
 inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7, kLatentForces = 5;
 
+/// What a window says of the latent accelerations that are not in the fit, in standard deviations; NaN where
+/// it says nothing.
+inline std::array<double, kLatents> latent_z(const WindowScore& score) {
+  std::array<double, kLatents> z;
+  for (int k = 0; k < kLatents; ++k) {
+    const double information = score.information(kLatentFirst + k, kLatentFirst + k);
+    z[static_cast<std::size_t>(k)] =
+        information > 1e-6 ? score.score[kLatentFirst + k] / std::sqrt(information) : kNaN;
+  }
+  return z;
+}
+
 /// Takes down how the base alone does, window by window.
 inline void remember_before(Diagnosis& result, const Fit& fit) {
   std::size_t i = 0;
   for (std::size_t s = 0; s < fit.fit_takes.size(); ++s)
     for (const FitWindow& window : fit.fit_takes[s].windows) {
-      const WindowSystem& system = fit.systems[i];
-      const WindowScore& score = fit.scores[i++];
+      const WindowSystem& system = fit.systems[i++];
       WindowFinding found{};
       found.recording = s;
       found.begin = fit.fit_takes[s].take->times[window.first];
@@ -37,13 +48,20 @@ inline void remember_before(Diagnosis& result, const Fit& fit) {
       found.mode = window.start.string_state;
       found.residual_before = system.position_residual();
       if (system.spin_numbers > 0) found.spin_before = std::sqrt(system.spin_square / system.spin_numbers);
-      for (int k = 0; k < kLatents; ++k) {
-        const double information = score.information(kLatentFirst + k, kLatentFirst + k);
-        found.z[static_cast<std::size_t>(k)] =
-            information > 1e-6 ? score.score[kLatentFirst + k] / std::sqrt(information) : kNaN;
-      }
+      found.z.fill(kNaN);
+      found.z_after.fill(kNaN);
       result.windows.push_back(found);
     }
+}
+
+/// Takes down what is left out direction by direction, of the base alone, whose windows were `before`, and
+/// with what was found: both in units of the noise as it is known at the end.
+inline void remember_directions(Diagnosis& result, const std::vector<WindowSystem>& before, const Fit& fit) {
+  for (std::size_t i = 0; i < result.windows.size(); ++i) {
+    WindowFinding& window = result.windows[i];
+    if (!before[i].failed) window.z = latent_z(without_start(before[i], fit.noise[window.recording]));
+    if (!fit.systems[i].failed) window.z_after = latent_z(fit.scores[i]);
+  }
 }
 
 /// The chance that any of so many normal variables is beyond z.

@@ -20,6 +20,7 @@
 #include "diabolo/diagnose/learn_law.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/noise_trial.hpp"
+#include "diabolo/diagnose/permuted_law.hpp"
 
 namespace diabolo {
 
@@ -54,7 +55,7 @@ class Inquiry : public ClaimSearch<D> {
   }
 
  private:
-  using Search::bank_, Search::budget_, Search::exchanged_, Search::fit_, Search::numerical_,
+  using Search::bank_, Search::before_, Search::budget_, Search::exchanged_, Search::fit_, Search::numerical_,
       Search::options_, Search::physics_, Search::recordings_, Search::result_, Search::set_, Search::step;
 
   /// Claims what stands, and takes back, one after the other, what data that were left out deny.
@@ -131,19 +132,28 @@ class Inquiry : public ClaimSearch<D> {
       fit_.noise_is_known = false;  // what was not known was taken for noise
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, looking);
       fit_.noise_is_known = true;
-      result_.learnt.push_back({std::move(law->law),
-                                {},
-                                {},
-                                law->gain,
-                                std::move(law->worsening_ci95),
-                                std::move(law->spin_worsening_ci95)});
+      result_.learnt.push_back({.law = std::move(law->law),
+                                .gain = law->gain,
+                                .worsening_ci95 = std::move(law->worsening_ci95),
+                                .spin_worsening_ci95 = std::move(law->spin_worsening_ci95)});
       settle();
       withdrawn = withdraw_what_does_not_help(result_);
       judge();
       more = !result_.adequacy.adequate.value_or(true);
     }
     note_learnt(result_, physics_, fit_, set_);
+    ask_dependences();
     return withdrawn;
+  }
+
+  /// Whether learnt laws depend on what they say.
+  void ask_dependences() {
+    const char* const asking = "permuting learnt laws";
+    for (Learnt& learnt : result_.learnt) {
+      if (!budget_.allows(asking, kTrialsShare)) return;
+      learnt.dependence = dependence_of<D>(learnt.law, learnt.first, fit_, physics_, set_, options_.seed,
+                                           options_.threads, step(asking, 0.95, 0.955, kTrialsShare));
+    }
   }
 
   /// Compares what is left with what noise alone would leave.
@@ -163,8 +173,9 @@ class Inquiry : public ClaimSearch<D> {
     if (looking.is_enough()) budget_.leave(comparing);
   }
 
-  /// The numerical rules' share, the noise, and what to record next.
+  /// Where it was before and after, the numerical rules' share, the noise, and what to record next.
   void finish() {
+    remember_directions(result_, before_, fit_);
     if (numerical_ && budget_.allows("comparing rules", kRulesShare)) {
       Model rules = options_.base;
       rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();

@@ -39,11 +39,13 @@ inline Location located(const Diagnosis& d, const std::vector<Recording>& record
                          w.residual_before,
                          w.residual_after,
                          {},
+                         {},
                          where_seen(w.residual_noise),
                          where_seen(w.spin_before),
                          where_seen(w.spin_after),
                          where_seen(w.spin_noise)};
     for (const double z : w.z) window.z.push_back(where_seen(z));
+    for (const double z : w.z_after) window.z_after.push_back(where_seen(z));
     location.windows.push_back(std::move(window));
   }
   return location;

@@ -32,7 +32,7 @@ struct LocatedWindow {
   double begin_s = kNaN, end_s = kNaN;
   std::string mode;
   double residual_before_m = kNaN, residual_after_m = kNaN;
-  std::vector<std::optional<double>> z;
+  std::vector<std::optional<double>> z, z_after;
   std::optional<double> residual_noise_m, spin_before_rad_s, spin_after_rad_s, spin_noise_rad_s;
 
   template <class Visit>
@@ -44,6 +44,7 @@ struct LocatedWindow {
     visit("residual_before_m", &LocatedWindow::residual_before_m, "Root mean square of the base.");
     visit("residual_after_m", &LocatedWindow::residual_after_m, "The same with what was found.");
     visit("z", &LocatedWindow::z, "Of what is missing, direction by direction.");
+    visit("z_after", &LocatedWindow::z_after, "Of what is left with what was found.");
     visit("residual_noise_m", &LocatedWindow::residual_noise_m, "What noise alone would leave.");
     visit("spin_before_rad_s", &LocatedWindow::spin_before_rad_s, "Root mean square of the base's spin.");
     visit("spin_after_rad_s", &LocatedWindow::spin_after_rad_s, "The same with what was found.");

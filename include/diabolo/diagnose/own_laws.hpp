@@ -68,6 +68,7 @@ inline void note_learnt(Diagnosis& d, const Model& physics, const Fit& fit, cons
     if (index++ < known) return;
     Learnt& learnt = d.learnt[index - known - 1];
     learnt.law = law;
+    learnt.first = first;
     for (std::size_t i = 0; i < law.numbers.size(); ++i) {
       const int u = index_of(own_number(first + i));
       learnt.value.push_back(own.numbers[first + i] + law.numbers[i].usual * fit.at[u]);

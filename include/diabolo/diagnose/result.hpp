@@ -149,6 +149,7 @@ struct LearntLawFound {
   std::string name, law, acts, formula;
   std::vector<Estimate> numbers;
   double gain = kNaN;
+  std::optional<double> gain_by_strength, gain_permuted, dependence_p_value;
   IntervalByHorizon worse_without_ci95_m, spin_worse_without_ci95_radps;
 
   template <class Visit>
@@ -159,6 +160,13 @@ struct LearntLawFound {
     visit("formula", &LearntLawFound::formula, "Of the numbers and of FormulaLaws.variables().");
     visit("numbers", &LearntLawFound::numbers, "Of the formula, the size first.");
     visit("gain", &LearntLawFound::gain, "In chi^2, of windows that were left out.");
+    visit("gain_by_strength", &LearntLawFound::gain_by_strength,
+          "In chi^2, of windows that were left out, where it is as strong in each as it is on average there; "
+          "null where it does not change from window to window, or too fast for them.");
+    visit("gain_permuted", &LearntLawFound::gain_permuted,
+          "The same once these strengths are exchanged among the windows, the median of many times.");
+    visit("dependence_p_value", &LearntLawFound::dependence_p_value,
+          "The chance that exchanged strengths gain as much: small where it depends on what it says.");
     visit("worse_without_ci95_m", &LearntLawFound::worse_without_ci95_m,
           "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
     visit("spin_worse_without_ci95_radps", &LearntLawFound::spin_worse_without_ci95_radps,

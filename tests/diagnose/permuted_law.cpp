@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/permuted_law.hpp"
+
+#include <optional>
+#include <string>
+
+#include "catch.hpp"
+#include "diabolo/diagnose/compiled.hpp"
+
+#include "played.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+const LawNumber kSize{"size", "m/s^2", 0.5, 0.0, -1e3, 1e3};
+
+/// What is said of a law by a formula where a push across the string's plane by another one is at work.
+std::optional<Dependence> asked(const std::string& at_work, double size, const std::string& formula) {
+  const Law truth("push", "a push", Acts::kAcross, at_work, {kSize});
+  AllEffects<double> effects;
+  effects.get<FormulaLaws>() = FormulaLaws<double>({truth});
+  effects.get<FormulaLaws>().numbers[0] = size;
+  DiagnosisOptions options;
+  options.bank = {"air_drag_linear"};
+  const Diagnosis d = diagnose({played(effects, 14.0, 8)}, options);
+  const Fit& fit = d.final_fit->fit;
+  const Law law("asked", "a push", Acts::kAcross, formula, {kSize});
+  Fit begun = fit;  // without the law that was learnt
+  begun.at.setZero();
+  ActiveSet set = ActiveSet::Constant(false);
+  set[index_of(own_number(0))] = true;
+  const Model physics = diagnose_detail::with_laws(consistent_model(), {law});
+  return dependence_of<diagnose_detail::FitDual>(physics.effects.get<FormulaLaws>().laws->front(), 0, begun,
+                                                 physics, set, 1, 2, {});
+}
+
+}  // namespace
+
+TEST_CASE("a dependence that is there gains more than where it is exchanged among windows") {
+  const auto found = asked("size * taut * speed ^ 2", 0.4, "size * taut * speed ^ 2");
+  REQUIRE(found);
+  CAPTURE(found->gain, found->permuted, found->p_value);
+  CHECK(found->p_value <= 0.01);
+  CHECK(found->gain > 1.5 * found->permuted);
+}
+
+TEST_CASE("a dependence that is not there gains no more than where it is exchanged") {
+  const std::string grows = "size * taut * (1 + 0.5 * sin(2 * pi * 0.31 * t))";
+  const auto found = asked("size * taut", 1.0, grows);
+  REQUIRE(found);
+  CAPTURE(found->gain, found->permuted, found->p_value);
+  CHECK(found->p_value > 0.05);
+  CHECK(found->gain == Approx(found->permuted).epsilon(0.2));
+}
+
+TEST_CASE("of a law that is as strong everywhere nothing is asked") {
+  CHECK_FALSE(asked("size * taut", 1.0, "size * taut"));
+}
