@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "diabolo/batch/kernels.hpp"
+#include "diabolo/json/agent_file.hpp"
 #include "diabolo/learn/arena.hpp"
 
 #include "arrays.hpp"
@@ -87,6 +89,39 @@ py::tuple pose(const Arena& arena, std::size_t i) {
   return py::make_tuple(episode.state, episode.hands.position[0], episode.hands.position[1]);
 }
 
+using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Agent make_agent(const std::string& task, double period, int steps,
+                 const std::vector<std::pair<Weights, Eigen::VectorXf>>& layers) {
+  ArenaOptions{.task = task, .period = period, .steps = steps}.validate();
+  task_named(task);
+  std::vector<Layer> own;
+  own.reserve(layers.size());
+  for (const auto& [weights, bias] : layers) own.push_back({weights, bias});
+  return {task, period, steps, Policy(std::move(own))};
+}
+
+py::list layers_of(const Agent& agent) {
+  py::list layers;
+  for (const Layer& layer : agent.policy.layers()) layers.append(py::make_tuple(layer.weights, layer.bias));
+  return layers;
+}
+
+py::array_t<float> act(const Agent& agent, const Actions& observations) {
+  constexpr auto kSeen = static_cast<py::ssize_t>(kObservationSize);
+  const bool one = observations.ndim() == 1;
+  const py::ssize_t count = one || observations.ndim() == 0 ? 1 : observations.shape(0);
+  expect_shape(observations, "observations",
+               one ? std::vector<py::ssize_t>{kSeen} : std::vector<py::ssize_t>{count, kSeen});
+  py::array_t<float> result(one ? std::vector<py::ssize_t>{Policy::kActions}
+                                : std::vector<py::ssize_t>{count, Policy::kActions});
+  const Eigen::Map<const Eigen::MatrixXf> seen(observations.data(), kSeen, count);
+  Eigen::Map<Eigen::MatrixXf> done(result.mutable_data(), Policy::kActions, count);
+  const py::gil_scoped_release unlocked;
+  done = agent.policy.act(seen);
+  return result;
+}
+
 py::list task_infos() {
   py::list tasks;
   for (const Task& task : kTasks) {
@@ -159,6 +194,30 @@ left half (along y) the left tip keeps to, and the right tip to the other.)")
       .def_property_readonly("rewards", viewed(&Arena::rewards))
       .def_property_readonly("terminated", viewed(&Arena::terminated))
       .def_property_readonly("truncated", viewed(&Arena::truncated));
+  py::class_<Agent>(
+      module, "Agent",
+      R"(An agent: a network that sees observations and gives actions, and what it was trained for.
+
+task: its name; period [s] between its actions; steps of the simulation in a period; layers: (weights, bias) of each,
+weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1.)")
+      .def(py::init(&make_agent), "task"_a, "period"_a, "steps"_a, "layers"_a)
+      .def_static("load", &load_agent, "path"_a, Unlocked(), "Reads a file of the schema diabolo.agent/1.")
+      .def("to_json", &write_agent, "The text of its file.")
+      .def("act", &act, "observations"_a, "Actions, shape (6,) or (n, 6), of observations, (25,) or (n, 25).")
+      .def_readonly("task", &Agent::task)
+      .def_readonly("period", &Agent::period)
+      .def_readonly("steps", &Agent::steps)
+      .def_property_readonly("layers", &layers_of)
+      .def("__repr__",
+           [](const Agent& agent) {
+             std::string text = "Agent(" + agent.task + ", every " + shown(agent.period) +
+                                " s: " + std::to_string(kObservationSize);
+             for (const Layer& layer : agent.policy.layers())
+               text.append("-").append(std::to_string(layer.bias.size()));
+             return text + ")";
+           })
+      .def(py::pickle([](const Agent& agent) { return write_agent(agent); },
+                      [](const std::string& text) { return read_agent(text, "pickle"); }));
   module.def("task_infos", &task_infos,
              "What can be played: name, meaning, reward, seconds, goal and first spin of each.");
   module.def("observation_infos", &observation_infos, "What an agent sees: name, unit, size and meaning.");

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diabolo/json/fields.hpp"
+#include "diabolo/learn/agent.hpp"
+#include "diabolo/learn/arena.hpp"
+#include "diabolo/text/file.hpp"
+
+namespace diabolo {
+
+inline constexpr const char* kAgentSchema = "diabolo.agent/1";
+
+namespace json_detail {
+
+inline Layer layer_from_json(const JsonFields& fields) {
+  fields.expect_only({"weights", "bias"});
+  const nlohmann::json &rows = fields.list("weights"), &bias = fields.list("bias");
+  const auto number = [&](const nlohmann::json& value, const char* field) {
+    if (!value.is_number()) fields.fail(field, "numbers");
+    return value.get<float>();
+  };
+  Layer layer;
+  const Eigen::Index outputs = static_cast<Eigen::Index>(rows.size());
+  layer.weights.resize(outputs, rows.empty() ? 0 : static_cast<Eigen::Index>(rows.front().size()));
+  for (Eigen::Index i = 0; i < outputs; ++i) {
+    const nlohmann::json& row = rows[static_cast<std::size_t>(i)];
+    if (!row.is_array() || static_cast<Eigen::Index>(row.size()) != layer.weights.cols())
+      fields.fail("weights", "rows of the same length");
+    for (Eigen::Index j = 0; j < layer.weights.cols(); ++j)
+      layer.weights(i, j) = number(row[static_cast<std::size_t>(j)], "weights");
+  }
+  layer.bias.resize(static_cast<Eigen::Index>(bias.size()));
+  for (Eigen::Index i = 0; i < layer.bias.size(); ++i)
+    layer.bias[i] = number(bias[static_cast<std::size_t>(i)], "bias");
+  return layer;
+}
+
+}  // namespace json_detail
+
+/// Reads the text of an agent's file:
+///   {"schema": "diabolo.agent/1", "task": "SpinUp", "period": 0.02, "steps": 20,
+///    "layers": [{"weights": [[...], ...], "bias": [...]}, ...]}
+/// Throws RecordingError with file, field, what was found and what was expected.
+inline Agent read_agent(std::string_view text, const std::string& file_name) {
+  const nlohmann::json json = parse_json(text, file_name);
+  const JsonFields file(json, file_name);
+  file.expect_text("schema", kAgentSchema);
+  file.expect_only({"schema", "task", "period", "steps", "layers"});
+  std::vector<Layer> layers;
+  const nlohmann::json& list = file.list("layers");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    layers.push_back(
+        json_detail::layer_from_json(JsonFields(list[i], file_name, "layers[" + std::to_string(i) + "].")));
+  const double steps = file.positive("steps");
+  if (!(steps <= 1000.0) || steps != std::floor(steps)) file.fail("steps", "a whole number up to 1000");
+  try {
+    ArenaOptions options{.task = file.text("task"), .period = file.positive("period")};
+    options.steps = static_cast<int>(steps);
+    options.validate();
+    task_named(options.task);
+    return {options.task, options.period, options.steps, Policy(std::move(layers))};
+  } catch (const RecordingError&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw RecordingError(file_name + ": " + error.what());
+  }
+}
+
+/// Reads an agent's file; see read_agent().
+inline Agent load_agent(const std::filesystem::path& path) {
+  return read_agent(read_file(path), path.string());
+}
+
+/// The text of such a file; reads back as the same agent.
+inline std::string write_agent(const Agent& agent) {
+  nlohmann::ordered_json layers = nlohmann::ordered_json::array();
+  for (const Layer& layer : agent.policy.layers()) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const auto& row : layer.weights.rowwise())
+      rows.push_back(std::vector<float>(row.begin(), row.end()));
+    layers.push_back(
+        {{"weights", std::move(rows)}, {"bias", std::vector<float>(layer.bias.begin(), layer.bias.end())}});
+  }
+  return nlohmann::ordered_json{{"schema", kAgentSchema},
+                                {"task", agent.task},
+                                {"period", agent.period},
+                                {"steps", agent.steps},
+                                {"layers", std::move(layers)}}
+             .dump() +
+         "\n";
+}
+
+}  // namespace diabolo

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diabolo/learn/episode.hpp"
+
+namespace diabolo {
+
+/// A layer of a network: weights * input + bias.
+struct Layer {
+  Eigen::MatrixXf weights;  ///< outputs x inputs
+  Eigen::VectorXf bias;
+};
+
+/// What an agent does where it sees something: a network of layers with tanh between them, whose outputs,
+/// cut off at -1 and 1, are an action (see move_hands).
+class Policy {
+ public:
+  static constexpr Eigen::Index kActions = 6;
+
+  /// Throws std::invalid_argument where layers do not fit each other, what is seen or what is done.
+  explicit Policy(std::vector<Layer> layers) : layers_(std::move(layers)) {
+    Eigen::Index inputs = static_cast<Eigen::Index>(kObservationSize);
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+      const auto& [weights, bias] = layers_[i];
+      const std::string here = "layer " + std::to_string(i) + ": ";
+      if (weights.cols() != inputs || weights.rows() != bias.size() || weights.rows() < 1)
+        throw std::invalid_argument(here + std::to_string(weights.rows()) + " x " +
+                                    std::to_string(weights.cols()) + " weights and " +
+                                    std::to_string(bias.size()) + " biases; expected " +
+                                    std::to_string(inputs) + " inputs, and a bias for each output");
+      if (!weights.allFinite() || !bias.allFinite())
+        throw std::invalid_argument(here + "a number that is not finite; expected finite ones");
+      inputs = weights.rows();
+    }
+    if (layers_.empty() || inputs != kActions)
+      throw std::invalid_argument("layers: " + std::to_string(layers_.empty() ? 0 : inputs) +
+                                  " outputs; expected " + std::to_string(kActions));
+  }
+
+  const std::vector<Layer>& layers() const { return layers_; }
+
+  /// Actions, 6 x n, of observations, kObservationSize x n.
+  Eigen::MatrixXf act(const Eigen::Ref<const Eigen::MatrixXf>& observations) const {
+    Eigen::MatrixXf values = observations;
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+      values = (layers_[i].weights * values).colwise() + layers_[i].bias;
+      if (i + 1 < layers_.size()) values = values.array().tanh();
+    }
+    return values.cwiseMax(-1.0F).cwiseMin(1.0F);
+  }
+
+ private:
+  std::vector<Layer> layers_;
+};
+
+/// A policy, and what it was trained for.
+struct Agent {
+  std::string task;
+  double period;  ///< between actions [s]
+  int steps;      ///< of the simulation in a period
+  Policy policy;
+};
+
+}  // namespace diabolo
