@@ -411,6 +411,16 @@ def test_colours_mean_the_same_in_all_takes_and_end_at_their_data() -> None:
     assert heat[1]["y"] == ["base", "corrected", "noise alone"]
 
 
+def test_directions_are_mapped_before_and_after() -> None:
+    result = invented()
+    for window in result["locate"]["windows"]:
+        window["z_after"] = [None if z is None else 0.1 * z for z in window["z"]]
+    heat = [t for figure in drawn(report_html(result)) for t in figure["data"] if t["type"] == "heatmap"]
+    before, after = (np.sinh(np.array(trace["z"], float)) for trace in heat[:2])
+    assert heat[0]["zmax"] == heat[1]["zmax"]
+    np.testing.assert_allclose(after, 0.1 * before)
+
+
 def test_the_same_result_makes_the_same_page() -> None:
     assert report_html(invented()) == report_html(invented())
 
@@ -542,6 +552,21 @@ def test_the_curve_of_an_unnamed_law_names_its_axes() -> None:
     layout = json.loads(figures.curve_figure(item, item["curve"]))["layout"]
     titles = [layout[axis]["title"]["text"] for axis in ("xaxis", "yaxis")]
     assert titles == ["speed [m/s]", "missing [m/s²]"]
+
+
+@pytest.mark.parametrize("chance", [0.005, None])
+def test_a_learnt_law_is_told_with_what_exchanged_strengths_gain(chance: float | None) -> None:
+    item = {
+        "law": "a drag",
+        "formula": "size * speed",
+        "gain": 300.0,
+        "gain_by_strength": 280.0,
+        "gain_permuted": 12.5,
+        "dependence_p_value": chance,
+    }
+    text = Page(report_html(invented(learnt=[item]))).text
+    said = "those left out gain 280.0 in chi^2, by strengths exchanged at random 12.5 (p = 0.005)"
+    assert (said in text) == (chance is not None)
 
 
 def test_an_unnamed_force_is_shown_with_its_size() -> None:
