@@ -6,6 +6,7 @@
 
 #include "catch.hpp"
 #include "diabolo/diagnose/compiled.hpp"
+#include "diabolo/diagnose/final_fit.hpp"
 
 #include "played.hpp"
 

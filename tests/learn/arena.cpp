@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/learn/arena.hpp"
 
+#include <numbers>
+
 #include "catch.hpp"
 #include "count_allocations.hpp"
 #include "diabolo/batch/batch.hpp"
@@ -189,6 +191,94 @@ TEST_CASE("an episode begins with what is given, and draws the rest") {
   CHECK(second.rest == second.state.position);
 }
 
+TEST_CASE("episodes begin with somebody's play where they are told to, as often as they are told to") {
+  Start start;
+  start.state.string_state = StringState::kFlying;
+  start.state.position = HandLimits{}.centre + Vector3<double>(0.0, 0.1, 0.3);
+  start.hands.position = {HandLimits{}.centre + Vector3<double>(0.0, 0.6, 0.0),
+                          HandLimits{}.centre - Vector3<double>(0.0, 0.6, 0.0)};
+  start.hands.velocity[0].z() = 0.5;
+  start.goal = {0.44, 0.0};
+  Arena some = arena({.task = "ThrowAndCatch", .count = 1000, .starts = {start}, .start_share = 0.3});
+  std::size_t begun = 0;
+  for (std::size_t i = 0; i < some.count(); ++i) {
+    some.reset(i);
+    const Episode& episode = some.episode(i);
+    if (episode.goal != start.goal) continue;
+    ++begun;
+    CHECK(episode.state.position == start.state.position);
+    CHECK(episode.hands.velocity[0] == start.hands.velocity[0]);
+  }
+  CHECK(std::abs(static_cast<double>(begun) - 300.0) < 4.0 * std::sqrt(1000.0 * 0.3 * 0.7));
+  start.hands.velocity[0].z() = 9.0;
+  CHECK_THROWS_WITH(arena({.starts = {start}, .start_share = 0.5}),
+                    "starts, 0: a tip at 1.25 m with 9 m/s along axis 2; expected it within the limits");
+  CHECK_THROWS_WITH(arena({.start_share = 0.5}),
+                    "start_share: 0.5; expected 0 to 0, since there are no starts");
+}
+
+TEST_CASE("without noise a camera shows the diabolo as late as it says") {
+  const Camera late{.noise = 0.0, .spin_noise = 0.0, .dropouts = 0.0, .least_delay = 3, .most_delay = 3};
+  Arena seen = arena({.task = "SpinUp", .camera = late}), exact = arena({.task = "SpinUp"});
+  seen.reset(0);
+  exact.reset(0);
+  Random random(2405);
+  std::vector<Vector3<double>> positions{exact.episode(0).state.position};
+  for (int k = 0; k < 50; ++k) {
+    std::vector<float> actions = random_actions(random, 1);
+    for (float& share : actions) share *= 0.2F;
+    seen.step(actions.data());
+    exact.step(actions.data());
+    positions.push_back(exact.episode(0).state.position);
+    const auto& [left, right] = exact.episode(0).hands.position;
+    const std::size_t then = positions.size() < 4 ? 0 : positions.size() - 4;
+    const Vector3<double> expected = positions[then] - 0.5 * (left + right);
+    for (int axis = 0; axis < 3; ++axis)
+      REQUIRE(seen.observations[static_cast<std::size_t>(axis)] == Approx(expected[axis]).margin(1e-6));
+    if (then < 1) continue;
+    const Vector3<double> velocity = (positions[then] - positions[then - 1]) / 0.01;
+    REQUIRE(seen.observations[5] == Approx(velocity.z()).margin(1e-4));
+  }
+}
+
+TEST_CASE("a camera's noise and dropouts are as large as it says") {
+  const Camera camera{.noise = 0.02, .spin_noise = 0.0, .dropouts = 0.25, .least_delay = 0, .most_delay = 0};
+  Arena one = arena({.task = "Hold", .camera = camera});
+  one.reset(0, {.goal = Goal{0.0, 0.0}});
+  const std::vector<float> still(6, 0.0F);
+  const double height = one.observations[2];
+  double square = 0.0, last = NAN;
+  int same = 0;
+  constexpr int kFrames = 480;
+  for (int k = 0; k < kFrames; ++k) {
+    one.step(still.data());
+    const double z = one.observations[2];
+    square += std::pow(z - height, 2) / kFrames;
+    same += z == last;
+    last = z;
+  }
+  CHECK(std::sqrt(square) == Approx(0.02).epsilon(0.15));
+  CHECK(std::abs(same - 0.25 * kFrames) < 4.0 * std::sqrt(0.25 * 0.75 * kFrames));
+}
+
+TEST_CASE("a hanging diabolo weighs on both tips, and friction on the one that it leans to") {
+  Model smooth = consistent_model();
+  for (const Model& model : {smooth, rubbing()}) {
+    const double friction = model.effects.get<StringFriction>().coefficient;
+    Arena one = arena({.task = "Hold"}, {model});
+    one.reset(0);
+    const Episode& episode = one.episode(0);
+    const auto& [left, right] = tip_forces(episode.state, episode.hands, model.parameters.gravity);
+    CHECK((left + right).z() == Approx(-1.0).epsilon(0.01));
+    CHECK((left + right).y() == Approx(0.0).margin(0.01));
+    CHECK(left.y() < 0.0);  // to the right
+    // Capstan: tensions differ by exp(friction times the angle that the string turns by).
+    const double turned = std::numbers::pi - std::acos(left.normalized().dot(right.normalized()));
+    const double ratio = std::exp(friction * turned);
+    CHECK(std::abs(std::log(left.norm() / right.norm())) == Approx(std::log(ratio)).margin(0.05));
+  }
+}
+
 TEST_CASE("what cannot be played is refused before anything moves") {
   Arena one = arena({.count = 2});
   one.reset(0);
@@ -203,7 +293,8 @@ TEST_CASE("what cannot be played is refused before anything moves") {
   CHECK_THROWS_WITH(one.reset(0, {.goal = Goal{NAN, 0.0}}), "goal: not finite; expected numbers");
   CHECK_THROWS_WITH(one.reset(0, {.model = 1}), "model: found 1; expected less than 1, the number of models");
   CHECK_THROWS_WITH(arena({.task = "Fly"}),
-                    "task: found \"Fly\"; expected one of Hold, Swing, SpinUp, Hop, ThrowAndCatch");
+                    "task: found \"Fly\"; expected one of Hold, Swing, SpinUp, SpinUpCircle, Hop, Throw, "
+                    "ThrowAndCatch, Pass, Routine");
   CHECK_THROWS_WITH(arena({.count = 0}), "count: 0; expected at least one environment");
   CHECK_THROWS_WITH(arena({.period = 1.0}), "period: 1 s; expected 0.001 to 0.1 s");
   CHECK_THROWS_WITH(arena({.steps = 0}), "steps: 0; expected 1 to 1000");

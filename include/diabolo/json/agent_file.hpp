@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -46,6 +48,15 @@ inline Layer layer_from_json(const JsonFields& fields) {
   return layer;
 }
 
+/// The number of the fewest digits that reads as the same float.
+inline double shortest(float number) {
+  std::array<char, 32> text;
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  double result = 0.0;
+  std::from_chars(text.data(), end, result);
+  return result;
+}
+
 }  // namespace json_detail
 
 /// Reads the text of an agent's file:
@@ -84,13 +95,16 @@ inline Agent load_agent(const std::filesystem::path& path) {
 
 /// The text of such a file; reads back as the same agent.
 inline std::string write_agent(const Agent& agent) {
+  const auto numbers = [](const auto& row) {
+    std::vector<double> shortest;
+    for (const float number : row) shortest.push_back(json_detail::shortest(number));
+    return shortest;
+  };
   nlohmann::ordered_json layers = nlohmann::ordered_json::array();
   for (const Layer& layer : agent.policy.layers()) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const auto& row : layer.weights.rowwise())
-      rows.push_back(std::vector<float>(row.begin(), row.end()));
-    layers.push_back(
-        {{"weights", std::move(rows)}, {"bias", std::vector<float>(layer.bias.begin(), layer.bias.end())}});
+    for (const auto& row : layer.weights.rowwise()) rows.push_back(numbers(row));
+    layers.push_back({{"weights", std::move(rows)}, {"bias", numbers(layer.bias)}});
   }
   return nlohmann::ordered_json{{"schema", kAgentSchema},
                                 {"task", agent.task},

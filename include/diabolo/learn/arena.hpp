@@ -12,50 +12,12 @@
 #include <vector>
 
 #include "diabolo/batch/lanes.hpp"
-#include "diabolo/learn/episode.hpp"
+#include "diabolo/learn/arena_options.hpp"
 #include "diabolo/math/worker_pool.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/plan/hang_at_rest.hpp"
 
 namespace diabolo {
-
-/// What happens once an episode is over (the words of Gymnasium).
-enum class Autoreset {
-  kNextStep,  ///< the next step resets it, whatever its action
-  kSameStep,  ///< the step that ends it resets it; what it ended with is kept aside
-  kDisabled,  ///< its owner resets it; until then its steps do nothing
-};
-
-inline constexpr std::array<std::string_view, 3> names_of(Autoreset) {
-  return {"next_step", "same_step", "disabled"};
-}
-
-/// What is played in an arena.
-struct ArenaOptions {
-  std::string task = "Hold";
-  std::size_t count = 1;  ///< of environments
-  double period = 0.01;   ///< between actions [s]
-  int steps = 10;         ///< of the simulation in a period
-  Autoreset autoreset = Autoreset::kNextStep;
-  int threads = 1;  ///< 0: one for every processor
-  HandLimits limits{};
-
-  /// Throws std::invalid_argument naming what is out of its range.
-  void validate() const {
-    if (count < 1) throw std::invalid_argument("count: 0; expected at least one environment");
-    if (!(period >= 1e-3 && period <= 0.1))
-      throw std::invalid_argument("period: " + shown(period) + " s; expected 0.001 to 0.1 s");
-    if (steps < 1 || steps > 1000)
-      throw std::invalid_argument("steps: " + std::to_string(steps) + "; expected 1 to 1000");
-  }
-};
-
-/// What an episode begins with in place of what it would draw.
-struct Given {
-  std::optional<State<double>> state{};
-  std::optional<Goal> goal{};
-  std::optional<std::size_t> model{};  ///< its number
-};
 
 /// Environments in which agents play, side by side: actions in, observations and rewards out. Each plays the
 /// same bits alone and among others, with any number of threads. A step takes no memory.
@@ -81,13 +43,13 @@ class Arena {
         episodes_((options.validate(), options.count)),
         scratch_(workers_.threads(), std::vector<Tips<double>>(kMostLanes * tip_count())) {
     if (models_.empty()) throw std::invalid_argument("models: none; expected at least one");
-    limits().validate();
     for (const Model& model : models_) {
       if (!model.parameters.same_rules(models_.front().parameters) ||
           !same_laws(model.effects.get<FormulaLaws>(), models_.front().effects.get<FormulaLaws>()))
         throw std::invalid_argument("models: they differ in rules or formulas; expected the same in all");
       const FullPredictor<double> predictor(model.parameters, model.effects);
       hanging_.push_back(hang_at_rest(predictor, home(model), 0.5 * (task().least_spin + task().most_spin)));
+      hanging_.back().string_acceleration.z() = model.parameters.gravity;  // the string holds it already
     }
     for (std::size_t i = 0; i < episodes_.size(); ++i) episodes_[i].seed = i;
   }
@@ -117,7 +79,7 @@ class Arena {
       throw std::invalid_argument("state: not finite; expected numbers");
     begin(episode, given.model);
     if (given.goal) episode.goal = *given.goal;
-    if (given.state) episode.state = *given.state;
+    if (given.state) set_state(episode, *given.state);
     observe_into(observations, i);
   }
 
@@ -165,10 +127,30 @@ class Arena {
     episode.rest = episode.state.position;
     for (std::size_t k = 0; k < kMostGoalNumbers; ++k)
       episode.goal[k] = draw.uniform(task().goal[k].low, task().goal[k].high);
+    State<double> state = episode.state;
+    Beginning beginning{state, limits().centre, models_[episode.model].parameters.gravity, draw};
+    if (task_.prepare) task_.prepare(beginning);
+    if (options_.start_share > 0.0 && draw.uniform(0.0, 1.0) < options_.start_share) {
+      const Start& start = options_.starts[draw.index(options_.starts.size())];
+      state = start.state;
+      episode.hands = start.hands;
+      episode.goal = start.goal;
+    }
+    episode.draw = draw;
+    set_state(episode, state);
+  }
+
+  /// Also to the camera's eyes.
+  void set_state(Episode& episode, const State<double>& state) const {
+    episode.state = state;
+    episode.first_spin = state.spin;
+    if (options_.camera) episode.sight = Sight(*options_.camera, state, episode.draw);
   }
 
   void observe_into(std::vector<float>& to, std::size_t i) {
-    observe(episodes_[i], limits().centre, to.data() + kObservationSize * i);
+    const Episode& episode = episodes_[i];
+    observe(episode, limits().centre, models_[episode.model].parameters.gravity, options_.camera.has_value(),
+            to.data() + kObservationSize * i);
   }
 
   /// Environments [first, first + used) play a period, a lane each; unused lanes repeat the last one.
@@ -231,8 +213,12 @@ class Arena {
                            .period = options_.period,
                            .goal = episode.goal},
                           episode.memory);
-    const bool lost = failed || dropped(episode, limits().centre, parameters.string_length);
+    if (options_.camera) episode.sight.look(*options_.camera, episode.state, options_.period, episode.draw);
+    const bool lost =
+        failed || (!worth.achieved && dropped(episode, limits().centre, parameters.string_length));
+    episode.dropped = lost;
     rewards[i] = worth.reward - (lost ? kDropCosts : 0.0);
+    episode.worth += rewards[i];
     terminated[i] = lost || worth.achieved;
     truncated[i] =
         !terminated[i] && episode.periods * options_.period > task().seconds - 0.5 * options_.period;

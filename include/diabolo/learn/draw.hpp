@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 namespace diabolo {
 
@@ -19,6 +21,12 @@ class Draw {
   /// Uniform among 0, 1, ..., count - 1.
   std::size_t index(std::size_t count) {
     return static_cast<std::size_t>(share() * static_cast<double>(count));
+  }
+
+  /// Of the standard normal distribution (Box and Muller 1958).
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - share()));
+    return radius * std::cos(2.0 * std::numbers::pi * share());
   }
 
  private:

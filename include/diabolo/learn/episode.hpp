@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "diabolo/learn/all_tasks.hpp"
+#include "diabolo/learn/camera.hpp"
 #include "diabolo/learn/draw.hpp"
 
 namespace diabolo {
@@ -21,8 +22,20 @@ struct Episode {
   Vector3<double> rest = Vector3<double>::Zero();  ///< where the diabolo hung at first [m]
   Goal goal{};
   Memory memory;
-  int periods = 0;    ///< that were played
-  bool over = false;  ///< and it waits for its reset
+  Draw draw;
+  Sight sight;              ///< of its camera, where there is one
+  double first_spin = 0.0;  ///< [rad/s]
+  double worth = 0.0;       ///< the sum of its rewards
+  int periods = 0;          ///< that were played
+  bool over = false;        ///< and it waits for its reset
+  bool dropped = false;
+};
+
+/// What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play.
+struct Start {
+  State<double> state;
+  Hands hands;
+  Goal goal{};
 };
 
 /// A slice of an observation.
@@ -32,7 +45,8 @@ struct ObservationInfo {
   std::string_view meaning;
 };
 
-/// What an agent sees, in this order.
+/// What an agent sees, in this order. With a camera, the diabolo is where the camera saw it, and the string
+/// is taut where the sticks feel it, else loose.
 inline constexpr std::array kObservations{
     ObservationInfo{"diabolo", "m", 3, "position from the middle of the tips"},
     ObservationInfo{"velocity", "m/s", 3, "of the diabolo"},
@@ -44,6 +58,9 @@ inline constexpr std::array kObservations{
     ObservationInfo{"right_velocity", "m/s", 3, "of the right tip"},
     ObservationInfo{"goal", "of the goal", kMostGoalNumbers, "0 where the task has none"},
     ObservationInfo{"flights", "1", 1, "that ended in a catch"},
+    ObservationInfo{"left_force", "weights", 3, "of the string on the left tip, in weights of the diabolo"},
+    ObservationInfo{"right_force", "weights", 3, "of the string on the right tip"},
+    ObservationInfo{"stage", "1", 1, "of a task that has several"},
 };
 
 inline constexpr std::size_t kObservationSize = [] {
@@ -52,23 +69,47 @@ inline constexpr std::size_t kObservationSize = [] {
   return sum;
 }();
 
-/// Writes kObservationSize numbers.
-inline void observe(const Episode& episode, const Vector3<double>& centre, float* to) {
+/// Forces of the string on the tips, in weights of the diabolo: what it does to the diabolo, along its two
+/// sides. Straight sides cannot be told apart, and get little.
+inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, double gravity) {
+  constexpr double kStraight = 1e-3;  // of 1 - cos^2 of the angle between the sides
+  Hands::Pair sides;
+  for (std::size_t side = 0; side < 2; ++side)
+    sides[side] = (state.position - hands.position[side]).normalized();
+  const double cosine = sides[0].dot(sides[1]), determinant = 1.0 - cosine * cosine + kStraight;
+  const Vector3<double> pull = -state.string_acceleration / gravity;
+  const double left = sides[0].dot(pull), right = sides[1].dot(pull);
+  return {std::max(0.0, (left - cosine * right) / determinant) * sides[0],
+          std::max(0.0, (right - cosine * left) / determinant) * sides[1]};
+}
+
+/// Writes kObservationSize numbers. With `camera`, what it saw.
+inline void observe(const Episode& episode, const Vector3<double>& centre, double gravity, bool camera,
+                    float* to) {
   const auto put = [&to](double x) { *to++ = static_cast<float>(x); };
   const auto put3 = [&](const Vector3<double>& v) {
     for (const double x : v) put(x);
   };
+  const State<double>& state = episode.state;
   const auto& [left, right] = episode.hands.position;
-  put3(episode.state.position - 0.5 * (left + right));
-  put3(episode.state.velocity);
-  put(episode.state.spin / 100.0);
-  for (const StringState state : {StringState::kOnString, StringState::kLoose, StringState::kFlying})
-    put(episode.state.string_state == state ? 1.0 : 0.0);
+  const Hands::Pair forces = tip_forces(state, episode.hands, gravity);
+  const Seen seen = camera ? episode.sight.seen() : Seen{state.position, state.velocity, state.spin};
+  constexpr double kFelt = 0.05;  // [weights]
+  const StringState string = !camera                    ? state.string_state
+                             : forces[0].norm() > kFelt ? StringState::kOnString
+                                                        : StringState::kLoose;
+  put3(seen.position - 0.5 * (left + right));
+  put3(seen.velocity);
+  put(seen.spin / 100.0);
+  for (const StringState one : {StringState::kOnString, StringState::kLoose, StringState::kFlying})
+    put(string == one ? 1.0 : 0.0);
   put3(left - centre);
   put3(right - centre);
   for (const Vector3<double>& velocity : episode.hands.velocity) put3(velocity);
   for (const double number : episode.goal) put(number);
   put(episode.memory.flights);
+  for (const Vector3<double>& force : forces) put3(force);
+  put(episode.memory.stage);
 }
 
 /// Whether nobody can catch it any more: it flies far below the tips, or it is far from the box.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "diabolo/learn/task.hpp"
@@ -46,7 +47,8 @@ inline bool caught_now(const Moment& m, Memory& memory) {
 inline double shaped(const Moment& m, Memory& memory, double apex) {
   if (m.after.string_state == StringState::kFlying) return 0.0;
   const double progress = progress_to(apex, m);
-  return progress - std::exchange(memory.progress, progress);
+  const std::optional<double> last = std::exchange(memory.progress, progress);
+  return progress - last.value_or(progress);
 }
 
 inline double close_to(double difference, double width) { return std::exp(-std::pow(difference / width, 2)); }
@@ -67,6 +69,26 @@ struct HopTask {
     using learn_detail::caught_now, learn_detail::close_to, learn_detail::shaped;
     const double change = shaped(m, memory, m.goal[0]);
     return {change + (caught_now(m, memory) ? close_to(memory.apex - m.goal[0], 0.1) : 0.0)};
+  }
+};
+
+struct ThrowTask {
+  static constexpr TaskInfo kInfo{
+      "Throw",
+      "throw the diabolo to a height",
+      "the change of q on the string, where q goes from 0 at rest to 1 where the diabolo would fly up to the "
+      "goal h, and falls again beyond; then 2 exp(-((a - h) / 0.1 m)^2) at the apex a, where the episode "
+      "ends",
+      4.0,
+      {{{"height", "m", 0.3, 0.8, "of the apex above the middle of the tips' box"}, {}}}};
+
+  static Worth judge(const Moment& m, Memory& memory) {
+    using learn_detail::caught_now, learn_detail::close_to, learn_detail::shaped;
+    const double change = shaped(m, memory, m.goal[0]);
+    caught_now(m, memory);
+    const bool turned = memory.flying && m.before.velocity.z() > 0.0 && m.after.velocity.z() <= 0.0;
+    if (!turned || memory.apex < 0.0) return {change};
+    return {2.0 * close_to(memory.apex - m.goal[0], 0.1), true};
   }
 };
 

@@ -13,6 +13,13 @@
 
 namespace diabolo {
 
+/// The two tips, left before right.
+struct Hands {
+  using Pair = std::array<Vector3<double>, 2>;
+  Pair position{Vector3<double>::Zero(), Vector3<double>::Zero()};  ///< [m]
+  Pair velocity = position;                                         ///< [m/s]
+};
+
 /// What the tips may do under an agent. Each keeps to a box of its own: the left one to the left half of a
 /// box around `centre`, the right one to the right half. Bounds are along an axis, those of TipLimits divided
 /// by sqrt(3), so that none of them depends on another; only the string ties the two tips together.
@@ -42,13 +49,28 @@ struct HandLimits {
       throw std::invalid_argument("limits, string_margin: " + shown(string_margin) +
                                   " m; expected at least 0 and less than 0.1 m");
   }
-};
 
-/// The two tips, left before right.
-struct Hands {
-  using Pair = std::array<Vector3<double>, 2>;
-  Pair position{Vector3<double>::Zero(), Vector3<double>::Zero()};  ///< [m]
-  Pair velocity = position;                                         ///< [m/s]
+  /// The lowest and the highest place of a tip along an axis [m].
+  std::pair<double, double> room(std::size_t side, int axis) const {
+    const double middle = centre[axis];
+    if (axis != 1) return {middle - half[axis], middle + half[axis]};
+    return side == 0 ? std::pair(middle + 0.5 * gap, middle + half[1])
+                     : std::pair(middle - half[1], middle - 0.5 * gap);
+  }
+
+  /// Throws std::invalid_argument where hands, those of start `number`, are outside or too fast.
+  void expect_within(const Hands& hands, std::size_t number) const {
+    constexpr double kSlack = 1e-9;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = room(side, axis);
+        const double place = hands.position[side][axis], speed_now = hands.velocity[side][axis];
+        if (!(place >= low - kSlack && place <= high + kSlack && std::abs(speed_now) <= speed + kSlack))
+          throw std::invalid_argument("starts, " + std::to_string(number) + ": a tip at " + shown(place) +
+                                      " m with " + shown(speed_now) + " m/s along axis " +
+                                      std::to_string(axis) + "; expected it within the limits");
+      }
+  }
 };
 
 namespace learn_detail {
@@ -99,9 +121,7 @@ void move_hands(Hands& hands, const Number* action, const HandLimits& limits, do
   const double brake = limits.acceleration;
   for (std::size_t side = 0; side < 2; ++side)
     for (int axis = 0; axis < 3; ++axis) {
-      double low = limits.centre[axis] - limits.half[axis], high = limits.centre[axis] + limits.half[axis];
-      if (axis == 1 && side == 0) low = limits.centre.y() + 0.5 * limits.gap;
-      if (axis == 1 && side == 1) high = limits.centre.y() - 0.5 * limits.gap;
+      const auto [low, high] = limits.room(side, axis);
       const double x = hands.position[side][axis], v = hands.velocity[side][axis];
       const double share = static_cast<double>(action[3 * static_cast<int>(side) + axis]);
       double next =

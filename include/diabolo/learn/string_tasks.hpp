@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diabolo/learn/task.hpp"
 
@@ -51,6 +52,32 @@ struct SpinUpTask {
       "SpinUp", "spin the diabolo up", "the change of the spin over 100 rad/s", 10.0, {}, 0.0, 20.0};
 
   static Worth judge(const Moment& m, Memory&) { return {(m.after.spin - m.before.spin) / 100.0}; }
+};
+
+struct SpinUpCircleTask {
+  static constexpr TaskInfo kInfo{
+      "SpinUpCircle",
+      "lead the diabolo round in circles, and spin it up by them",
+      "the change of the spin over 100 rad/s, and T / 10 s max(0, 1 - |w - g| / g) min(1, |v| / v_1) on the "
+      "string, for a period T, a velocity v that turns w times a second and is v_1 on a circle of 5 cm at "
+      "the "
+      "goal g",
+      10.0,
+      {{{"rate", "1/s", 0.8, 1.6, "of the circles"}, {}}},
+      0.0,
+      20.0};
+
+  static Worth judge(const Moment& m, Memory&) {
+    const double gained = (m.after.spin - m.before.spin) / 100.0;
+    if (m.after.string_state != StringState::kOnString) return {gained};
+    const Vector3<double>&from = m.before.velocity, &to = m.after.velocity;
+    const double turned =
+        std::atan2(from.y() * to.z() - from.z() * to.y(), from.y() * to.y() + from.z() * to.z());
+    const double full = 2.0 * std::numbers::pi, rate = std::abs(turned) / (full * m.period);
+    const double size = std::hypot(to.y(), to.z()) / (full * m.goal[0] * 0.05);
+    const double close = std::max(0.0, 1.0 - std::abs(rate - m.goal[0]) / m.goal[0]);
+    return {gained + m.period / 10.0 * close * std::min(1.0, size)};
+  }
 };
 
 }  // namespace diabolo

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
+#include "diabolo/learn/draw.hpp"
 #include "diabolo/learn/hands.hpp"
 #include "diabolo/state.hpp"
 
@@ -31,11 +33,21 @@ struct TaskInfo {
 
 /// What an episode remembers beyond the state.
 struct Memory {
-  double progress = 0.0;             ///< the last potential of a shaped reward
+  std::optional<double> progress{};  ///< the last potential of a shaped reward
   double apex = 0.0;                 ///< highest place of the last flight, above the box's centre [m]
   double aloft = 0.0, caught = 0.0;  ///< time since it left the string, and since it was caught [s]
   int flights = 0;                   ///< that ended in a catch
+  int stage = 0;                     ///< of a task that has several
+  double still = 0.0;                ///< how long it has kept still [s]
   bool flying = false;
+};
+
+/// What an episode begins with, where a task changes it.
+struct Beginning {
+  State<double>& state;
+  const Vector3<double>& centre;  ///< of the hands' box [m]
+  double gravity;                 ///< [m/s^2]
+  Draw& draw;
 };
 
 /// One control period of an episode, as a task looks at it.

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diabolo/learn/episode.hpp"
+#include "diabolo/text/shown.hpp"
+
+namespace diabolo {
+
+/// What happens once an episode is over (the words of Gymnasium).
+enum class Autoreset {
+  kNextStep,  ///< the next step resets it, whatever its action
+  kSameStep,  ///< the step that ends it resets it; what it ended with is kept aside
+  kDisabled,  ///< its owner resets it; until then its steps do nothing
+};
+
+inline constexpr std::array<std::string_view, 3> names_of(Autoreset) {
+  return {"next_step", "same_step", "disabled"};
+}
+
+/// What is played in an arena.
+struct ArenaOptions {
+  std::string task = "Hold";
+  std::size_t count = 1;  ///< of environments
+  double period = 0.01;   ///< between actions [s]
+  int steps = 10;         ///< of the simulation in a period
+  Autoreset autoreset = Autoreset::kNextStep;
+  int threads = 1;  ///< 0: one for every processor
+  HandLimits limits{};
+  std::optional<Camera> camera{};  ///< none: an agent sees the exact state
+  std::vector<Start> starts{};     ///< that episodes may begin with
+  double start_share = 0.0;        ///< of the episodes that do
+
+  /// Throws std::invalid_argument naming what is out of its range.
+  void validate() const {
+    if (count < 1) throw std::invalid_argument("count: 0; expected at least one environment");
+    if (!(period >= 1e-3 && period <= 0.1))
+      throw std::invalid_argument("period: " + shown(period) + " s; expected 0.001 to 0.1 s");
+    if (steps < 1 || steps > 1000)
+      throw std::invalid_argument("steps: " + std::to_string(steps) + "; expected 1 to 1000");
+    if (!(start_share >= 0.0 && start_share <= (starts.empty() ? 0.0 : 1.0)))
+      throw std::invalid_argument("start_share: " + shown(start_share) + "; expected 0 to " +
+                                  (starts.empty() ? "0, since there are no starts" : "1"));
+    limits.validate();
+    if (camera) camera->validate();
+    for (std::size_t i = 0; i < starts.size(); ++i) limits.expect_within(starts[i].hands, i);
+  }
+};
+
+/// What an episode begins with in place of what it would draw.
+struct Given {
+  std::optional<State<double>> state{};
+  std::optional<Goal> goal{};
+  std::optional<std::size_t> model{};  ///< its number
+};
+
+}  // namespace diabolo

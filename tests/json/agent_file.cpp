@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/json/agent_file.hpp"
+
+#include "catch.hpp"
+#include "random.hpp"
+#include "recording/support.hpp"
+
+using namespace diabolo;
+using test::complaint;
+
+namespace {
+
+Agent drawn_agent() {
+  Random random(2408);
+  constexpr Eigen::Index kSeen = static_cast<Eigen::Index>(kObservationSize);
+  const auto drawn = [&] { return static_cast<float>(random.uniform(-0.5, 0.5)); };
+  return {"SpinUp", 0.02, 20,
+          Policy({{Eigen::MatrixXf::NullaryExpr(6, kSeen, drawn), Eigen::VectorXf::NullaryExpr(6, drawn)}})};
+}
+
+/// What is said of the file of an agent in which one piece of text stands for another.
+std::string complaint_about(const std::string& what, const std::string& by) {
+  std::string text = write_agent(drawn_agent());
+  const std::size_t place = text.find(what);
+  REQUIRE(place != std::string::npos);
+  text.replace(place, what.size(), by);
+  return complaint([&] { read_agent(text, "a.json"); });
+}
+
+}  // namespace
+
+TEST_CASE("an agent reads back as it was written, bit for bit") {
+  const Agent agent = drawn_agent(), again = read_agent(write_agent(agent), "a.json");
+  CHECK(again.task == agent.task);
+  CHECK(again.period == agent.period);
+  CHECK(again.steps == agent.steps);
+  CHECK(again.policy.layers()[0].weights == agent.policy.layers()[0].weights);
+  CHECK(again.policy.layers()[0].bias == agent.policy.layers()[0].bias);
+  CHECK(write_agent(again) == write_agent(agent));
+}
+
+TEST_CASE("what is no agent is told with its file and field") {
+  CHECK(complaint_about("SpinUp", "Fly").starts_with("a.json: task: found \"Fly\"; expected one of Hold"));
+  CHECK(complaint_about("0.02", "3") == "a.json: period: 3 s; expected 0.001 to 0.1 s");
+  CHECK(complaint_about("\"steps\":20", "\"steps\":2.5") ==
+        "a.json: field \"steps\" is 2.5; expected a whole number up to 1000");
+  CHECK(complaint_about("\"bias\":[", "\"bias\":[0.0,") ==
+        "a.json: layer 0: 6 x " + std::to_string(kObservationSize) + " weights and 7 biases; expected " +
+            std::to_string(kObservationSize) + " inputs, and a bias for each output");
+  CHECK(complaint_about("],[", ",0.0],[").find("expected rows of the same length") != std::string::npos);
+  CHECK(complaint_about("\"weights\":[[", "\"weights\":[[\"a\",").find("expected numbers") !=
+        std::string::npos);
+  CHECK(complaint_about("\"bias\":[", "\"bias\":[null,").find("expected numbers") != std::string::npos);
+  CHECK(complaint_about("\"layers\"", "\"lairs\"") == "a.json: unknown field \"lairs\"");
+  CHECK(complaint([] { read_agent("{", "a.json"); }).starts_with("a.json"));
+}
