@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/posterior.hpp"
 #include "diabolo/diagnose/result_of.hpp"
 #include "diabolo/diagnose/simulator.hpp"
 
@@ -76,11 +77,11 @@ std::vector<std::string> unused_of(const DiagnosisOptions& options) {
   return unused;
 }
 
-/// What is said, and the model with what was found.
+/// What is said, the model with what was found, and `draws` others that would do as well.
 py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
                    const std::vector<Recording>& holdout, const std::vector<std::string>& bank,
                    const FormulaLaws<double>& laws, double budget, std::uint64_t seed, int threads,
-                   const py::object& progress) {
+                   const py::object& progress, std::size_t draws) {
   const DiagnosisOptions options = options_of(recordings, base, holdout, bank, laws, budget, seed, threads);
   std::vector<std::string> unused;
   Diagnosis result;
@@ -88,7 +89,8 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
     unused = unused_of(options);
     result = diabolo::diagnose(recordings, options, watch);
   });
-  return py::make_tuple(result_of(result, recordings, std::move(unused)), result.model);
+  return py::make_tuple(result_of(result, recordings, std::move(unused)), result.model,
+                        draws > 0 ? Posterior(result).draw(draws, seed) : std::vector<Model>());
 }
 
 /// `rows`, shape (N, 3) or (N, 7), positions [m] or states; NaN where the spin is not known.
@@ -165,7 +167,7 @@ void bind_diagnosis(py::module_& module) {
       },
       "recording"_a, "Rows from which a simulator is asked to play, each with its state, shape (7,).");
   module.def("diagnose", &diagnose, "recordings"_a, "base"_a, "holdout"_a, "bank"_a, "laws"_a, "budget"_a,
-             "seed"_a, "threads"_a, "progress"_a, "See diabolo.diagnose.");
+             "seed"_a, "threads"_a, "progress"_a, "draws"_a, "See diabolo.diagnose.");
   module.def("compare_simulator", &compare, "recordings"_a, "simulated"_a, "simulate"_a, "base"_a,
              "holdout"_a, "bank"_a, "laws"_a, "budget"_a, "seed"_a, "threads"_a, "progress"_a,
              "See diabolo.compare_simulator.");

@@ -28,14 +28,18 @@ using Actions = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 std::unique_ptr<Arena> make_arena(const std::string& task, std::vector<Model> models, std::size_t count,
                                   double period, int steps, const std::string& autoreset, int threads,
-                                  const HandLimits& limits) {
+                                  const HandLimits& limits, const std::optional<Camera>& camera,
+                                  std::vector<EpisodeStart> starts, double start_share) {
   const ArenaOptions options{.task = task,
                              .count = count,
                              .period = period,
                              .steps = steps,
                              .autoreset = choice_from_python<Autoreset>(autoreset, "autoreset"),
                              .threads = threads,
-                             .limits = limits};
+                             .limits = limits,
+                             .camera = camera,
+                             .starts = std::move(starts),
+                             .start_share = start_share};
   return std::make_unique<Arena>(options, std::move(models), best_batch_kernel());
 }
 
@@ -69,24 +73,48 @@ std::size_t checked(const Arena& arena, std::size_t i) {
   return i;
 }
 
+/// Throws std::invalid_argument where there are more numbers than a goal has.
+Goal goal_of(const std::vector<double>& numbers, std::size_t least, std::size_t most) {
+  if (numbers.size() < least || numbers.size() > most)
+    throw std::invalid_argument("goal: " + std::to_string(numbers.size()) + " numbers; expected " +
+                                (least < most ? "at most " : "") + std::to_string(most));
+  Goal goal{};
+  std::ranges::copy(numbers, goal.begin());
+  return goal;
+}
+
+std::size_t goal_size(const TaskInfo& task) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(task.goal, [](const GoalInfo& info) { return !info.name.empty(); }));
+}
+
 void reset(Arena& arena, std::size_t i, const std::optional<State<double>>& state,
            const std::optional<std::vector<double>>& goal, const std::optional<std::size_t>& model) {
   Given given{.state = state, .goal = {}, .model = model};
-  if (goal) {
-    const auto& wanted = arena.task().goal;
-    const auto size = std::ranges::count_if(wanted, [](const GoalInfo& info) { return !info.name.empty(); });
-    if (static_cast<std::ptrdiff_t>(goal->size()) != size)
-      throw std::invalid_argument("goal: " + std::to_string(goal->size()) + " numbers; expected " +
-                                  std::to_string(size));
-    given.goal = Goal{};
-    std::ranges::copy(*goal, given.goal->begin());
-  }
+  if (goal) given.goal = goal_of(*goal, goal_size(arena.task()), goal_size(arena.task()));
   arena.reset(checked(arena, i), given);
 }
 
 py::tuple pose(const Arena& arena, std::size_t i) {
   const Episode& episode = arena.episode(checked(arena, i));
   return py::make_tuple(episode.state, episode.hands.position[0], episode.hands.position[1]);
+}
+
+/// What an episode has come to, for tables.
+py::dict outcome(const Arena& arena, std::size_t i) {
+  const Episode& episode = arena.episode(checked(arena, i));
+  const std::vector<double> goal(episode.goal.begin(),
+                                 episode.goal.begin() + static_cast<std::ptrdiff_t>(goal_size(arena.task())));
+  return py::dict("worth"_a = episode.worth, "seconds"_a = episode.periods * arena.options().period,
+                  "over"_a = episode.over, "dropped"_a = episode.dropped, "first_spin"_a = episode.first_spin,
+                  "spin"_a = episode.state.spin, "flights"_a = episode.memory.flights,
+                  "apex"_a = episode.memory.apex, "goal"_a = goal, "model"_a = episode.model);
+}
+
+EpisodeStart make_start(const State<double>& state, const Vector3<double>& left, const Vector3<double>& right,
+                        const Vector3<double>& left_velocity, const Vector3<double>& right_velocity,
+                        const std::vector<double>& goal) {
+  return {state, {{left, right}, {left_velocity, right_velocity}}, goal_of(goal, 0, kMostGoalNumbers)};
 }
 
 using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -169,11 +197,38 @@ left half (along y) the left tip keeps to, and the right tip to the other.)")
       .def_readonly("string_margin", &HandLimits::string_margin)
       .def_readonly("centre", &HandLimits::centre)
       .def_readonly("half", &HandLimits::half);
+  const Camera eyes;
+  py::class_<Camera>(
+      module, "Camera",
+      R"(How an agent sees the diabolo: with noise, late, and not in every frame. A frame is a period.
+
+noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
+nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
+      .def(py::init([](double noise, double spin_noise, double dropouts, int least_delay, int most_delay) {
+             const Camera camera{noise, spin_noise, dropouts, least_delay, most_delay};
+             camera.validate();
+             return camera;
+           }),
+           "noise"_a = eyes.noise, "spin_noise"_a = eyes.spin_noise, "dropouts"_a = eyes.dropouts,
+           "least_delay"_a = eyes.least_delay, "most_delay"_a = eyes.most_delay)
+      .def_readonly("noise", &Camera::noise)
+      .def_readonly("spin_noise", &Camera::spin_noise)
+      .def_readonly("dropouts", &Camera::dropouts)
+      .def_readonly("least_delay", &Camera::least_delay)
+      .def_readonly("most_delay", &Camera::most_delay);
+  const Vector3<double> none = Vector3<double>::Zero();
+  py::class_<EpisodeStart>(
+      module, "EpisodeStart",
+      "What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: "
+      "the diabolo's state, the tips' places [m] and velocities [m/s], and the goal.")
+      .def(py::init(&make_start), "state"_a, "left"_a, "right"_a, "left_velocity"_a = none,
+           "right_velocity"_a = none, "goal"_a = std::vector<double>());
   py::class_<Arena>(module, "Arena",
                     "Environments side by side, in the compiled core: what diabolo.envs is made of. Its "
                     "arrays are its own memory, which each step overwrites.")
       .def(py::init(&make_arena), "task"_a, "models"_a, "count"_a = 1, "period"_a = 0.01, "steps"_a = 10,
-           "autoreset"_a = "next_step", "threads"_a = 1, py::arg_v("limits", usual, "HandLimits()"))
+           "autoreset"_a = "next_step", "threads"_a = 1, py::arg_v("limits", usual, "HandLimits()"),
+           "camera"_a = py::none(), "starts"_a = std::vector<EpisodeStart>(), "start_share"_a = 0.0)
       .def(
           "seed",
           [](Arena& arena, std::size_t i, std::uint64_t seed) { arena.seed(checked(arena, i), seed); },
@@ -187,8 +242,12 @@ left half (along y) the left tip keeps to, and the right tip to the other.)")
           "model_of",
           [](const Arena& arena, std::size_t i) { return arena.episode(checked(arena, i)).model; },
           "environment"_a, "Number of the model that it plays with.")
+      .def("outcome", &outcome, "environment"_a,
+           "What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin "
+           "and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model.")
       .def_property_readonly("count", &Arena::count)
-      .def_property_readonly("observations", viewed(&Arena::observations), "float32, shape (count, 25).")
+      .def_property_readonly("observations", viewed(&Arena::observations),
+                             "float32, shape (count, numbers of an observation).")
       .def_property_readonly("final_observations", viewed(&Arena::final_observations),
                              "Of episodes that the same step has reset.")
       .def_property_readonly("rewards", viewed(&Arena::rewards))
@@ -203,7 +262,8 @@ weights of the shape (outputs, inputs), with tanh between them. Outputs are cut 
       .def(py::init(&make_agent), "task"_a, "period"_a, "steps"_a, "layers"_a)
       .def_static("load", &load_agent, "path"_a, Unlocked(), "Reads a file of the schema diabolo.agent/1.")
       .def("to_json", &write_agent, "The text of its file.")
-      .def("act", &act, "observations"_a, "Actions, shape (6,) or (n, 6), of observations, (25,) or (n, 25).")
+      .def("act", &act, "observations"_a,
+           "Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each.")
       .def_readonly("task", &Agent::task)
       .def_readonly("period", &Agent::period)
       .def_readonly("steps", &Agent::steps)

@@ -161,6 +161,16 @@ def check_drawing(path: str | os.PathLike[str], *libraries: str) -> None:
         ) from error
 
 
+def check_library(what: str, library: str, extra: str) -> None:
+    """Raise ValueError where an optional library is missing."""
+    try:
+        import_module(library)
+    except ModuleNotFoundError as error:
+        raise ValueError(
+            f"{what}: needs {error.name} (pip install '.[{extra}]' in the project's root)"
+        ) from error
+
+
 def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:
     """`given`, of that kind; else raises ValueError."""
     if not isinstance(given, kind):

@@ -41,6 +41,7 @@ from .checks import (
 
 SCHEMA: str = DIAGNOSIS_SCHEMA
 
+MOST_DRAWS = 100_000
 SAME_SET_UP = 0.01
 """Part by which lengths and masses of one set-up may differ, measured anew for each take."""
 
@@ -52,6 +53,8 @@ class Diagnosis(NamedTuple):
     """Everything that its file holds, of the schema diabolo.diagnosis/1 (docs/diagnosis.md)."""
     model: Model
     """The base with the physics that was found; for recordings without the faults that were found."""
+    models: tuple[Model, ...] = ()
+    """Others that these recordings do not tell from it, to train or plan on: as many as `draws` asked for."""
 
     @property
     def headline(self) -> str:
@@ -113,6 +116,7 @@ def diagnose(
     seed: int = 1,
     threads: int = 0,
     progress: Callable[[str, float], None] | None = None,
+    draws: int = 0,
 ) -> Diagnosis:
     """Find what a simulator leaves out, or what a measurement got wrong.
 
@@ -130,6 +134,9 @@ def diagnose(
         left out; `result.not_done` tells of it.
     seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.
     progress: called with the name of the step and the fraction done.
+    draws: how many `models` to draw from what these recordings leave open: numbers together, by the covariance
+        of the fit; of what is tied one or the other; in half of them one effect that is not claimed, as large
+        as is not excluded.
 
         diagnose("swing.csv").sentence
 
@@ -138,8 +145,11 @@ def diagnose(
     that are odd, such as with rows that are missing.
     """
     asked = _asked(recordings, base, holdout, bank, laws, budget, seed, threads, progress)
-    result, model = _core.diagnose(*asked)
-    return Diagnosis(result, asked[1] if result.headline == "INSUFFICIENT_DATA" else model)
+    whole_number("draws", draws, 0, MOST_DRAWS)
+    result, model, models = _core.diagnose(*asked, draws)
+    if result.headline == "INSUFFICIENT_DATA":
+        return Diagnosis(result, asked[1], (asked[1],) * draws)
+    return Diagnosis(result, model, tuple(models))
 
 
 def compare_simulator(

@@ -192,7 +192,7 @@ TEST_CASE("an episode begins with what is given, and draws the rest") {
 }
 
 TEST_CASE("episodes begin with somebody's play where they are told to, as often as they are told to") {
-  Start start;
+  EpisodeStart start;
   start.state.string_state = StringState::kFlying;
   start.state.position = HandLimits{}.centre + Vector3<double>(0.0, 0.1, 0.3);
   start.hands.position = {HandLimits{}.centre + Vector3<double>(0.0, 0.6, 0.0),

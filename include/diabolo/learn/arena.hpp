@@ -131,7 +131,7 @@ class Arena {
     Beginning beginning{state, limits().centre, models_[episode.model].parameters.gravity, draw};
     if (task_.prepare) task_.prepare(beginning);
     if (options_.start_share > 0.0 && draw.uniform(0.0, 1.0) < options_.start_share) {
-      const Start& start = options_.starts[draw.index(options_.starts.size())];
+      const EpisodeStart& start = options_.starts[draw.index(options_.starts.size())];
       state = start.state;
       episode.hands = start.hands;
       episode.goal = start.goal;

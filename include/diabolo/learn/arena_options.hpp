@@ -34,9 +34,9 @@ struct ArenaOptions {
   Autoreset autoreset = Autoreset::kNextStep;
   int threads = 1;  ///< 0: one for every processor
   HandLimits limits{};
-  std::optional<Camera> camera{};  ///< none: an agent sees the exact state
-  std::vector<Start> starts{};     ///< that episodes may begin with
-  double start_share = 0.0;        ///< of the episodes that do
+  std::optional<Camera> camera{};      ///< none: an agent sees the exact state
+  std::vector<EpisodeStart> starts{};  ///< that episodes may begin with
+  double start_share = 0.0;            ///< of the episodes that do
 
   /// Throws std::invalid_argument naming what is out of its range.
   void validate() const {

@@ -32,7 +32,7 @@ struct Episode {
 };
 
 /// What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play.
-struct Start {
+struct EpisodeStart {
   State<double> state;
   Hands hands;
   Goal goal{};

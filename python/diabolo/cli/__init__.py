@@ -18,7 +18,7 @@ from typing import Any, NoReturn, TextIO
 from .. import __version__
 from ..checks import RecordingWarning
 from ..rollout import RolloutWarning
-from . import convert, demo, diagnose, evaluate, info, motion, plan, robot, simulate, view
+from . import convert, demo, diagnose, evaluate, info, motion, plan, play, robot, simulate, train, view
 
 DESCRIPTION = """\
 Simulate and plan diabolo play, and find out how far a simulation is off.
@@ -68,7 +68,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"diabolo {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
-    for command in (demo, evaluate, diagnose, plan, simulate, view, robot, info, convert, motion):
+    for command in (demo, evaluate, diagnose, plan, simulate, view, robot, info, convert, motion, train, play):
         command.add_parser(commands)
     return parser
 

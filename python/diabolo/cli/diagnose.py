@@ -10,9 +10,9 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from .._core import Estimate, FormulaLaws, InputFile, Model, Recording, load_recording
+from .._core import Estimate, FormulaLaws, InputFile, Recording, load_recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
-from ..diagnosis import Comparison, Diagnosis, compare_simulator
+from ..diagnosis import MOST_DRAWS, Comparison, Diagnosis, compare_simulator
 from ..diagnosis import diagnose as run_diagnosis
 from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..report import check as check_report
@@ -96,13 +96,24 @@ def add_parser(commands: Any) -> None:
         default=1e9,
         help="end after so long, reading aside; what is left out for it is told",
     )
-    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the intervals; default: 1")
+    parser.add_argument(
+        "--draws",
+        metavar="N",
+        type=int,
+        default=0,
+        help="write so many other models that the recordings do not tell from the best (DIR/model-1.json, ...), "
+        "for `diabolo train --model DIR/model-*.json`",
+    )
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of intervals and draws; default: 1")
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
 
 
 def run(arguments: argparse.Namespace) -> None:
     whole_number("--threads", arguments.threads, 0, MOST_THREADS)
     whole_number("--seed", arguments.seed, 0, LARGEST_SEED)
+    whole_number("--draws", arguments.draws, 0, MOST_DRAWS)
+    if arguments.draws and (arguments.out is None or arguments.simulated):
+        raise ValueError(f"--draws {arguments.draws}: expected with --out DIR, and without --simulated")
     if not arguments.budget > 0.0:
         raise ValueError(f"--budget: {arguments.budget} s; expected more than 0")
     folder = None if arguments.out is None else Path(arguments.out)
@@ -110,6 +121,7 @@ def run(arguments: argparse.Namespace) -> None:
     if folder is not None:
         names = [MODEL_FILE, REPORT_FILE, RESULT_FILE]
         names += [COMPARISON_FILE, SIMULATOR_FILE] if arguments.simulated else []
+        names += [drawn_file(i) for i in range(arguments.draws)]
         outputs += [folder / name for name in names]
         check_report(folder / REPORT_FILE)
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
@@ -141,7 +153,7 @@ def run(arguments: argparse.Namespace) -> None:
             comparison = compare_simulator(takes, simulated, base, **settings_of_run)
             diagnosis = comparison.real
         else:
-            diagnosis = run_diagnosis(takes, base, **settings_of_run)
+            diagnosis = run_diagnosis(takes, base, draws=arguments.draws, **settings_of_run)
     result = diagnosis.result.completed(
         seconds=time.monotonic() - begin, inputs=hashes, model=None if folder is None else MODEL_FILE
     ).to_dict()
@@ -150,7 +162,7 @@ def run(arguments: argparse.Namespace) -> None:
         texts = {}
     else:
         replays = [replay_of(take, base, diagnosis.model) for take in [*takes, *held]]
-        texts = _texts(folder, diagnosis.model, result, comparison, replays)
+        texts = _texts(folder, diagnosis, result, comparison, replays)
     if arguments.json not in (None, files.STDOUT):
         texts[Path(arguments.json)] = files.json_text(told)
     with nullcontext() if folder is None else files.made_folder(folder):
@@ -161,6 +173,11 @@ def run(arguments: argparse.Namespace) -> None:
         print(text_of(diagnosis) if comparison is None else comparison_text(comparison))
         if folder is not None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
+
+
+def drawn_file(i: int) -> str:
+    """Name of a model that was drawn, from 1."""
+    return f"model-{i + 1}.json"
 
 
 def read_simulated(path: str, like: Recording) -> Recording:
@@ -241,17 +258,19 @@ def input_file(path: str | Path) -> InputFile:
 
 def _texts(
     folder: Path,
-    model: Model,
+    diagnosis: Diagnosis,
     result: dict[str, Any],
     comparison: Comparison | None,
     replays: list[Replay],
 ) -> dict[Path, str]:
     told = None if comparison is None else comparison.to_dict()
     texts = {
-        folder / MODEL_FILE: model.to_json(),
+        folder / MODEL_FILE: diagnosis.model.to_json(),
         folder / REPORT_FILE: report_html(result, told, replays),
         folder / RESULT_FILE: files.json_text(result),
     }
+    for i, drawn in enumerate(diagnosis.models):
+        texts[folder / drawn_file(i)] = drawn.to_json()
     if comparison is not None:
         texts[folder / COMPARISON_FILE] = comparison.result.to_json()
         texts[folder / SIMULATOR_FILE] = comparison.simulated.model.to_json()

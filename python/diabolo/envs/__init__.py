@@ -5,17 +5,32 @@ import gymnasium, diabolo.envs
 
 env = gymnasium.make("Diabolo/SpinUp-v0")
 many = gymnasium.make_vec("Diabolo/SpinUp-v0", num_envs=1024, vectorization_mode="vector_entry_point")
+
+For Stable-Baselines3: diabolo.envs.sb3.DiaboloVecEnv.
 """
 
 from __future__ import annotations
 
 from gymnasium.envs.registration import register
 
-from .._core import HandLimits, observation_infos, task_infos
+from .._core import Agent, Camera, EpisodeStart, HandLimits, observation_infos, task_infos
+from .playing import play, shipped_agent
 from .single import DiaboloEnv
 from .vector import DiaboloVectorEnv
 
-__all__ = ["TASKS", "DiaboloEnv", "DiaboloVectorEnv", "HandLimits", "observation_infos", "task_infos"]
+__all__ = [
+    "TASKS",
+    "Agent",
+    "Camera",
+    "DiaboloEnv",
+    "DiaboloVectorEnv",
+    "EpisodeStart",
+    "HandLimits",
+    "observation_infos",
+    "play",
+    "shipped_agent",
+    "task_infos",
+]
 
 TASKS: tuple[str, ...] = tuple(info["name"] for info in task_infos())
 """What can be played, the easy ones first."""

@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import gymnasium
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import Arena, HandLimits
-from ..checks import shown
+from .._core import Arena, Camera, EpisodeStart, HandLimits, State
+from ..checks import numbers, shown
 from .picture import picture
-from .spaces import ACTION, OBSERVATION, AnyModels, models_of, options_of
+from .spaces import ACTION, OBSERVATION, AnyModels, camera_of, models_of, options_of
 
 
 class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
@@ -23,6 +23,8 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     model: what it is played with; of several, each episode draws one.
     period: between actions [s]; steps: of the simulation in a period.
     limits: of the tips.
+    difficulty: "easy", the exact state is seen; "real", what a Camera() sees; or a Camera of one's own.
+    starts: what a share of the episodes begins with, start_share of them.
     render_mode: "rgb_array" lets render() draw (`pip install '.[plot]'`).
 
     Raises ValueError about bad input, also for actions that are not numbers.
@@ -40,6 +42,9 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         period: float = 0.01,
         steps: int = 10,
         limits: HandLimits | None = None,
+        difficulty: str | Camera = "easy",
+        starts: Sequence[EpisodeStart] = (),
+        start_share: float = 0.0,
         render_mode: str | None = None,
     ) -> None:
         if render_mode not in (None, "rgb_array"):
@@ -47,7 +52,17 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         models = models_of(model)
         self.render_mode, self._task, self._limits = render_mode, task, limits or HandLimits()
         self._lengths = [one.parameters.string_length for one in models]
-        self._arena = Arena(task, models, 1, period, steps, "disabled", 1, self._limits)
+        self._arena = Arena(
+            task,
+            models,
+            period=period,
+            steps=steps,
+            autoreset="disabled",
+            limits=self._limits,
+            camera=camera_of(difficulty),
+            starts=starts,
+            start_share=start_share,
+        )
         self.metadata = {**self.metadata, "render_fps": round(1.0 / period)}
         arena = self._arena
         self._observation, self._reward = arena.observations[0], arena.rewards
@@ -71,7 +86,10 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         """Play a period."""
         if not self._begun:
             raise gymnasium.error.ResetNeeded("step: called before the first reset")
-        self._action[0] = action
+        given = numbers("action", action)
+        if given.shape != (6,):
+            raise ValueError(f"action: {shown(given)}; expected six numbers from -1 to 1")
+        self._action[0] = given
         self._arena.step(self._action)
         return (
             self._observation.copy(),
@@ -81,11 +99,20 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             {},
         )
 
+    def pose(self) -> tuple[State, NDArray[np.float64], NDArray[np.float64]]:
+        """State of the diabolo, left tip and right tip [m]: exactly, whatever an agent sees."""
+        return self._arena.pose(0)
+
+    def outcome(self) -> dict[str, Any]:
+        """What the episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and
+        spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
+        return self._arena.outcome(0)
+
     def render(self) -> NDArray[np.uint8] | None:
         """What the player sees, RGB, shape (480, 480, 3); None without a render_mode."""
         if self.render_mode is None:
             return None
         if not self._begun:
             raise gymnasium.error.ResetNeeded("render: called before the first reset")
-        state, left, right = self._arena.pose(0)
+        state, left, right = self.pose()
         return picture(self._task, state, (left, right), self._limits, self._lengths[self._arena.model_of(0)])

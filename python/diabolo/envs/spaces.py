@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from gymnasium.spaces import Box
 
-from .._core import Model, Parameters, State, StringFriction, observation_infos
+from .._core import Camera, Model, Parameters, State, StringFriction, observation_infos
 from ..checks import instance_of, list_of, number, shown, whole_number
 
 AnyModels: TypeAlias = Model | Parameters | Sequence[Model | Parameters] | None
@@ -20,6 +20,7 @@ OBSERVATION = Box(-1e3, 1e3, (sum(info["size"] for info in observation_infos()),
 """See diabolo.envs.observation_infos()."""
 
 OPTIONS = ("state", "goal", "model")
+DIFFICULTIES = ("easy", "real")
 
 
 def usual_model() -> Model:
@@ -33,6 +34,21 @@ def models_of(given: AnyModels) -> list[Model]:
         return [usual_model()]
     models = list_of("model", given, (Model, Parameters), least=1)
     return [one if isinstance(one, Model) else Model(one) for one in models]
+
+
+def camera_of(difficulty: str | Camera) -> Camera | None:
+    """What an agent sees by: "easy" is the exact state, "real" what a usual Camera sees, or one of one's own."""
+    if isinstance(difficulty, Camera):
+        return difficulty
+    if difficulty not in DIFFICULTIES:
+        raise ValueError(f"difficulty: {shown(difficulty)}; expected 'easy', 'real' or a Camera")
+    return Camera() if difficulty == "real" else None
+
+
+def check_actions(given: Any, count: int) -> None:
+    """Raise ValueError where they have not the shape (count, 6)."""
+    if np.shape(given) != (count, 6):
+        raise ValueError(f"actions: {shown(given)}; expected numbers of the shape ({count}, 6)")
 
 
 def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:

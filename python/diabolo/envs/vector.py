@@ -12,9 +12,9 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import Arena, HandLimits
+from .._core import Arena, Camera, EpisodeStart, HandLimits
 from ..checks import LARGEST_SEED, MOST_THREADS, shown, whole_number
-from .spaces import ACTION, OBSERVATION, AnyModels, models_of, options_of
+from .spaces import ACTION, OBSERVATION, AnyModels, camera_of, models_of, options_of
 
 Floats = NDArray[np.float32]
 MOST_ENVS = 2**20
@@ -46,6 +46,9 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         period: float = 0.01,
         steps: int = 10,
         limits: HandLimits | None = None,
+        difficulty: str | Camera = "easy",
+        starts: Sequence[EpisodeStart] = (),
+        start_share: float = 0.0,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         copy: bool = True,
         threads: int = 0,
@@ -67,7 +70,17 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self._models, self._mode, self._copy = len(models), mode, copy
         whole_number("threads", threads, 0, MOST_THREADS)
         arena = Arena(
-            task, models, self.num_envs, period, steps, CORE_MODES[mode], threads, limits or HandLimits()
+            task,
+            models,
+            self.num_envs,
+            period,
+            steps,
+            CORE_MODES[mode],
+            threads,
+            limits or HandLimits(),
+            camera_of(difficulty),
+            starts,
+            start_share,
         )
         self._arena, self._begun = arena, False
         self._observations, self._final = arena.observations, arena.final_observations
@@ -111,6 +124,11 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             self._given(self._truncated),
             infos,
         )
+
+    def outcomes(self) -> dict[str, NDArray[Any]]:
+        """What the episodes have come to, an entry for each: see DiaboloEnv.outcome."""
+        each = [self._arena.outcome(i) for i in range(self.num_envs)]
+        return {name: np.array([one[name] for one in each]) for name in each[0]}
 
     def _given(self, numbers: NDArray[Any]) -> NDArray[Any]:
         return numbers.copy() if self._copy else numbers

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo play`: what an agent does."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..checks import LARGEST_SEED, check_library, shown
+from . import files
+from .arguments import add_command, output_name, read_model
+from .tables import format_table
+
+if TYPE_CHECKING:
+    from .._core import Agent, Recording
+
+SCHEMA = "diabolo.play/1"
+COLUMNS = {  # of the table: name, and how a value is shown
+    "worth": ("return", "{:.2f}"),
+    "seconds": ("seconds", "{:.1f}"),
+    "first_spin": ("spin at first [rad/s]", "{:.0f}"),
+    "spin": ("spin at the end [rad/s]", "{:.0f}"),
+    "flights": ("flights caught", "{:.0f}"),
+    "apex": ("apex of the last flight [m]", "{:.2f}"),
+}
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(
+        commands,
+        "play",
+        run=run,
+        summary="let an agent play, and say how well it does",
+        text="Let an agent play episodes of a task side by side, each to its end, and tell what they came to.\n"
+        "Needs gymnasium (pip install '.[envs]'), and nothing of what trained the agent.",
+        example="  diabolo play SpinUp\n"
+        "  diabolo play SpinUp --agent spin_up/agent.json --model diagnosis/model.json --difficulty real\n"
+        "  diabolo play SpinUp --html spin_up.html",
+    )
+    parser.add_argument("task", metavar="TASK", help="one of docs/environments.md: Hold, Swing, SpinUp, ...")
+    parser.add_argument(
+        "--agent", metavar="FILE", help="what `diabolo train` wrote; default: the agent of the package"
+    )
+    parser.add_argument("--episodes", type=int, default=100, metavar="N", help="default: 100")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of what is drawn; default: 0")
+    parser.add_argument(
+        "--model",
+        metavar="NAME",
+        nargs="+",
+        help="to play on: consistent, paper, published or model files; of several, each episode draws "
+        "one; default: consistent with a string that rubs on the axle",
+    )
+    parser.add_argument(
+        "--difficulty", choices=("easy", "real"), default="easy", help="what the agent sees; default: easy"
+    )
+    parser.add_argument("--json", metavar="FILE", type=str, help="write every episode; - for standard output")
+    parser.add_argument("--out", metavar="FILE.csv", type=output_name, help="the first episode, a tidy recording")
+    parser.add_argument("--html", metavar="FILE.html", type=output_name, help="the same as a page that moves")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    check_library("diabolo play", "gymnasium", "envs")
+    from .. import envs
+    from ..view import view_html
+
+    if arguments.task not in envs.TASKS:
+        raise ValueError(f"TASK {shown(arguments.task)}; expected one of {', '.join(envs.TASKS)}")
+    for name, value, low, high in (
+        ("--episodes", arguments.episodes, 1, 2**20),
+        ("--seed", arguments.seed, 0, LARGEST_SEED - 2**20),
+    ):
+        if not low <= value <= high:
+            raise ValueError(f"{name} {value}; expected {low} to {high}")
+    outputs = [arguments.out, arguments.html, arguments.json]
+    if arguments.out:
+        outputs.append(Path(arguments.out).with_suffix(".json"))
+    files.check_outputs(outputs, [one for one in (arguments.agent, *(arguments.model or [])) if one])
+    agent = envs.Agent.load(arguments.agent) if arguments.agent else envs.shipped_agent(arguments.task)
+    options = {
+        "task": arguments.task,
+        "model": [read_model(name) for name in arguments.model] if arguments.model else None,
+        "difficulty": arguments.difficulty,
+    }
+    outcomes = envs.play(agent, arguments.episodes, seed=arguments.seed, **options)
+    if arguments.out or arguments.html:
+        recording = recording_of(agent, arguments.seed, **options)
+        if arguments.out:
+            recording.save(arguments.out)
+        if arguments.html:
+            files.write_texts({Path(arguments.html): view_html(recording)})
+    found = {
+        "schema": SCHEMA,
+        "task": arguments.task,
+        "seed": arguments.seed,
+        "episodes": {name: values.tolist() for name, values in outcomes.items()},
+    }
+    files.write_json(arguments.json, found)
+    if arguments.json != files.STDOUT:
+        print(text_of(arguments.task, outcomes))
+
+
+def text_of(task: str, outcomes: dict[str, NDArray[Any]]) -> str:
+    """Quantiles over the episodes, and how many were dropped."""
+    rows = [
+        [title, *(form.format(value) for value in np.quantile(outcomes[name], (0.5, 0.05, 0.95)))]
+        for name, (title, form) in COLUMNS.items()
+    ]
+    table = format_table(["over the episodes", "median", "5 %", "95 %"], rows)
+    dropped = outcomes["dropped"]
+    return f"{task}: {np.count_nonzero(dropped)} of {len(dropped)} episodes ended with a drop\n\n{table}"
+
+
+def recording_of(agent: Agent, seed: int, **options: Any) -> Recording:
+    """The first episode, a sample for each period."""
+    from .._core import DiaboloProperties, played_recording
+    from ..envs import DiaboloEnv
+    from ..envs.spaces import models_of
+
+    env = DiaboloEnv(period=agent.period, steps=agent.steps, **options)
+    observation, _ = env.reset(seed=seed)
+    poses, over = [env.pose()], False
+    while not over:
+        observation, _, terminated, truncated, _ = env.step(agent.act(observation))
+        over = terminated or truncated
+        poses.append(env.pose())
+    states = np.array([[*state.position, *state.velocity, state.spin] for state, _, _ in poses])
+    lefts, rights = (np.array([pose[side] for pose in poses]) for side in (1, 2))
+    p = models_of(options["model"])[env.outcome()["model"]].parameters
+    properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
+    time = agent.period * np.arange(len(poses))
+    return played_recording(
+        options["task"], time, lefts, rights, states, 1.0 / agent.period, properties, p.string_length
+    )

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: MIT
+"""`diabolo train`: an agent that learns to play."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import time
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..checks import LARGEST_SEED, check_library, shown
+from . import files
+from .arguments import add_command, output_name, progress_steps, read_model
+
+if TYPE_CHECKING:
+    from ..training import Progress, Settings, Trainer
+
+SCHEMA = "diabolo.training/1"
+CHECKPOINT, AGENT, CURVE, SETTINGS = "checkpoint.zip", "agent.json", "progress.csv", "training.json"
+KEEP_EVERY = 10.0  # [s]
+
+
+def add_parser(commands: Any) -> None:
+    parser = add_command(
+        commands,
+        "train",
+        run=run,
+        summary="train an agent that plays",
+        text="Train an agent on a task by PPO (pip install '.[learn]').\n\n"
+        "DIR gets agent.json, which `diabolo play` runs without the training's libraries; progress.csv;\n"
+        "and what --resume goes on from. Its files are whole at any time: Ctrl-C loses ten seconds at most.",
+        example="  diabolo train SpinUp --out spin_up --seconds 120\n"
+        "  diabolo train SpinUp --out spin_up --seconds 120 --resume\n"
+        "  diabolo play SpinUp --agent spin_up/agent.json",
+    )
+    parser.add_argument("task", metavar="TASK", help="one of docs/environments.md: Hold, Swing, SpinUp, ...")
+    parser.add_argument("--out", metavar="DIR", required=True, type=output_name, help="folder to write")
+    parser.add_argument("--seconds", type=float, metavar="X", help="how long to train; default: 120")
+    parser.add_argument("--steps", type=int, metavar="N", help="control steps to train, instead of a time")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of what is drawn; default: 0")
+    parser.add_argument("--envs", type=int, default=256, metavar="N", help="side by side; default: 256")
+    parser.add_argument(
+        "--model",
+        metavar="NAME",
+        nargs="+",
+        help="to train on: consistent, paper, published or model files; of several, each episode draws "
+        "one; default: consistent with a string that rubs on the axle",
+    )
+    parser.add_argument(
+        "--difficulty",
+        choices=("easy", "real"),
+        default="easy",
+        help="what the agent sees: the exact state (easy, default), or what a camera would (real)",
+    )
+    parser.add_argument("--resume", action="store_true", help="go on with the training in DIR")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    for library in ("gymnasium", "stable_baselines3"):
+        check_library("diabolo train", library, "learn")
+    from ..envs import TASKS
+    from ..training import Settings, Trainer
+
+    if arguments.task not in TASKS:
+        raise ValueError(f"TASK {shown(arguments.task)}; expected one of {', '.join(TASKS)}")
+    seconds = _check_numbers(arguments)
+    models = [read_model(name) for name in arguments.model] if arguments.model else None
+    settings = Settings(arguments.task, arguments.seed, arguments.envs, difficulty=arguments.difficulty)
+    folder = Path(arguments.out)
+    begun = _begun(folder, settings, arguments.resume)
+    files.check_outputs([folder / name for name in (CHECKPOINT, AGENT, CURVE, SETTINGS)], [], folder)
+    trainer = Trainer(settings, models, checkpoint=folder / CHECKPOINT if begun else None, begun=begun)
+    with files.made_folder(folder), progress_steps() as show:
+        keeper = _Keeper(folder, trainer, show, seconds, arguments.steps)
+        trainer.learn(seconds=seconds, steps=arguments.steps, report=keeper.report)
+        keeper.keep()
+    print(f"{folder / AGENT}: {_sentence(trainer.progress())}")
+
+
+def _check_numbers(arguments: argparse.Namespace) -> float:
+    """Raise ValueError about numbers out of their range; how long to train [s]."""
+    if arguments.seconds is not None and arguments.steps is not None:
+        raise ValueError("--seconds, --steps: both are given; expected one of them")
+    for name, value, low, high in (
+        ("--seconds", arguments.seconds, 1e-3, 1e7),
+        ("--steps", arguments.steps, 1, 2**53),
+        ("--envs", arguments.envs, 32, 2**16),
+        ("--seed", arguments.seed, 0, LARGEST_SEED),
+    ):
+        if value is not None and not low <= value <= high:
+            raise ValueError(f"{name} {value}; expected {low:g} to {high:g}")
+    if arguments.steps is not None:
+        return float("inf")
+    return 120.0 if arguments.seconds is None else float(arguments.seconds)
+
+
+def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
+    """How far the training in a folder is; None where a new one begins."""
+    from ..training import Progress
+
+    path = folder / SETTINGS
+    if not resume:
+        if path.exists():
+            raise ValueError(f"{folder}: holds a training; expected another folder, or --resume")
+        return None
+    if not path.exists() or not (folder / CHECKPOINT).exists():
+        raise ValueError(f"{folder}: expected {SETTINGS} and {CHECKPOINT} of a training to resume")
+    try:
+        kept = json.loads(path.read_text(encoding="utf-8"))
+        progress = {one.name: kept["progress"][one.name] for one in fields(Progress)}
+        before = kept["settings"]
+        for name, value in asdict(settings).items():
+            if before[name] != value:
+                raise ValueError(f"{name} {before[name]} at first, {value} now; expected the same")
+        return Progress(**{name: float("nan") if value is None else value for name, value in progress.items()})
+    except (KeyError, TypeError, json.JSONDecodeError) as error:
+        raise ValueError(f"{path}: {shown(error)}; expected the schema {SCHEMA}") from None
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def _sentence(progress: Progress) -> str:
+    return (
+        f"{progress.steps / 1e6:.1f} M control steps, {progress.episodes} episodes; of the last ones, the mean "
+        f"return is {progress.worth:.2f} and the mean length {progress.length:.1f} s"
+    )
+
+
+class _Keeper:
+    """Shows how far a training is, and keeps it on disk."""
+
+    def __init__(self, folder: Path, trainer: Trainer, show: Any, seconds: float, steps: int | None) -> None:
+        self.folder, self.trainer, self.show = folder, trainer, show
+        self.seconds, self.steps = seconds, steps
+        self.rows = _curve(folder / CURVE, trainer.begun.steps) if trainer.begun.steps else []
+        self.kept = time.monotonic()
+
+    def report(self, progress: Progress) -> None:
+        self.rows.append([f"{value:.6g}" for value in asdict(progress).values()])
+        begun = self.trainer.begun
+        passed, done = progress.seconds - begun.seconds, progress.steps - begun.steps
+        share = passed / self.seconds if self.steps is None else done / self.steps
+        self.show(f"return {progress.worth:.2f}", min(1.0, share))
+        if time.monotonic() - self.kept > KEEP_EVERY:
+            self.keep()
+
+    def keep(self) -> None:
+        """The checkpoint, the agent, its curve and how far it is: together, once each is whole."""
+        progress = self.trainer.progress()
+        numbers = {name: None if value != value else value for name, value in asdict(progress).items()}
+        state = {"schema": SCHEMA, "settings": asdict(self.trainer.settings), "progress": numbers}
+        with files.whole_file(self.folder / CHECKPOINT) as temporary:
+            self.trainer.save(temporary)
+            files.write_texts(
+                {
+                    self.folder / AGENT: self.trainer.agent().to_json(),
+                    self.folder / CURVE: _text_of(self.rows),
+                    self.folder / SETTINGS: files.json_text(state),
+                }
+            )
+        self.kept = time.monotonic()
+
+
+def _text_of(rows: list[list[str]]) -> str:
+    from ..training import Progress
+
+    header = ",".join(one.name for one in fields(Progress))
+    return "\n".join([header, *(",".join(row) for row in rows)]) + "\n"
+
+
+def _curve(path: Path, steps: int) -> list[list[str]]:
+    """Rows of a curve, up to where the checkpoint is."""
+    if not path.exists():
+        return []
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))[1:]
+    return [row for row in rows if row and float(row[0]) <= steps]

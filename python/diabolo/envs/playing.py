@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""What agents do in environments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.resources import files
+from typing import Any, TypeAlias
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from numpy.typing import NDArray
+
+from .._core import Agent
+from ..checks import shown
+from .spaces import AnyModels
+from .vector import DiaboloVectorEnv
+
+Acting: TypeAlias = Agent | Callable[[NDArray[np.float32]], Any]
+"""An agent, or a function that gives actions (n, 6) of observations (n, k)."""
+
+
+def shipped_agent(task: str) -> Agent:
+    """The agent that comes with the package; else raises ValueError."""
+    folder = files("diabolo") / "agents"
+    names = sorted(path.name.removesuffix(".json") for path in folder.iterdir() if path.name.endswith(".json"))
+    if task not in names:
+        raise ValueError(f"task: {shown(task)} has no agent in the package; expected {', '.join(names)}")
+    return Agent.load(str(folder / f"{task}.json"))
+
+
+def play(
+    agent: Acting,
+    episodes: int = 100,
+    *,
+    task: str | None = None,
+    model: AnyModels = None,
+    seed: int = 0,
+    **options: Any,
+) -> dict[str, NDArray[Any]]:
+    """Play episodes side by side, each to its end; what they came to, an entry for each (DiaboloEnv.outcome).
+
+    task: the agent's own, unless one is given. options: of DiaboloVectorEnv; period and steps are the
+    agent's. Raises ValueError about bad input.
+    """
+    if isinstance(agent, Agent):
+        task, act = task or agent.task, agent.act
+        options = {"period": agent.period, "steps": agent.steps, **options}
+    elif callable(agent) and task is not None:
+        act = agent
+    else:
+        raise ValueError(f"agent: {shown(agent)}; expected an Agent, or a function together with a task")
+    env = DiaboloVectorEnv(episodes, task, model, autoreset_mode=AutoresetMode.DISABLED, **options)
+    observations, _ = env.reset(seed=seed)
+    over = np.zeros(episodes, bool)
+    while not over.all():
+        observations, _, terminated, truncated, _ = env.step(act(observations))
+        over |= terminated | truncated
+    return env.outcomes()
+
+

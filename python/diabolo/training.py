@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+"""Training of agents, by the PPO of Stable-Baselines3 (`pip install '.[learn]'`)."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from stable_baselines3 import PPO
+from stable_baselines3.common.callbacks import BaseCallback
+
+from ._core import Agent
+from .envs.sb3 import DiaboloVecEnv
+from .envs.spaces import AnyModels
+
+PPO_OPTIONS: dict[str, Any] = {
+    "n_steps": 64,
+    "batch_size": 2048,
+    "n_epochs": 6,
+    "learning_rate": 1e-3,
+    "policy_kwargs": {"net_arch": [64, 64], "log_std_init": -0.5},
+}
+"""Of PPO (Schulman et al., arXiv:1707.06347), for some hundred environments."""
+RECENT = 200  # episodes that the progress looks at
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What a training keeps to: the task, what is drawn, environments side by side, their period [s] and the
+    steps of the simulation in it, and what an agent sees (DiaboloEnv)."""
+
+    task: str
+    seed: int = 0
+    envs: int = 256
+    period: float = 0.02
+    steps: int = 20
+    difficulty: str = "easy"
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a training is: control steps, time [s], episodes; means over recent episodes of the sum of rewards
+    and of the length [s], NaN where none is over."""
+
+    steps: int = 0
+    seconds: float = 0.0
+    episodes: int = 0
+    worth: float = np.nan
+    length: float = np.nan
+
+
+class Trainer:
+    """A learner on many environments. model: what is played with; of several, each episode draws one.
+
+    checkpoint, begun: a file of save(), and how far that was, to go on from.
+    Torch keeps to one thread from here on: more wait for each other beside those of the environments.
+    """
+
+    def __init__(
+        self,
+        settings: Settings,
+        model: AnyModels = None,
+        *,
+        checkpoint: Path | None = None,
+        begun: Progress | None = None,
+    ) -> None:
+        torch.set_num_threads(1)
+        self.settings, self.begun = settings, begun or Progress()
+        env = DiaboloVecEnv(
+            settings.envs,
+            settings.task,
+            model,
+            period=settings.period,
+            steps=settings.steps,
+            difficulty=settings.difficulty,
+        )
+        if checkpoint is None:
+            self.learner = PPO("MlpPolicy", env, seed=settings.seed, device="cpu", **PPO_OPTIONS)
+        else:
+            self.learner = PPO.load(checkpoint, env=env, device="cpu")
+            env.seed(settings.seed + self.begun.steps)  # episodes that it has not seen
+        self._ended: deque[tuple[float, float]] = deque(maxlen=RECENT)
+        self._episodes, self._start = self.begun.episodes, time.monotonic()
+
+    def learn(
+        self,
+        *,
+        seconds: float = np.inf,
+        steps: int | None = None,
+        report: Callable[[Progress], object] = lambda progress: None,
+    ) -> None:
+        """Go on for `seconds`, or for `steps` control steps. report: is told of each update."""
+        self._start = time.monotonic()
+        watch = _Watch(self, seconds, report)
+        most = 2**53 if steps is None else steps
+        self.learner.learn(most, callback=watch, reset_num_timesteps=self.begun.steps == 0)
+
+    def progress(self) -> Progress:
+        """How far it is by now."""
+        passed = self.begun.seconds + time.monotonic() - self._start
+        worth, length = np.mean(self._ended or [(np.nan, np.nan)], axis=0)
+        return Progress(self.learner.num_timesteps, passed, self._episodes, float(worth), float(length))
+
+    def see(self, infos: list[dict[str, Any]]) -> None:
+        """Take down the episodes that are over."""
+        for episode in (info["episode"] for info in infos if "episode" in info):
+            self._episodes += 1
+            self._ended.append((episode["r"], episode["l"] * self.settings.period))
+
+    def save(self, path: Path) -> None:
+        """All that is needed to go on, in a file of Stable-Baselines3."""
+        self.learner.save(path)
+
+    def agent(self) -> Agent:
+        """The network that acts, by itself."""
+        hidden = [one for one in self.learner.policy.mlp_extractor.policy_net if isinstance(one, torch.nn.Linear)]
+        layers = [
+            (one.weight.detach().numpy(), one.bias.detach().numpy())
+            for one in (*hidden, self.learner.policy.action_net)
+        ]
+        return Agent(self.settings.task, self.settings.period, self.settings.steps, layers)
+
+
+class _Watch(BaseCallback):
+    """Tells of each update, and ends the training when its time is over."""
+
+    def __init__(self, trainer: Trainer, seconds: float, report: Callable[[Progress], object]) -> None:
+        super().__init__()
+        self._trainer, self._report = trainer, report
+        self._end = time.monotonic() + seconds
+
+    def _on_step(self) -> bool:
+        self._trainer.see(self.locals["infos"])
+        return time.monotonic() < self._end
+
+    def _on_rollout_end(self) -> None:
+        self._report(self._trainer.progress())
