@@ -31,7 +31,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco browser \
+.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco browser agents \
   sanitize fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
@@ -156,7 +156,7 @@ prove-player: $(VENV)/.package plant ## Play a few plans on the independent plan
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test test-long mujoco browser ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
+test-all: test test-long mujoco browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
 
 browser: $(VENV)/.package-with-tests ## Look at the report and the view as a person sees them
 	@$(packages) browser
@@ -166,6 +166,10 @@ mujoco: $(VENV)/.package-with-tests ## Put the string into MuJoCo, and compare w
 	@$(packages) mujoco
 	@$(install_package) '.[mujoco,plot,test]'
 	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy
+
+agents: $(VENV)/.package-with-tests ## Train a small agent from scratch, and see that it learns
+	@$(pip) -r tools/learn-requirements.txt
+	@$(VENV)/bin/python -m pytest -m learn tests/heavy
 
 sanitize: # The step, in every Scalar, on random input; fuzz does it for the readers.
 	@$(packages) build test lint

@@ -8,6 +8,7 @@
 
 #include "diabolo/effects/all.hpp"
 #include "diabolo/full_predictor.hpp"
+#include "diabolo/math/shortest_turn.hpp"
 #include "diabolo/recording/recording.hpp"
 
 /// Recordings of play that the full model predicts, as a camera sees them.
@@ -79,8 +80,7 @@ inline Recording played(const AllEffects<double>& effects, double seconds, std::
     r.diabolo.position.col(i) = seen(state.position);
     const Vector3<double> axle = (state.axis + kAttitudeNoise * seen_axle()).normalized();
     r.diabolo_orientation.quaternion.col(i) =
-        (Eigen::Quaterniond::FromTwoVectors(Vector3<double>::UnitX(), axle) *
-         Eigen::AngleAxisd(-turned, Vector3<double>::UnitX()))
+        (shortest_turn(Vector3<double>::UnitX(), axle) * Eigen::AngleAxisd(-turned, Vector3<double>::UnitX()))
             .coeffs();
     for (int s = 0; s < kSteps; ++s) {
       const double t = r.time[i] + s * dt;

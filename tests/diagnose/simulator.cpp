@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "diabolo/diagnose/compiled.hpp"
+#include "diabolo/math/shortest_turn.hpp"
 
 #include "played.hpp"
 
@@ -106,8 +107,8 @@ TEST_CASE("a levelled frame has gravity along -z, and all distances stay") {
   const Recording take = played({}, 4.0, 7);
   const double x = 0.03, y = -0.02;
   const Recording level = levelled(take, x, y);
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
-      Eigen::Vector3d(x, y, -std::sqrt(1.0 - x * x - y * y)), -Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond turn =
+      shortest_turn(Eigen::Vector3d(x, y, -std::sqrt(1.0 - x * x - y * y)), -Eigen::Vector3d::UnitZ());
   for (const Eigen::Index i : {Eigen::Index{0}, take.size() / 2, take.size() - 1}) {
     CHECK((level.diabolo.position.col(i) - turn * take.diabolo.position.col(i)).norm() < 1e-12);
     CHECK((level.left.position.col(i) - level.diabolo.position.col(i)).norm() ==

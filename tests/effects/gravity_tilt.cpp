@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/effects/gravity_tilt.hpp"
 
+#include "diabolo/math/shortest_turn.hpp"
+
 #include "effects/scene.hpp"
 
 using namespace effect_scene;
@@ -19,7 +21,7 @@ Full tilted(double x, double y, const Numbers& parameters = {}) {
 /// The shortest rotation of straight down onto the tilted gravity.
 Eigen::Matrix3d rotation_to(double x, double y) {
   const Vector down(0.0, 0.0, -1.0), there(x, y, -std::sqrt(1.0 - x * x - y * y));
-  return Eigen::Quaterniond::FromTwoVectors(down, there).toRotationMatrix();
+  return diabolo::shortest_turn(down, there).toRotationMatrix();
 }
 
 }  // namespace

@@ -12,7 +12,19 @@ import pytest
 from diabolo import Model, Parameters, State, StringFriction
 
 gymnasium = pytest.importorskip("gymnasium")
-from diabolo.envs import TASKS, DiaboloEnv, DiaboloVectorEnv, HandLimits, observation_infos, task_infos  # noqa: E402
+from diabolo.envs import (  # noqa: E402
+    TASKS,
+    Agent,
+    Camera,
+    DiaboloEnv,
+    DiaboloVectorEnv,
+    EpisodeStart,
+    HandLimits,
+    observation_infos,
+    play,
+    shipped_agent,
+    task_infos,
+)
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
 
@@ -104,6 +116,66 @@ def test_observations_are_what_their_table_says() -> None:
     np.testing.assert_allclose(parts["goal"], [0.6, -0.1], atol=1e-6)
 
 
+def test_a_camera_sees_late_with_noise_and_not_in_every_frame() -> None:
+    eyes = Camera(noise=2e-3, dropouts=0.1, least_delay=2, most_delay=2)
+    seeing, exact = (DiaboloVectorEnv(64, "Hold", difficulty=one) for one in (eyes, "easy"))
+    for env in (seeing, exact):
+        env.reset(seed=6)
+    places = []
+    for given in actions(64, 120):
+        places.append([env.step(0.1 * given)[0][:, :3] + _middle(env._observations) for env in (seeing, exact)])
+    seen, true = (np.array([one[k] for one in places], float) for k in (0, 1))
+    late = [np.sqrt(np.mean((seen[10:] - np.roll(true, k, axis=0)[10:]) ** 2)) for k in range(6)]
+    assert np.argmin(late) == 2
+    assert 2e-3 < late[2] < 4e-3  # the noise, and what moved while nothing was seen
+    stale = np.all(np.diff(seen, axis=0) == 0.0, axis=2).mean()
+    assert stale == pytest.approx(0.1, abs=0.02)
+
+
+def _middle(observations: Any) -> Any:
+    return 0.5 * (observations[:, 10:13] + observations[:, 13:16])
+
+
+def test_episodes_begin_where_they_are_told_to() -> None:
+    centre = HandLimits().centre
+    left, right = centre + [0.0, 0.3, 0.1], centre - [0.0, 0.3, -0.1]
+    start = EpisodeStart(
+        State([0.0, 0.1, 1.9], [0.0, 0.0, -1.0], 80.0, "flying"), left, right, goal=[0.5, 0.1]
+    )
+    env = DiaboloVectorEnv(400, "ThrowAndCatch", starts=[start], start_share=0.25)
+    observations, _ = env.reset(seed=3)
+    told = observations[:, 9] == 1.0  # flying
+    assert told.mean() == pytest.approx(0.25, abs=0.08)
+    np.testing.assert_allclose(observations[told][:, 22:24], [[0.5, 0.1]] * told.sum(), atol=1e-6)
+    np.testing.assert_allclose(observations[told][:, 10:13], [left - centre] * told.sum(), atol=1e-6)
+
+
+def test_an_agent_plays_the_same_in_python_and_in_the_core() -> None:
+    random = np.random.default_rng(8)
+    size = DiaboloEnv.observation_space.shape[0]
+    layers = [(random.normal(size=(16, size)) / 6.0, np.zeros(16)), (random.normal(size=(6, 16)), np.ones(6))]
+    agent = Agent("Hold", 0.02, 20, layers)
+    weights = [(np.float32(w), np.float32(b)) for w, b in layers]
+
+    def by_hand(seen: Any) -> Any:
+        hidden = np.tanh(seen @ weights[0][0].T + weights[0][1])
+        return np.clip(hidden @ weights[1][0].T + weights[1][1], -1.0, 1.0)
+
+    seen = random.normal(size=(5, size)).astype(np.float32)
+    np.testing.assert_allclose(agent.act(seen), by_hand(seen), atol=1e-5)
+    one, other = play(agent, 20, seed=4), play(by_hand, 20, task="Hold", seed=4, period=0.02, steps=20)
+    assert one.keys() == other.keys()
+    assert one["over"].all() and (one["seconds"] <= 5.0 + 1e-9).all()
+    np.testing.assert_allclose(one["worth"], other["worth"], atol=0.05)
+
+
+def test_the_agent_of_the_package_spins_the_diabolo_up_and_keeps_it() -> None:
+    outcomes = play(shipped_agent("SpinUp"), 200, seed=100)
+    gained = outcomes["spin"] - outcomes["first_spin"]
+    assert np.median(gained) >= 90.0
+    assert outcomes["dropped"].mean() <= 0.01
+
+
 def test_an_episode_is_what_a_rollout_of_the_same_tips_gives() -> None:
     model = Model(Parameters(), string_friction=StringFriction(coefficient=0.3))
     env = DiaboloEnv("SpinUp", model)
@@ -175,6 +247,18 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (lambda: DiaboloEnv(steps=0), "steps: 0; expected 1 to 1000"),
         (lambda: DiaboloEnv(render_mode="human"), "render_mode: 'human'; expected 'rgb_array' or None"),
         (lambda: DiaboloVectorEnv(2, render_mode="rgb_array"), "render_mode: 'rgb_array'; expected None"),
+        (lambda: DiaboloEnv(difficulty="hard"), "difficulty: 'hard'; expected 'easy', 'real' or a Camera"),
+        (lambda: Camera(noise=-1.0), "camera, noise: -1; expected 0 to 0.1"),
+        (lambda: Camera(least_delay=3, most_delay=2), "camera, delay: 3 to 2 frames; expected a range within 0"),
+        (lambda: DiaboloEnv(start_share=0.5), "start_share: 0.5; expected 0 to 0, since there are no starts"),
+        (lambda: EpisodeStart(State(), [0, 1, 2], [0, 0, 0], goal=[1, 2, 3]), "goal: 3 numbers; expected at most 2"),
+        (
+            lambda: DiaboloEnv(starts=[EpisodeStart(State(), [0, 9, 1], [0, -0.3, 1])]),
+            "starts, 0: a tip at 9 m with 0 m/s along axis 1; expected it within the limits",
+        ),
+        (lambda: shipped_agent("Fly"), "task: 'Fly' has no agent in the package; expected "),
+        (lambda: play(lambda seen: seen), "expected an Agent, or a function together with a task"),
+        (lambda: play(shipped_agent("SpinUp"), 0), "num_envs: 0; expected a whole number from 1"),
         (lambda: HandLimits(speed=-1.0), "limits, speed: -1; expected a positive number"),
         (lambda: DiaboloVectorEnv(0), "num_envs: 0; expected a whole number from 1"),
         (
@@ -214,6 +298,10 @@ def test_bad_actions_are_refused_before_anything_moves() -> None:
         env.step(np.zeros((3, 6)))
     after, *_ = env.step(np.zeros((2, 6)))
     np.testing.assert_allclose(after, before, atol=0.05)
+    one = DiaboloEnv()
+    one.reset(seed=1)
+    with pytest.raises(ValueError, match=r"action: .*; expected six numbers from -1 to 1"):
+        one.step([0.0, 0.0])
 
 
 def test_the_page_has_what_the_code_says() -> None:

@@ -10,6 +10,7 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
+#include "diabolo/math/shortest_turn.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/string/hanging.hpp"
@@ -118,7 +119,7 @@ inline Recording imagined(const MotionPart& part, const Model& model, const Reco
     r.right.position.col(i) = tips.right;
     r.diabolo.position.col(i) = state.position;
     const auto along = [](const Vector3<double>& direction) {
-      return Eigen::Quaterniond::FromTwoVectors(Vector3<double>::UnitX(), direction);
+      return shortest_turn(Vector3<double>::UnitX(), direction);
     };
     r.left_orientation.quaternion.col(i) = along(tips.left_direction).coeffs();
     r.right_orientation.quaternion.col(i) = along(tips.right_direction).coeffs();

@@ -15,6 +15,7 @@
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/math/shortest_turn.hpp"
 #include "diabolo/recording/played_recording.hpp"
 
 // Somebody's simulator is asked to play what was recorded: stretch by stretch from recorded starts, so that
@@ -46,7 +47,7 @@ struct TakeToPlay {
 /// The same seen in a frame in which gravity points along -z; it points along (x, y, -sqrt(1 - x^2 - y^2)).
 inline Recording levelled(Recording recording, double x, double y) {
   const Eigen::Vector3d down(x, y, -std::sqrt(1.0 - x * x - y * y));
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(down, -Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond turn = shortest_turn(down, -Eigen::Vector3d::UnitZ());
   for (Track* track : {&recording.left, &recording.right, &recording.diabolo})
     track->position = turn.toRotationMatrix() * track->position;
   for (OrientationTrack* track :

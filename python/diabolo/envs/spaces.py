@@ -45,12 +45,6 @@ def camera_of(difficulty: str | Camera) -> Camera | None:
     return Camera() if difficulty == "real" else None
 
 
-def check_actions(given: Any, count: int) -> None:
-    """Raise ValueError where they have not the shape (count, 6)."""
-    if np.shape(given) != (count, 6):
-        raise ValueError(f"actions: {shown(given)}; expected numbers of the shape ({count}, 6)")
-
-
 def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:
     """The options of a reset, checked: state (a State), goal (numbers), model (which one, a number)."""
     options = dict(given or {})

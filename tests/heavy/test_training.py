@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""Agents learn from scratch, by the command: what `pip install '.[learn]'` is for."""
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.learn
+STEPS = 1_000_000
+
+
+def diabolo(*arguments: object, status: int = 0) -> subprocess.CompletedProcess[str]:
+    done = subprocess.run(
+        [sys.executable, "-m", "diabolo", *map(str, arguments)], capture_output=True, text=True, timeout=600
+    )
+    assert done.returncode == status, done.stderr
+    return done
+
+
+@pytest.fixture(scope="module")
+def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("agents") / "spin_up"
+    diabolo("train", "SpinUp", "--out", folder, "--steps", STEPS, "--seed", 5)
+    return folder
+
+
+def gained(agent: Any) -> tuple[float, float]:
+    """The median of the spin gained [rad/s], and the share of drops."""
+    from diabolo.envs import play
+
+    outcomes = play(agent, 200, seed=1000, task="SpinUp", period=0.02, steps=20)
+    return float(np.median(outcomes["spin"] - outcomes["first_spin"])), float(outcomes["dropped"].mean())
+
+
+def test_an_agent_learns_to_spin_the_diabolo_up(trained: Path) -> None:
+    from diabolo.envs import Agent
+
+    still, _ = gained(lambda seen: np.zeros((len(seen), 6)))
+    spin, dropped = gained(Agent.load(trained / "agent.json"))
+    assert spin > still + 50.0
+    assert dropped <= 0.05
+
+
+def test_the_curve_rises_and_the_agent_is_small(trained: Path) -> None:
+    with (trained / "progress.csv").open() as file:
+        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    assert all(one["steps"] < two["steps"] for one, two in zip(rows, rows[1:], strict=False))
+    worth = [row["worth"] for row in rows if np.isfinite(row["worth"])]
+    assert np.mean(worth[-5:]) > np.mean(worth[:5]) + 0.5
+    assert (trained / "agent.json").stat().st_size < 200_000
+
+
+def test_what_plays_needs_nothing_of_what_trained(trained: Path) -> None:
+    script = (
+        "import sys; sys.modules['torch'] = sys.modules['stable_baselines3'] = None\n"
+        f"from diabolo.cli import main; sys.exit(main(['play', 'SpinUp', '--agent', {str(trained / 'agent.json')!r}]))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "episodes ended with a drop" in done.stdout
+
+
+def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path) -> None:
+    folder = tmp_path / "hold"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "diabolo", "train", "Hold", "--out", str(folder), "--envs", "32"],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        end = time.monotonic() + 120.0
+        while not (folder / "training.json").exists() and time.monotonic() < end:
+            time.sleep(0.2)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60) == 130
+    finally:
+        process.kill()
+    before = json.loads((folder / "training.json").read_text())["progress"]["steps"]
+    assert before > 0
+    diabolo("train", "Hold", "--out", folder, "--envs", 32, "--steps", 4096, status=2)  # not resumed
+    diabolo("train", "Hold", "--out", folder, "--envs", 64, "--steps", 4096, "--resume", status=2)
+    diabolo("train", "Hold", "--out", folder, "--envs", 32, "--steps", 4096, "--resume")
+    assert json.loads((folder / "training.json").read_text())["progress"]["steps"] >= before + 4096
+    steps = [int(float(line.split(",")[0])) for line in (folder / "progress.csv").read_text().splitlines()[1:]]
+    assert steps == sorted(set(steps))
+
+
+def test_many_environments_are_what_stable_baselines_expects() -> None:
+    from diabolo.envs import DiaboloEnv
+    from diabolo.envs.sb3 import DiaboloVecEnv
+
+    env, one = DiaboloVecEnv(3, "Hop"), DiaboloEnv("Hop")
+    env.seed(20)
+    seen = env.reset()
+    np.testing.assert_array_equal(seen[2], one.reset(seed=22)[0])
+    random, worth, length = np.random.default_rng(3), 0.0, 0
+    for _ in range(700):
+        given = random.uniform(-1.0, 1.0, (3, 6)).astype(np.float32)
+        seen, rewards, dones, infos = env.step(given)
+        own, reward, over, cut, _ = one.step(given[2])
+        worth, length = worth + reward, length + 1
+        assert rewards[2] == np.float32(reward) and dones[2] == (over or cut)
+        if dones[2]:
+            np.testing.assert_array_equal(infos[2]["terminal_observation"], own)
+            assert infos[2]["TimeLimit.truncated"] is cut
+            assert infos[2]["episode"] == pytest.approx({"r": worth, "l": length})
+            own, worth, length = one.reset()[0], 0.0, 0
+        np.testing.assert_array_equal(seen[2], own)
+    assert env.env_is_wrapped(object) == [False] * 3
+    with pytest.raises(ValueError, match="make a DiaboloVecEnv with it"):
+        env.set_attr("period", 1.0)
