@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -3590,15 +3590,49 @@ class HandLimits:
     @property
     def string_margin(self) -> float:
         ...
+class Camera:
+    """
+    How an agent sees the diabolo: with noise, late, and not in every frame. A frame is a period.
+    
+    noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
+    nothing is seen; least_delay to most_delay [frames]: each episode draws one.
+    """
+    def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None:
+        ...
+    @property
+    def dropouts(self) -> float:
+        ...
+    @property
+    def least_delay(self) -> int:
+        ...
+    @property
+    def most_delay(self) -> int:
+        ...
+    @property
+    def noise(self) -> float:
+        ...
+    @property
+    def spin_noise(self) -> float:
+        ...
+class EpisodeStart:
+    """
+    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], and the goal.
+    """
+    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+        ...
 class Arena:
     """
     Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites.
     """
-    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ...) -> None:
+    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
         ...
     def model_of(self, environment: typing.SupportsInt | typing.SupportsIndex) -> int:
         """
         Number of the model that it plays with.
+        """
+    def outcome(self, environment: typing.SupportsInt | typing.SupportsIndex) -> dict:
+        """
+        What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model.
         """
     def pose(self, environment: typing.SupportsInt | typing.SupportsIndex) -> tuple:
         """
@@ -3627,7 +3661,7 @@ class Arena:
     @property
     def observations(self) -> numpy.ndarray:
         """
-        float32, shape (count, 25).
+        float32, shape (count, numbers of an observation).
         """
     @property
     def rewards(self) -> numpy.ndarray:
@@ -3660,7 +3694,7 @@ class Agent:
         ...
     def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
         """
-        Actions, shape (6,) or (n, 6), of observations, (25,) or (n, 25).
+        Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each.
         """
     def to_json(self) -> str:
         """
@@ -3698,7 +3732,7 @@ def compare_simulator(recordings: collections.abc.Sequence[Recording], simulated
     """
     See diabolo.compare_simulator.
     """
-def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
+def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any, draws: typing.SupportsInt | typing.SupportsIndex) -> tuple:
     """
     See diabolo.diagnose.
     """

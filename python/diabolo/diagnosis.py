@@ -134,9 +134,9 @@ def diagnose(
         left out; `result.not_done` tells of it.
     seed: of the bootstrap intervals. threads: 0 takes all processors; the result does not depend on it.
     progress: called with the name of the step and the fraction done.
-    draws: how many `models` to draw from what these recordings leave open: numbers together, by the covariance
-        of the fit; of what is tied one or the other; in half of them one effect that is not claimed, as large
-        as is not excluded.
+    draws: how many `models` to draw from what these recordings leave open: numbers together, by the
+        covariance of the fit; of what is tied one or the other; in half of them one effect that is not
+        claimed, as large as is not excluded.
 
         diagnose("swing.csv").sentence
 
@@ -146,7 +146,7 @@ def diagnose(
     """
     asked = _asked(recordings, base, holdout, bank, laws, budget, seed, threads, progress)
     whole_number("draws", draws, 0, MOST_DRAWS)
-    result, model, models = _core.diagnose(*asked, draws)
+    result, model, models = _core.diagnose(*(*asked, draws))
     if result.headline == "INSUFFICIENT_DATA":
         return Diagnosis(result, asked[1], (asked[1],) * draws)
     return Diagnosis(result, model, tuple(models))

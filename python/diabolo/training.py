@@ -45,8 +45,8 @@ class Settings:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a training is: control steps, time [s], episodes; means over recent episodes of the sum of rewards
-    and of the length [s], NaN where none is over."""
+    """How far a training is: control steps, time [s], episodes; means over recent episodes of the sum of
+    rewards and of the length [s], NaN where none is over."""
 
     steps: int = 0
     seconds: float = 0.0
@@ -119,7 +119,9 @@ class Trainer:
 
     def agent(self) -> Agent:
         """The network that acts, by itself."""
-        hidden = [one for one in self.learner.policy.mlp_extractor.policy_net if isinstance(one, torch.nn.Linear)]
+        hidden = [
+            one for one in self.learner.policy.mlp_extractor.policy_net if isinstance(one, torch.nn.Linear)
+        ]
         layers = [
             (one.weight.detach().numpy(), one.bias.detach().numpy())
             for one in (*hidden, self.learner.policy.action_net)
@@ -127,7 +129,7 @@ class Trainer:
         return Agent(self.settings.task, self.settings.period, self.settings.steps, layers)
 
 
-class _Watch(BaseCallback):
+class _Watch(BaseCallback):  # type: ignore[misc]
     """Tells of each update, and ends the training when its time is over."""
 
     def __init__(self, trainer: Trainer, seconds: float, report: Callable[[Progress], object]) -> None:

@@ -123,12 +123,14 @@ def test_a_camera_sees_late_with_noise_and_not_in_every_frame() -> None:
         env.reset(seed=6)
     places = []
     for given in actions(64, 120):
-        places.append([env.step(0.1 * given)[0][:, :3] + _middle(env._observations) for env in (seeing, exact)])
+        places.append(
+            [env.step(0.1 * given)[0][:, :3] + _middle(env._observations) for env in (seeing, exact)]
+        )
     seen, true = (np.array([one[k] for one in places], float) for k in (0, 1))
     late = [np.sqrt(np.mean((seen[10:] - np.roll(true, k, axis=0)[10:]) ** 2)) for k in range(6)]
     assert np.argmin(late) == 2
     assert 2e-3 < late[2] < 4e-3  # the noise, and what moved while nothing was seen
-    stale = np.all(np.diff(seen, axis=0) == 0.0, axis=2).mean()
+    stale = np.all(np.abs(np.diff(seen, axis=0)) < 1e-6, axis=2).mean()
     assert stale == pytest.approx(0.1, abs=0.02)
 
 
@@ -138,7 +140,7 @@ def _middle(observations: Any) -> Any:
 
 def test_episodes_begin_where_they_are_told_to() -> None:
     centre = HandLimits().centre
-    left, right = centre + [0.0, 0.3, 0.1], centre - [0.0, 0.3, -0.1]
+    left, right = centre + np.array([0.0, 0.3, 0.1]), centre + np.array([0.0, -0.3, 0.1])
     start = EpisodeStart(
         State([0.0, 0.1, 1.9], [0.0, 0.0, -1.0], 80.0, "flying"), left, right, goal=[0.5, 0.1]
     )
@@ -249,11 +251,17 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (lambda: DiaboloVectorEnv(2, render_mode="rgb_array"), "render_mode: 'rgb_array'; expected None"),
         (lambda: DiaboloEnv(difficulty="hard"), "difficulty: 'hard'; expected 'easy', 'real' or a Camera"),
         (lambda: Camera(noise=-1.0), "camera, noise: -1; expected 0 to 0.1"),
-        (lambda: Camera(least_delay=3, most_delay=2), "camera, delay: 3 to 2 frames; expected a range within 0"),
-        (lambda: DiaboloEnv(start_share=0.5), "start_share: 0.5; expected 0 to 0, since there are no starts"),
-        (lambda: EpisodeStart(State(), [0, 1, 2], [0, 0, 0], goal=[1, 2, 3]), "goal: 3 numbers; expected at most 2"),
         (
-            lambda: DiaboloEnv(starts=[EpisodeStart(State(), [0, 9, 1], [0, -0.3, 1])]),
+            lambda: Camera(least_delay=3, most_delay=2),
+            "camera, delay: 3 to 2 frames; expected a range within 0",
+        ),
+        (lambda: DiaboloEnv(start_share=0.5), "start_share: 0.5; expected 0 to 0, since there are no starts"),
+        (
+            lambda: EpisodeStart(State([0, 0, 1]), [0, 1, 2], [0, 0, 0], goal=[1, 2, 3]),
+            "goal: 3 numbers; expected at most 2",
+        ),
+        (
+            lambda: DiaboloEnv(starts=[EpisodeStart(State([0, 0, 1]), [0, 9, 1], [0, -0.3, 1])]),
             "starts, 0: a tip at 9 m with 0 m/s along axis 1; expected it within the limits",
         ),
         (lambda: shipped_agent("Fly"), "task: 'Fly' has no agent in the package; expected "),
@@ -297,7 +305,9 @@ def test_bad_actions_are_refused_before_anything_moves() -> None:
     with pytest.raises(ValueError, match=r"actions: .*\(2, 6\)"):
         env.step(np.zeros((3, 6)))
     after, *_ = env.step(np.zeros((2, 6)))
-    np.testing.assert_allclose(after, before, atol=0.05)
+    np.testing.assert_allclose(
+        after[:, :25], before[:, :25], atol=0.05
+    )  # but for forces, which friction parts
     one = DiaboloEnv()
     one.reset(seed=1)
     with pytest.raises(ValueError, match=r"action: .*; expected six numbers from -1 to 1"):

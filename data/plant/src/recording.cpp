@@ -24,7 +24,7 @@ std::string text_of(double value, int decimals) {
 }
 
 constexpr int kDecimals = 6;
-constexpr int kOrientationDecimals = 5;  // no camera sees 2e-5 rad
+constexpr int kOrientationDecimals = 4;  // no camera sees 2e-4 rad
 constexpr int kTruthDecimals = 9;
 
 void write_position(std::ostream& out, const std::optional<Pose>& pose) {

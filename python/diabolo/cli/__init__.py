@@ -68,7 +68,20 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"diabolo {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
-    for command in (demo, evaluate, diagnose, plan, simulate, view, robot, info, convert, motion, train, play):
+    for command in (
+        demo,
+        evaluate,
+        diagnose,
+        plan,
+        simulate,
+        view,
+        robot,
+        info,
+        convert,
+        motion,
+        train,
+        play,
+    ):
         command.add_parser(commands)
     return parser
 

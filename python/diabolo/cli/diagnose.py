@@ -101,10 +101,12 @@ def add_parser(commands: Any) -> None:
         metavar="N",
         type=int,
         default=0,
-        help="write so many other models that the recordings do not tell from the best (DIR/model-1.json, ...), "
-        "for `diabolo train --model DIR/model-*.json`",
+        help="write so many other models that the recordings do not tell from the best one, as "
+        "DIR/model-1.json and so on, for `diabolo train --model DIR/model-*.json`",
     )
-    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of intervals and draws; default: 1")
+    parser.add_argument(
+        "--seed", metavar="N", type=int, default=1, help="seed of intervals and draws; default: 1"
+    )
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
 
 

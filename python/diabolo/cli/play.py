@@ -35,7 +35,7 @@ def add_parser(commands: Any) -> None:
         "play",
         run=run,
         summary="let an agent play, and say how well it does",
-        text="Let an agent play episodes of a task side by side, each to its end, and tell what they came to.\n"
+        text="Let an agent play episodes of a task side by side, each to its end, and tell what came of it.\n"
         "Needs gymnasium (pip install '.[envs]'), and nothing of what trained the agent.",
         example="  diabolo play SpinUp\n"
         "  diabolo play SpinUp --agent spin_up/agent.json --model diagnosis/model.json --difficulty real\n"
@@ -58,7 +58,9 @@ def add_parser(commands: Any) -> None:
         "--difficulty", choices=("easy", "real"), default="easy", help="what the agent sees; default: easy"
     )
     parser.add_argument("--json", metavar="FILE", type=str, help="write every episode; - for standard output")
-    parser.add_argument("--out", metavar="FILE.csv", type=output_name, help="the first episode, a tidy recording")
+    parser.add_argument(
+        "--out", metavar="FILE.csv", type=output_name, help="the first episode, a tidy recording"
+    )
     parser.add_argument("--html", metavar="FILE.html", type=output_name, help="the same as a page that moves")
 
 

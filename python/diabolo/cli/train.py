@@ -115,7 +115,8 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
         for name, value in asdict(settings).items():
             if before[name] != value:
                 raise ValueError(f"{name} {before[name]} at first, {value} now; expected the same")
-        return Progress(**{name: float("nan") if value is None else value for name, value in progress.items()})
+        known: dict[str, Any] = {name: float("nan") if one is None else one for name, one in progress.items()}
+        return Progress(**known)
     except (KeyError, TypeError, json.JSONDecodeError) as error:
         raise ValueError(f"{path}: {shown(error)}; expected the schema {SCHEMA}") from None
     except ValueError as error:
@@ -124,8 +125,8 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
 
 def _sentence(progress: Progress) -> str:
     return (
-        f"{progress.steps / 1e6:.1f} M control steps, {progress.episodes} episodes; of the last ones, the mean "
-        f"return is {progress.worth:.2f} and the mean length {progress.length:.1f} s"
+        f"{progress.steps / 1e6:.1f} M control steps, {progress.episodes} episodes; of the last ones, the "
+        f"mean return is {progress.worth:.2f} and the mean length {progress.length:.1f} s"
     )
 
 

@@ -23,7 +23,9 @@ Acting: TypeAlias = Agent | Callable[[NDArray[np.float32]], Any]
 def shipped_agent(task: str) -> Agent:
     """The agent that comes with the package; else raises ValueError."""
     folder = files("diabolo") / "agents"
-    names = sorted(path.name.removesuffix(".json") for path in folder.iterdir() if path.name.endswith(".json"))
+    names = sorted(
+        path.name.removesuffix(".json") for path in folder.iterdir() if path.name.endswith(".json")
+    )
     if task not in names:
         raise ValueError(f"task: {shown(task)} has no agent in the package; expected {', '.join(names)}")
     return Agent.load(str(folder / f"{task}.json"))
@@ -43,6 +45,7 @@ def play(
     task: the agent's own, unless one is given. options: of DiaboloVectorEnv; period and steps are the
     agent's. Raises ValueError about bad input.
     """
+    act: Callable[[NDArray[np.float32]], Any]
     if isinstance(agent, Agent):
         task, act = task or agent.task, agent.act
         options = {"period": agent.period, "steps": agent.steps, **options}
@@ -57,5 +60,3 @@ def play(
         observations, _, terminated, truncated, _ = env.step(act(observations))
         over |= terminated | truncated
     return env.outcomes()
-
-

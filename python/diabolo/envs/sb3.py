@@ -9,21 +9,25 @@ from typing import Any
 import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
-from stable_baselines3.common.vec_env import VecEnv  # type: ignore[import-untyped, unused-ignore]
+from stable_baselines3.common.vec_env import VecEnv
 
 from .spaces import ACTION, OBSERVATION, AnyModels
 from .vector import DiaboloVectorEnv
 
 
-class DiaboloVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
+class DiaboloVecEnv(VecEnv):  # type: ignore[misc]
     """For `PPO("MlpPolicy", DiaboloVecEnv(256, "SpinUp"))`. Arguments as of DiaboloVectorEnv.
 
     An episode that is over begins anew in the same step; its last observation is the info
     "terminal_observation", its return, length and whether it was cut off are told as usual.
     """
 
-    def __init__(self, num_envs: int = 1, task: str = "Hold", model: AnyModels = None, **options: Any) -> None:
-        self._many = DiaboloVectorEnv(num_envs, task, model, autoreset_mode=AutoresetMode.SAME_STEP, **options)
+    def __init__(
+        self, num_envs: int = 1, task: str = "Hold", model: AnyModels = None, **options: Any
+    ) -> None:
+        self._many = DiaboloVectorEnv(
+            num_envs, task, model, autoreset_mode=AutoresetMode.SAME_STEP, **options
+        )
         self._actions: NDArray[np.float32] | None = None
         self._return, self._length = np.zeros(num_envs), np.zeros(num_envs, int)
         self.render_mode = None
@@ -40,8 +44,12 @@ class DiaboloVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         """Keep them for step_wait."""
         self._actions = actions
 
-    def step_wait(self) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
+    def step_wait(
+        self,
+    ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
         """Play a period in all."""
+        if self._actions is None:
+            raise ValueError("step_wait: called before step_async")
         observations, rewards, terminated, truncated, seen = self._many.step(self._actions)
         self._return += rewards
         self._length += 1

@@ -104,9 +104,9 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         return self._arena.pose(0)
 
     def outcome(self) -> dict[str, Any]:
-        """What the episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and
-        spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
-        return self._arena.outcome(0)
+        """What the episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin
+        and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
+        return dict(self._arena.outcome(0))
 
     def render(self) -> NDArray[np.uint8] | None:
         """What the player sees, RGB, shape (480, 480, 3); None without a render_mode."""

@@ -37,7 +37,7 @@ def models_of(given: AnyModels) -> list[Model]:
 
 
 def camera_of(difficulty: str | Camera) -> Camera | None:
-    """What an agent sees by: "easy" is the exact state, "real" what a usual Camera sees, or one of one's own."""
+    """What an agent sees by: nothing for "easy", the exact state; a usual Camera for "real"; or one's own."""
     if isinstance(difficulty, Camera):
         return difficulty
     if difficulty not in DIFFICULTIES:
