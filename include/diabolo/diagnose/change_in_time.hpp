@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +14,7 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/math/bootstrap.hpp"
+#include "diabolo/math/solve_symmetric.hpp"
 
 namespace diabolo {
 
@@ -103,7 +103,8 @@ inline double left_beside(const WindowSeries& series,
     columns(i, columns.cols() - 1) = root;
     values[i] = root * series.value[k];
   }
-  const Eigen::VectorXd best = columns.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd best =
+      solve_symmetric(columns.transpose() * columns, columns.transpose() * values).col(0);
   if (first != nullptr) *first = best[0];
   return (values - columns * best).squaredNorm();
 }

@@ -39,7 +39,7 @@ inline std::string diagnosis_schema() {
   nlohmann::ordered_json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                                 {"title", kDiagnosisSchema}};
   schema.update(record_schema<DiagnosisResult>());
-  return json_text(schema, "schema");
+  return schema.dump(1) + "\n";
 }
 
 }  // namespace diabolo
