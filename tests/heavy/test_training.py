@@ -120,3 +120,36 @@ def test_many_environments_are_what_stable_baselines_expects() -> None:
     assert env.env_is_wrapped(object) == [False] * 3
     with pytest.raises(ValueError, match="make a DiaboloVecEnv with it"):
         env.set_attr("period", 1.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ("Fly --out d", "TASK 'Fly'; expected one of Hold, Swing"),
+        ("Hold --out d --seconds 1 --steps 1", "--seconds, --steps: both are given"),
+        ("Hold --out d --seconds 0", "--seconds 0.0; expected 0.001 to 1e+07"),
+        ("Hold --out d --envs 1", "--envs 1; expected 32 to 65536"),
+        ("Hold --out d --resume", "d: expected training.json and checkpoint.zip of a training to resume"),
+        ("Hold --out begun --resume", "begun/training.json: "),
+        ("Hold --out begun", "begun: holds a training; expected another folder, or --resume"),
+        ("Hold --out file", "file: a file; expected a folder"),
+    ],
+)
+def test_bad_input_is_told_before_the_work(
+    arguments: str,
+    complaint: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    from diabolo.cli import main
+
+    monkeypatch.chdir(tmp_path)
+    Path("file").write_text("")
+    Path("begun").mkdir()
+    for name in ("training.json", "checkpoint.zip"):
+        (Path("begun") / name).write_text("{}")
+    assert main(["train", *arguments.split()]) == 2
+    error = capsys.readouterr().err
+    assert complaint in error and error.count("\n") == 1
+    assert not Path("d").exists()

@@ -44,7 +44,20 @@ def plant() -> list[Recording]:
 
 @pytest.fixture(scope="module")
 def found(plant: list[Recording]) -> Diagnosis:
-    return diagnose(plant)
+    return diagnose(plant, draws=60)
+
+
+def test_models_are_drawn_from_what_the_recordings_leave_open(found: Diagnosis) -> None:
+    friction = next(effect for effect in found.effects if effect.name == "string_friction").parameters[0]
+    assert friction.ci90 is not None
+    values = np.array([model.string_friction.coefficient for model in found.models])
+    assert len(set(values)) == 60
+    within = (values >= friction.ci90.low) & (values <= friction.ci90.high)
+    assert 0.5 < within.mean() <= 1.0
+    assert abs(np.median(values) - friction.value) < friction.ci90.high - friction.value
+    assert found.models[0].name != found.models[1].name
+    losses = {model.spin_loss.bearing for model in found.models}
+    assert len(losses) > 1  # not claimed, and not excluded
 
 
 def test_the_friction_of_the_plant_is_named_and_helps(found: Diagnosis) -> None:
@@ -397,6 +410,14 @@ def test_an_output_that_cannot_be_is_told_before_the_work(
     assert option.split()[1] in error and error.count("\n") == 1
 
 
+def test_the_command_writes_models_that_were_drawn(short: Path) -> None:
+    out = short.parent / "drawn"
+    assert main(["diagnose", str(short), "--out", str(out), "--draws", "2"]) == 0
+    names = sorted(path.name for path in out.glob("model*.json"))
+    assert names == ["model-1.json", "model-2.json", "model.json"]
+    assert Model.load(out / "model-1.json").name.endswith(" 1")
+
+
 def test_bad_input_makes_no_folder(short: Path) -> None:
     assert main(["diagnose", "nothing.csv", "--out", str(short.parent / "new" / "out")]) == 2
     assert not (short.parent / "new").exists()
@@ -409,6 +430,8 @@ def test_bad_input_makes_no_folder(short: Path) -> None:
         (["TAKE", "--base", "ours"], "model ours: no such file"),
         (["TAKE", "--seed", "-1"], "--seed: -1"),
         (["TAKE", "--threads", "-1"], "--threads: -1"),
+        (["TAKE", "--draws", "-1", "--out", "d"], "--draws: -1"),
+        (["TAKE", "--draws", "3"], "--draws 3: expected with --out DIR, and without --simulated"),
         (["TAKE", "--budget", "nan"], "--budget: nan s"),
         (["TAKE", "--out", "TAKE"], "a file; expected a folder"),
     ],
