@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import torch
@@ -56,7 +57,7 @@ class Network(nn.Module):
     def __init__(self, layers: int = 3, units: int = 100, outputs: int = STATE) -> None:
         super().__init__()
         sizes = [STATE + 2 * TIPS, *([units] * layers)]
-        hidden = [one for a, b in zip(sizes, sizes[1:], strict=False) for one in (nn.Linear(a, b), nn.ReLU())]
+        hidden = [one for a, b in pairwise(sizes) for one in (nn.Linear(a, b), nn.ReLU())]
         self.layers = nn.Sequential(*hidden, nn.Linear(units, outputs))
         for name, size in (("in", STATE + 2 * TIPS), ("out", outputs)):
             self.register_buffer(f"{name}_mean", torch.zeros(size))

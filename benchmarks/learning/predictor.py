@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The paper's neural predictor, rebuilt, and a stronger one, beside the simulator, on takes that are left out.
+"""The paper's neural predictor, rebuilt, and a stronger one, beside the simulator, on takes held out.
 
 For each take the networks learn from all the others; rows of one that hold the same play again are left out
 too. All begin from the same states (`diabolo.predict`, start "published" for the paper's table and "fair" for
@@ -152,7 +152,9 @@ def _lowest(tips: NDArray[np.float64], length: float = 1.45) -> NDArray[np.float
 
 
 def _distance(places: NDArray[np.float64], true: NDArray[np.float64]) -> NDArray[np.float64]:
-    distance = np.linalg.norm(np.clip(np.nan_to_num(places, nan=DIVERGED), -DIVERGED, DIVERGED) - true, axis=-1)
+    distance = np.linalg.norm(
+        np.clip(np.nan_to_num(places, nan=DIVERGED), -DIVERGED, DIVERGED) - true, axis=-1
+    )
     return np.asarray(np.minimum(distance, DIVERGED))
 
 

@@ -113,8 +113,10 @@ py::dict outcome(const Arena& arena, std::size_t i) {
 
 EpisodeStart make_start(const State<double>& state, const Vector3<double>& left, const Vector3<double>& right,
                         const Vector3<double>& left_velocity, const Vector3<double>& right_velocity,
-                        const std::vector<double>& goal) {
-  return {state, {{left, right}, {left_velocity, right_velocity}}, goal_of(goal, 0, kMostGoalNumbers)};
+                        const std::optional<std::vector<double>>& goal) {
+  EpisodeStart start{state, {{left, right}, {left_velocity, right_velocity}}, {}};
+  if (goal) start.goal = goal_of(*goal, 1, kMostGoalNumbers);
+  return start;
 }
 
 using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -220,9 +222,9 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
   py::class_<EpisodeStart>(
       module, "EpisodeStart",
       "What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: "
-      "the diabolo's state, the tips' places [m] and velocities [m/s], and the goal.")
+      "the diabolo's state, the tips' places [m] and velocities [m/s], and the goal; None: it is drawn.")
       .def(py::init(&make_start), "state"_a, "left"_a, "right"_a, "left_velocity"_a = none,
-           "right_velocity"_a = none, "goal"_a = std::vector<double>());
+           "right_velocity"_a = none, "goal"_a = py::none());
   py::class_<Arena>(module, "Arena",
                     "Environments side by side, in the compiled core: what diabolo.envs is made of. Its "
                     "arrays are its own memory, which each step overwrites.")

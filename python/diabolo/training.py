@@ -41,6 +41,8 @@ class Settings:
     period: float = 0.02
     steps: int = 20
     difficulty: str = "easy"
+    models: tuple[str, ...] = ()
+    """Digests of what is played with, in place of the usual model."""
 
 
 @dataclass(frozen=True)

@@ -88,6 +88,8 @@ def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path) -> None:
     assert before > 0
     diabolo("train", "Hold", "--out", folder, "--envs", 32, "--steps", 4096, status=2)  # not resumed
     diabolo("train", "Hold", "--out", folder, "--envs", 64, "--steps", 4096, "--resume", status=2)
+    other = ("--envs", 32, "--steps", 4096, "--resume", "--model", "paper")
+    assert "models [] at first" in diabolo("train", "Hold", "--out", folder, *other, status=2).stderr
     diabolo("train", "Hold", "--out", folder, "--envs", 32, "--steps", 4096, "--resume")
     assert json.loads((folder / "training.json").read_text())["progress"]["steps"] >= before + 4096
     steps = [
@@ -118,6 +120,8 @@ def test_many_environments_are_what_stable_baselines_expects() -> None:
             own, worth, length = one.reset()[0], 0.0, 0
         np.testing.assert_array_equal(seen[2], own)
     assert env.env_is_wrapped(object) == [False] * 3
+    with pytest.raises(ValueError, match="copy: given"):
+        DiaboloVecEnv(3, "Hop", copy=False)
     with pytest.raises(ValueError, match="make a DiaboloVecEnv with it"):
         env.set_attr("period", 1.0)
 

@@ -198,21 +198,30 @@ TEST_CASE("episodes begin with somebody's play where they are told to, as often 
   start.hands.position = {HandLimits{}.centre + Vector3<double>(0.0, 0.6, 0.0),
                           HandLimits{}.centre - Vector3<double>(0.0, 0.6, 0.0)};
   start.hands.velocity[0].z() = 0.5;
-  start.goal = {0.44, 0.0};
+  start.goal = Goal{0.44, 0.0};
   Arena some = arena({.task = "ThrowAndCatch", .count = 1000, .starts = {start}, .start_share = 0.3});
   std::size_t begun = 0;
   for (std::size_t i = 0; i < some.count(); ++i) {
     some.reset(i);
     const Episode& episode = some.episode(i);
-    if (episode.goal != start.goal) continue;
+    if (episode.goal != *start.goal) continue;
     ++begun;
     CHECK(episode.state.position == start.state.position);
     CHECK(episode.hands.velocity[0] == start.hands.velocity[0]);
   }
   CHECK(std::abs(static_cast<double>(begun) - 300.0) < 4.0 * std::sqrt(1000.0 * 0.3 * 0.7));
   start.hands.velocity[0].z() = 9.0;
-  CHECK_THROWS_WITH(arena({.starts = {start}, .start_share = 0.5}),
-                    "starts, 0: a tip at 1.25 m with 9 m/s along axis 2; expected it within the limits");
+  CHECK_THROWS_WITH(
+      arena({.starts = {start}, .start_share = 0.5}),
+      "starts, 0: a tip at 1.25 m with 9 m/s along axis 2; expected it within the limits, with room to stop");
+  start.hands.velocity[0].z() = 0.0;
+  start.hands.position[0].y() = HandLimits{}.half.y() - 1e-3;
+  start.hands.velocity[0].y() = 1.0;
+  CHECK_THROWS(arena({.starts = {start}, .start_share = 0.5}));  // it could not stop
+  start.hands.velocity[0].y() = 0.0;
+  start.hands.position = {HandLimits{}.centre + Vector3<double>(0.0, 0.7, 0.3),
+                          HandLimits{}.centre - Vector3<double>(0.0, 0.7, 0.3)};
+  CHECK_THROWS(arena({.starts = {start}, .start_share = 0.5}));  // nor is a string so long
   CHECK_THROWS_WITH(arena({.start_share = 0.5}),
                     "start_share: 0.5; expected 0 to 0, since there are no starts");
 }
@@ -268,7 +277,7 @@ TEST_CASE("a hanging diabolo weighs on both tips, and friction on the one that i
     Arena one = arena({.task = "Hold"}, {model});
     one.reset(0);
     const Episode& episode = one.episode(0);
-    const auto& [left, right] = tip_forces(episode.state, episode.hands, model.parameters.gravity);
+    const auto& [left, right] = tip_forces(episode.state, episode.hands, episode.pull);
     CHECK((left + right).z() == Approx(-1.0).epsilon(0.01));
     CHECK((left + right).y() == Approx(0.0).margin(0.01));
     CHECK(left.y() < 0.0);  // to the right

@@ -233,6 +233,7 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         again = random.random(64) < 0.1
         held[again] = random.choice([-1e30, -1.0, 0.0, 1.0, 1e30], (again.sum(), 6))
         observations, rewards, *_ = env.step(held)
+        assert env.observation_space.contains(observations)
         assert np.isfinite(observations).all() and np.isfinite(rewards).all()
         tips = observations[:, 10:16].reshape(-1, 2, 3)
         assert (np.abs(tips) <= limits.half + 1e-6).all()
@@ -262,8 +263,17 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         ),
         (
             lambda: DiaboloEnv(starts=[EpisodeStart(State([0, 0, 1]), [0, 9, 1], [0, -0.3, 1])]),
-            "starts, 0: a tip at 9 m with 0 m/s along axis 1; expected it within the limits",
+            "starts, 0: a tip at 9 m with 0 m/s along axis 1; expected it within the limits, with room to stop",
         ),
+        (lambda: DiaboloEnv(starts=3), "starts: 3; expected"),
+        (lambda: DiaboloEnv(starts=["here"]), "starts"),
+        (
+            lambda: DiaboloEnv(
+                starts=[EpisodeStart(State([0, 0, 1]), [0, 0.3, 1], [0, -0.3, 1], goal=[np.nan])]
+            ),
+            "starts, 0: goal: not finite; expected numbers",
+        ),
+        (lambda: play(shipped_agent("SpinUp"), 2, autoreset_mode="Disabled"), "autoreset_mode: given"),
         (lambda: shipped_agent("Fly"), "task: 'Fly' has no agent in the package; expected "),
         (lambda: play(lambda seen: seen), "expected an Agent, or a function together with a task"),
         (lambda: play(shipped_agent("SpinUp"), 0), "num_envs: 0; expected a whole number from 1"),

@@ -25,10 +25,14 @@ def test_an_agent_plays_and_its_outcomes_are_told(capsys: pytest.CaptureFixture[
 
 def test_the_first_episode_is_a_recording_and_a_page(tmp_path: Path) -> None:
     take, page = tmp_path / "play.csv", tmp_path / "play.html"
-    assert main(["play", "SpinUp", "--episodes", "1", "--out", str(take), "--html", str(page)]) == 0
+    told = tmp_path / "told.json"
+    outputs = ["--out", str(take), "--html", str(page), "--json", str(told)]
+    assert main(["play", "SpinUp", "--episodes", "20", *outputs]) == 0
+    episodes = json.loads(told.read_text(encoding="utf-8"))["episodes"]
     recording = load_recording(take)
     assert recording.rate == pytest.approx(50.0) and len(recording) == 501
     assert recording.string_length == pytest.approx(1.45)
+    assert np.nanmean(recording.spin()[-10:]) == pytest.approx(episodes["spin"][0], rel=0.02)
     assert "<html" in page.read_text(encoding="utf-8")[:200]
 
 

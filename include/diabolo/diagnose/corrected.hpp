@@ -67,6 +67,15 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   return model;
 }
 
+/// The same where the frames' rate may be wrong, which stands for gravity: that is as it was.
+inline Model augmented_model(const Model& base, const UnknownVector& at, const std::string& name,
+                             const Bank& bank) {
+  Model model = augmented_model(base, at, name);
+  if (std::ranges::find(bank, &candidate_of("frame_rate")) != bank.end())
+    model.parameters.gravity = base.parameters.gravity;
+  return model;
+}
+
 /// The recording as a camera without the faults of a fit would have made it: tips at the diabolo's time and
 /// where they are, the diabolo's centre, lengths and the string's length true. Orientations stay. A lag is
 /// undone as the delay that it is at first order.

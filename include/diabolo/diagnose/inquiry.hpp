@@ -43,11 +43,13 @@ class Inquiry : public ClaimSearch<D> {
       bool withdrawn = withdraw_what_does_not_help(result_);
       judge();
       withdrawn = learn_laws(withdrawn);
-      if (withdrawn || withdraw_what_explains_too_little(result_)) result_.model = options_.base;
+      withdrawn = withdrawn || withdraw_what_explains_too_little(result_);
+      if (withdrawn) result_.model = options_.base;
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       compare_takes();
       finish();
-      result_.final_fit = std::make_shared<FinalFit>(FinalFit{physics_, std::move(fit_), set_});
+      result_.final_fit =
+          std::make_shared<FinalFit>(FinalFit{physics_, std::move(fit_), set_, possible(), !withdrawn});
     }
     std::ranges::copy(budget_.left(), std::back_inserter(result_.not_done));
     conclude(result_);
@@ -73,12 +75,17 @@ class Inquiry : public ClaimSearch<D> {
     }
   }
 
+  /// What data that were left out do not deny.
+  Bank possible() const {
+    Bank result = bank_;
+    for (const Candidate* candidate : denied_) std::erase(result, candidate);
+    return result;
+  }
+
   void claim() {
     const Evidence evidence(fit_);
     result_.at = fit_.at;
-    result_.model = augmented_model(physics_, fit_.at, "diagnosed");
-    if (std::ranges::find(bank_, &candidate_of("frame_rate")) != bank_.end())  // gravity is as it was
-      result_.model.parameters.gravity = physics_.parameters.gravity;
+    result_.model = augmented_model(physics_, fit_.at, "diagnosed", bank_);
     result_.findings.clear();
     result_.unexplained_forces.clear();
     find(result_, fit_, evidence, bank_, set_);
@@ -87,9 +94,7 @@ class Inquiry : public ClaimSearch<D> {
     if (options_.bank.empty() || std::ranges::count(options_.bank, "gyroscopic_tilt") > 0)
       result_.findings.push_back(find_axle_motion(fit_, result_.model));
     withdraw_what_cannot_be(result_);
-    Bank possible = bank_;
-    for (const Candidate* candidate : denied_) std::erase(possible, candidate);
-    withdraw_what_may_be_physics(result_, evidence, possible, set_);
+    withdraw_what_may_be_physics(result_, evidence, possible(), set_);
     for (Finding& f : result_.findings) {
       for (const Replacement& exchange : exchanged_)
         if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
@@ -151,8 +156,10 @@ class Inquiry : public ClaimSearch<D> {
     const char* const asking = "permuting learnt laws";
     for (Learnt& learnt : result_.learnt) {
       if (!budget_.allows(asking, kTrialsShare)) return;
+      const FitWatch looking = step(asking, 0.95, 0.955, kTrialsShare);
       learnt.dependence = dependence_of<D>(learnt.law, learnt.first, fit_, physics_, set_, options_.seed,
-                                           options_.threads, step(asking, 0.95, 0.955, kTrialsShare));
+                                           options_.threads, looking);
+      if (looking.is_enough()) budget_.leave(asking);
     }
   }
 

@@ -88,6 +88,7 @@ std::optional<Dependence> dependence_of(const Law& law, std::size_t first, const
   std::mt19937_64 generator(seed);
   std::vector<double> permuted = said, gains;
   for (int i = 0; i < kPermutations; ++i) {
+    if (watch.is_enough()) return std::nullopt;
     std::ranges::shuffle(permuted, generator);
     gains.push_back(gain_of(permuted));
   }

@@ -5,42 +5,46 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
-#include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/select.hpp"
 
 namespace diabolo {
 
-/// Models that a diagnosis' recordings do not tell from the best one: numbers drawn together, by a normal
-/// distribution with the covariance of the fit; what is tied, one or the other; and, in `unclaimed` of them,
-/// one effect beside it that was not claimed, as large as is not excluded.
+/// Models that a diagnosis' recordings cannot distinguish from the best one: numbers drawn together, by a
+/// normal distribution with the covariance of the fit; of laws that are tied one or the other, to the fit's
+/// first order; and, with the chance `unclaimed`, one law beside it that was not claimed, as large as is not
+/// excluded. Where what was found is withdrawn, there is the base alone.
 class Posterior {
  public:
   explicit Posterior(const Diagnosis& diagnosis, double unclaimed = 0.5)
-      : best_(diagnosis.model), unclaimed_(unclaimed) {
-    if (!diagnosis.final_fit) return;
-    const auto& [physics, fit, free] = *diagnosis.final_fit;
-    physics_ = physics;
-    const Evidence evidence(fit);
-    claimed_.push_back(explanation(evidence, free, fit.at));
-    for (const Finding& f : diagnosis.findings) {
+      : best_(diagnosis.model), unclaimed_(unclaimed), own_(diagnosis.own) {
+    if (!diagnosis.final_fit || !diagnosis.final_fit->stands) return;
+    const FinalFit& final = *diagnosis.final_fit;
+    physics_ = final.physics;
+    bank_ = final.bank;
+    const Evidence evidence(final.fit);
+    claimed_.push_back(explanation(evidence, final.free, final.fit.at));
+    const auto also = [&](std::vector<Explanation>& list, const ActiveSet& set) {
+      list.push_back(explanation(evidence, set, within_bounds(evidence.solve(set), final.fit)));
+    };
+    for (const Finding& f : diagnosis.findings)
       for (const std::string& other : f.tied_with)
-        if (const auto tied = diagnose_detail::alternative_of(f.candidate->name, other, fit, free))
-          claimed_.push_back(explanation(evidence, tied->set, tied->at));
-      if (f.candidate->kind != CandidateKind::kPhysics || f.candidate->unknowns.empty() ||
-          is_in(free, *f.candidate))
-        continue;
-      const ActiveSet more = with(free, *f.candidate);
-      others_.push_back(explanation(evidence, more, within_bounds(evidence.solve(more), fit)));
-    }
+        if (const Candidate* const tied = law_named(other);
+            tied != nullptr && is_in(final.free, *f.candidate))
+          also(claimed_, with(with(final.free, *f.candidate, false), *tied));
+    for (const Candidate* candidate : bank_)
+      if (is_drawn(*candidate) && !is_in(final.free, *candidate)) also(others_, with(final.free, *candidate));
   }
 
   /// So many models; the same seed gives the same ones. Without a fit, the diagnosis' model each time.
@@ -48,7 +52,8 @@ class Posterior {
     std::vector<Model> models;
     std::mt19937_64 generator(seed);
     for (std::size_t i = 0; i < count; ++i) {
-      models.push_back(claimed_.empty() ? best_ : augmented_model(physics_, unknowns(generator), best_.name));
+      models.push_back(claimed_.empty() ? best_
+                                        : augmented_model(physics_, unknowns(generator), best_.name, bank_));
       models.back().name.append(" ").append(std::to_string(i + 1));
     }
     return models;
@@ -61,6 +66,17 @@ class Posterior {
     std::vector<int> free;
     Eigen::MatrixXd root;
   };
+
+  /// Laws by somebody's formulas stay as they are: models that are played together have the same.
+  static bool is_drawn(const Candidate& candidate) {
+    return is_law(candidate) && !candidate.unknowns.empty() &&
+           index_of(candidate.unknowns.front()) < index_of(own_number(0));
+  }
+
+  const Candidate* law_named(std::string_view name) const {
+    const auto found = std::ranges::find(bank_, name, &Candidate::name);
+    return found != bank_.end() && is_drawn(**found) ? *found : nullptr;
+  }
 
   static Explanation explanation(const Evidence& evidence, const ActiveSet& set, const UnknownVector& at) {
     const Estimates standing = estimates_of(evidence, set);
@@ -92,9 +108,9 @@ class Posterior {
       const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
       at[u] = std::clamp(at[u], info.minimum, info.maximum);
     }
-    for (const Candidate& candidate : candidates())
-      if (candidate.positive) {
-        double& size = at[index_of(candidate.unknowns.front())];
+    for (const Candidate* candidate : bank_)
+      if (candidate->positive && is_drawn(*candidate)) {
+        double& size = at[index_of(candidate->unknowns.front())];
         size = std::max(0.0, size);
       }
     return at;
@@ -102,6 +118,8 @@ class Posterior {
 
   Model best_, physics_;
   double unclaimed_;
+  std::shared_ptr<const OwnCandidates> own_;  ///< to which the bank may point
+  Bank bank_;
   std::vector<Explanation> claimed_, others_;  ///< what may be; the same with an effect that was not claimed
 };
 

@@ -16,7 +16,7 @@
 
 #include "diabolo/json/fields.hpp"
 #include "diabolo/learn/agent.hpp"
-#include "diabolo/learn/arena.hpp"
+#include "diabolo/learn/arena_options.hpp"
 #include "diabolo/text/file.hpp"
 
 namespace diabolo {

@@ -49,8 +49,8 @@ class Arena {
         throw std::invalid_argument("models: they differ in rules or formulas; expected the same in all");
       const FullPredictor<double> predictor(model.parameters, model.effects);
       hanging_.push_back(hang_at_rest(predictor, home(model), 0.5 * (task().least_spin + task().most_spin)));
-      hanging_.back().string_acceleration.z() = model.parameters.gravity;  // the string holds it already
     }
+    for (std::size_t i = 0; i < options.starts.size(); ++i) expect_held(options.starts[i], i);
     for (std::size_t i = 0; i < episodes_.size(); ++i) episodes_[i].seed = i;
   }
 
@@ -109,6 +109,22 @@ class Arena {
     return tips;
   }
 
+  /// Throws std::invalid_argument where a start holds numbers that are not finite, or a string too short.
+  void expect_held(const EpisodeStart& start, std::size_t number) const {
+    const std::string here = "starts, " + std::to_string(number) + ": ";
+    for (const double one : start.goal.value_or(Goal{}))
+      if (!std::isfinite(one)) throw std::invalid_argument(here + "goal: not finite; expected numbers");
+    if (!is_finite_state(start.state))
+      throw std::invalid_argument(here + "state: not finite; expected numbers");
+    const auto& [left, right] = start.hands.position;
+    double longest = INFINITY;
+    for (const Model& model : models_)
+      longest = std::min(longest, model.parameters.string_length - limits().string_margin);
+    if (!((left - right).norm() <= longest))
+      throw std::invalid_argument(here + "tips " + shown((left - right).norm()) +
+                                  " m apart; expected at most " + shown(longest) + " m, as for the string");
+  }
+
   void begin(Episode& episode, const std::optional<std::size_t>& model = {}) const {
     Draw draw(episode.seed, episode.number);
     const std::uint64_t seed = episode.seed, number = episode.number + 1;
@@ -134,7 +150,8 @@ class Arena {
       const EpisodeStart& start = options_.starts[draw.index(options_.starts.size())];
       state = start.state;
       episode.hands = start.hands;
-      episode.goal = start.goal;
+      episode.rest = state.position;
+      if (start.goal) episode.goal = *start.goal;
     }
     episode.draw = draw;
     set_state(episode, state);
@@ -144,13 +161,15 @@ class Arena {
   void set_state(Episode& episode, const State<double>& state) const {
     episode.state = state;
     episode.first_spin = state.spin;
+    const bool held = state.string_state == StringState::kOnString;
+    episode.pull = held ? models_[episode.model].parameters.gravity * Vector3<double>::UnitZ()
+                        : Vector3<double>(Vector3<double>::Zero());
     if (options_.camera) episode.sight = Sight(*options_.camera, state, episode.draw);
   }
 
   void observe_into(std::vector<float>& to, std::size_t i) {
     const Episode& episode = episodes_[i];
-    observe(episode, limits().centre, models_[episode.model].parameters.gravity, options_.camera.has_value(),
-            to.data() + kObservationSize * i);
+    observe(episode, limits().centre, options_.camera.has_value(), to.data() + kObservationSize * i);
   }
 
   /// Environments [first, first + used) play a period, a lane each; unused lanes repeat the last one.
@@ -202,6 +221,8 @@ class Arena {
     const bool failed = !is_finite_state(after);
     if (failed) episode.state = before;
     ++episode.periods;
+    episode.pull = (episode.state.velocity - before.velocity) / options_.period +
+                   parameters.gravity * Vector3<double>::UnitZ();
     Worth worth;
     if (!failed)
       worth = task_.judge({.before = before,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "diabolo/learn/all_tasks.hpp"
@@ -19,7 +20,8 @@ struct Episode {
   std::size_t model = 0;               ///< which one it is played with
   State<double> state;
   Hands hands;
-  Vector3<double> rest = Vector3<double>::Zero();  ///< where the diabolo hung at first [m]
+  Vector3<double> rest = Vector3<double>::Zero();  ///< where the diabolo was at first [m]
+  Vector3<double> pull = Vector3<double>::Zero();  ///< of the string, the mean over the last period [m/s^2]
   Goal goal{};
   Memory memory;
   Draw draw;
@@ -35,7 +37,7 @@ struct Episode {
 struct EpisodeStart {
   State<double> state;
   Hands hands;
-  Goal goal{};
+  std::optional<Goal> goal{};  ///< none: it is drawn
 };
 
 /// A slice of an observation.
@@ -58,8 +60,10 @@ inline constexpr std::array kObservations{
     ObservationInfo{"right_velocity", "m/s", 3, "of the right tip"},
     ObservationInfo{"goal", "of the goal", kMostGoalNumbers, "0 where the task has none"},
     ObservationInfo{"flights", "1", 1, "that ended in a catch"},
-    ObservationInfo{"left_force", "weights", 3, "of the string on the left tip, in weights of the diabolo"},
-    ObservationInfo{"right_force", "weights", 3, "of the string on the right tip"},
+    ObservationInfo{
+        "left_force", "weights", 3,
+        "of the string on the left tip, in weights of the diabolo, the mean over the period, at most 20"},
+    ObservationInfo{"right_force", "weights", 3, "of the string on the right tip, as well"},
     ObservationInfo{"stage", "1", 1, "of a task that has several"},
 };
 
@@ -69,30 +73,30 @@ inline constexpr std::size_t kObservationSize = [] {
   return sum;
 }();
 
-/// Forces of the string on the tips, in weights of the diabolo: what it does to the diabolo, along its two
-/// sides. Straight sides cannot be told apart, and get little.
-inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, double gravity) {
+/// Forces of the string on the tips, in weights of the diabolo, no larger than 20: what it does to the
+/// diabolo [m/s^2], along its two sides. Straight sides cannot be distinguished, and get little.
+inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, const Vector3<double>& pulled) {
   constexpr double kStraight = 1e-3;  // of 1 - cos^2 of the angle between the sides
+  constexpr double kMost = 20.0;      // what a sensor shows [weights]
   Hands::Pair sides;
   for (std::size_t side = 0; side < 2; ++side)
     sides[side] = (state.position - hands.position[side]).normalized();
   const double cosine = sides[0].dot(sides[1]), determinant = 1.0 - cosine * cosine + kStraight;
-  const Vector3<double> pull = -state.string_acceleration / gravity;
+  const Vector3<double> pull = -pulled / kStandardGravity;
   const double left = sides[0].dot(pull), right = sides[1].dot(pull);
-  return {std::max(0.0, (left - cosine * right) / determinant) * sides[0],
-          std::max(0.0, (right - cosine * left) / determinant) * sides[1]};
+  return {std::clamp((left - cosine * right) / determinant, 0.0, kMost) * sides[0],
+          std::clamp((right - cosine * left) / determinant, 0.0, kMost) * sides[1]};
 }
 
 /// Writes kObservationSize numbers. With `camera`, what it saw.
-inline void observe(const Episode& episode, const Vector3<double>& centre, double gravity, bool camera,
-                    float* to) {
+inline void observe(const Episode& episode, const Vector3<double>& centre, bool camera, float* to) {
   const auto put = [&to](double x) { *to++ = static_cast<float>(x); };
   const auto put3 = [&](const Vector3<double>& v) {
     for (const double x : v) put(x);
   };
   const State<double>& state = episode.state;
   const auto& [left, right] = episode.hands.position;
-  const Hands::Pair forces = tip_forces(state, episode.hands, gravity);
+  const Hands::Pair forces = tip_forces(state, episode.hands, episode.pull);
   const Seen seen = camera ? episode.sight.seen() : Seen{state.position, state.velocity, state.spin};
   constexpr double kFelt = 0.05;  // [weights]
   const StringState string = !camera                    ? state.string_state

@@ -65,10 +65,13 @@ struct HandLimits {
       for (int axis = 0; axis < 3; ++axis) {
         const auto [low, high] = room(side, axis);
         const double place = hands.position[side][axis], speed_now = hands.velocity[side][axis];
-        if (!(place >= low - kSlack && place <= high + kSlack && std::abs(speed_now) <= speed + kSlack))
+        const double way = speed_now > 0.0 ? high - place : place - low;  // that is left to stop in
+        if (!(place >= low - kSlack && place <= high + kSlack && std::abs(speed_now) <= speed + kSlack &&
+              speed_now * speed_now <= 2.0 * acceleration * way + kSlack))
           throw std::invalid_argument("starts, " + std::to_string(number) + ": a tip at " + shown(place) +
                                       " m with " + shown(speed_now) + " m/s along axis " +
-                                      std::to_string(axis) + "; expected it within the limits");
+                                      std::to_string(axis) +
+                                      "; expected it within the limits, with room to stop");
       }
   }
 };

@@ -61,10 +61,10 @@ struct PassTask {
 struct RoutineTask {
   static constexpr TaskInfo kInfo{
       "Routine",
-      "spin the diabolo up, throw it, catch it and keep it still for a second",
+      "spin the diabolo up, throw it, catch it and calm it",
       "the change of min(1, w / g) for a spin w, until it is the goal g; then what ThrowAndCatch gives with "
-      "a catch in the middle; then T exp(-(|v| / 0.3 m/s)^2) for a period T and a velocity v on the string, "
-      "for a second",
+      "a catch in the middle; then, for two seconds, T exp(-(|v| / 0.3 m/s)^2) for a period T and a velocity "
+      "v on the string",
       15.0,
       {{{"spin", "rad/s", 70.0, 100.0, "before the throw"},
         {"height", "m", 0.3, 0.6, "of the apex above the middle of the tips' box"}}},
@@ -85,10 +85,9 @@ struct RoutineTask {
       const double beside = m.after.position.y() - m.centre.y();
       return {1.0 + close_to(memory.apex - m.goal[1], 0.1) * close_to(beside, 0.2)};
     }
-    if (m.after.string_state != StringState::kOnString) return {};
-    const double speed = m.after.velocity.norm();
-    memory.still = speed < 0.3 ? memory.still + m.period : 0.0;
-    return {m.period * close_to(speed, 0.3), memory.still >= 1.0};
+    constexpr double kToCalm = 2.0;  // [s]
+    const bool held = m.after.string_state == StringState::kOnString;
+    return {held ? m.period * close_to(m.after.velocity.norm(), 0.3) : 0.0, memory.caught >= kToCalm};
   }
 };
 

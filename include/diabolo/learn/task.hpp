@@ -38,7 +38,6 @@ struct Memory {
   double aloft = 0.0, caught = 0.0;  ///< time since it left the string, and since it was caught [s]
   int flights = 0;                   ///< that ended in a catch
   int stage = 0;                     ///< of a task that has several
-  double still = 0.0;                ///< how long it has kept still [s]
   bool flying = false;
 };
 

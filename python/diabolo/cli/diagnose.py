@@ -124,6 +124,8 @@ def run(arguments: argparse.Namespace) -> None:
         names = [MODEL_FILE, REPORT_FILE, RESULT_FILE]
         names += [COMPARISON_FILE, SIMULATOR_FILE] if arguments.simulated else []
         names += [drawn_file(i) for i in range(arguments.draws)]
+        if arguments.draws:
+            check_drawn(folder, arguments.draws)
         outputs += [folder / name for name in names]
         check_report(folder / REPORT_FILE)
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
@@ -178,8 +180,17 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def drawn_file(i: int) -> str:
-    """Name of a model that was drawn, from 1."""
+    """Name of the model that was drawn as number i, from 0."""
     return f"model-{i + 1}.json"
+
+
+def check_drawn(folder: Path, draws: int) -> None:
+    """Raise ValueError where a folder holds models that were drawn before, and would stay."""
+    for path in sorted(folder.glob("model-*.json")):
+        if path.name not in {drawn_file(i) for i in range(draws)}:
+            raise ValueError(
+                f"{path}: drawn before; remove it, as it would be taken for one of these {draws}"
+            )
 
 
 def read_simulated(path: str, like: Recording) -> Recording:

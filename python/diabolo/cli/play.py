@@ -16,7 +16,9 @@ from .arguments import add_command, output_name, read_model
 from .tables import format_table
 
 if TYPE_CHECKING:
-    from .._core import Agent, Recording
+    from .._core import Agent, Recording, State
+
+    Pose = tuple[State, NDArray[np.float64], NDArray[np.float64]]
 
 SCHEMA = "diabolo.play/1"
 COLUMNS = {  # of the table: name, and how a value is shown
@@ -80,16 +82,20 @@ def run(arguments: argparse.Namespace) -> None:
     outputs = [arguments.out, arguments.html, arguments.json]
     if arguments.out:
         outputs.append(Path(arguments.out).with_suffix(".json"))
-    files.check_outputs(outputs, [one for one in (arguments.agent, *(arguments.model or [])) if one])
+    read = [one for one in (arguments.agent, *(arguments.model or [])) if one and Path(one).exists()]
+    files.check_outputs(outputs, read)
     agent = envs.Agent.load(arguments.agent) if arguments.agent else envs.shipped_agent(arguments.task)
     options = {
         "task": arguments.task,
         "model": [read_model(name) for name in arguments.model] if arguments.model else None,
         "difficulty": arguments.difficulty,
     }
-    outcomes = envs.play(agent, arguments.episodes, seed=arguments.seed, **options)
+    poses: list[Pose] = []
+    outcomes = envs.play(
+        agent, arguments.episodes, seed=arguments.seed, watch=lambda env: poses.append(env.pose(0)), **options
+    )
     if arguments.out or arguments.html:
-        recording = recording_of(agent, arguments.seed, **options)
+        recording = recording_of(agent, poses, outcomes, options)
         if arguments.out:
             recording.save(arguments.out)
         if arguments.html:
@@ -97,6 +103,9 @@ def run(arguments: argparse.Namespace) -> None:
     found = {
         "schema": SCHEMA,
         "task": arguments.task,
+        "agent": arguments.agent,
+        "models": arguments.model,
+        "difficulty": arguments.difficulty,
         "seed": arguments.seed,
         "episodes": {name: values.tolist() for name, values in outcomes.items()},
     }
@@ -116,22 +125,17 @@ def text_of(task: str, outcomes: dict[str, NDArray[Any]]) -> str:
     return f"{task}: {np.count_nonzero(dropped)} of {len(dropped)} episodes ended with a drop\n\n{table}"
 
 
-def recording_of(agent: Agent, seed: int, **options: Any) -> Recording:
+def recording_of(
+    agent: Agent, poses: list[Pose], outcomes: dict[str, NDArray[Any]], options: dict[str, Any]
+) -> Recording:
     """The first episode, a sample for each period."""
     from .._core import DiaboloProperties, played_recording
-    from ..envs import DiaboloEnv
     from ..envs.spaces import models_of
 
-    env = DiaboloEnv(period=agent.period, steps=agent.steps, **options)
-    observation, _ = env.reset(seed=seed)
-    poses, over = [env.pose()], False
-    while not over:
-        observation, _, terminated, truncated, _ = env.step(agent.act(observation))
-        over = terminated or truncated
-        poses.append(env.pose())
+    poses = poses[: round(outcomes["seconds"][0] / agent.period) + 1]
     states = np.array([[*state.position, *state.velocity, state.spin] for state, _, _ in poses])
     lefts, rights = (np.array([pose[side] for pose in poses]) for side in (1, 2))
-    p = models_of(options["model"])[env.outcome()["model"]].parameters
+    p = models_of(options["model"])[outcomes["model"][0]].parameters
     properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
     time = agent.period * np.arange(len(poses))
     return played_recording(

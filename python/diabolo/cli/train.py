@@ -8,10 +8,11 @@ import csv
 import json
 import time
 from dataclasses import asdict, fields
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..checks import LARGEST_SEED, check_library, shown
+from ..checks import check_library, shown
 from . import files
 from .arguments import add_command, output_name, progress_steps, read_model
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 SCHEMA = "diabolo.training/1"
 CHECKPOINT, AGENT, CURVE, SETTINGS = "checkpoint.zip", "agent.json", "progress.csv", "training.json"
 KEEP_EVERY = 10.0  # [s]
+LARGEST_SEED = 2**32 - 1  # that Stable-Baselines3 takes
 
 
 def add_parser(commands: Any) -> None:
@@ -31,7 +33,8 @@ def add_parser(commands: Any) -> None:
         summary="train an agent that plays",
         text="Train an agent on a task by PPO (pip install '.[learn]').\n\n"
         "DIR gets agent.json, which `diabolo play` runs without the training's libraries; progress.csv;\n"
-        "and what --resume goes on from. Its files are whole at any time: Ctrl-C loses ten seconds at most.",
+        "and what --resume goes on from. Its files are whole at any time: they are\n"
+        "written every ten seconds, between updates, and Ctrl-C loses what came after.",
         example="  diabolo train SpinUp --out spin_up --seconds 120\n"
         "  diabolo train SpinUp --out spin_up --seconds 120 --resume\n"
         "  diabolo play SpinUp --agent spin_up/agent.json",
@@ -68,7 +71,13 @@ def run(arguments: argparse.Namespace) -> None:
         raise ValueError(f"TASK {shown(arguments.task)}; expected one of {', '.join(TASKS)}")
     seconds = _check_numbers(arguments)
     models = [read_model(name) for name in arguments.model] if arguments.model else None
-    settings = Settings(arguments.task, arguments.seed, arguments.envs, difficulty=arguments.difficulty)
+    settings = Settings(
+        arguments.task,
+        arguments.seed,
+        arguments.envs,
+        difficulty=arguments.difficulty,
+        models=tuple(sha256(one.to_json().encode()).hexdigest()[:12] for one in models or ()),
+    )
     folder = Path(arguments.out)
     begun = _begun(folder, settings, arguments.resume)
     files.check_outputs([folder / name for name in (CHECKPOINT, AGENT, CURVE, SETTINGS)], [], folder)
@@ -113,7 +122,7 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
         progress = {one.name: kept["progress"][one.name] for one in fields(Progress)}
         before = kept["settings"]
         for name, value in asdict(settings).items():
-            if before[name] != value:
+            if before[name] != (list(value) if isinstance(value, tuple) else value):
                 raise ValueError(f"{name} {before[name]} at first, {value} now; expected the same")
         known: dict[str, Any] = {name: float("nan") if one is None else one for name, one in progress.items()}
         return Progress(**known)
@@ -140,7 +149,8 @@ class _Keeper:
         self.kept = time.monotonic()
 
     def report(self, progress: Progress) -> None:
-        self.rows.append([f"{value:.6g}" for value in asdict(progress).values()])
+        exact = (f"{one:.6g}" if isinstance(one, float) else str(one) for one in asdict(progress).values())
+        self.rows.append(list(exact))
         begun = self.trainer.begun
         passed, done = progress.seconds - begun.seconds, progress.steps - begun.steps
         share = passed / self.seconds if self.steps is None else done / self.steps
@@ -149,19 +159,19 @@ class _Keeper:
             self.keep()
 
     def keep(self) -> None:
-        """The checkpoint, the agent, its curve and how far it is: together, once each is whole."""
+        """The checkpoint, then the agent, its curve and how far it is, each once it is whole."""
         progress = self.trainer.progress()
         numbers = {name: None if value != value else value for name, value in asdict(progress).items()}
         state = {"schema": SCHEMA, "settings": asdict(self.trainer.settings), "progress": numbers}
         with files.whole_file(self.folder / CHECKPOINT) as temporary:
             self.trainer.save(temporary)
-            files.write_texts(
-                {
-                    self.folder / AGENT: self.trainer.agent().to_json(),
-                    self.folder / CURVE: _text_of(self.rows),
-                    self.folder / SETTINGS: files.json_text(state),
-                }
-            )
+        files.write_texts(
+            {
+                self.folder / AGENT: self.trainer.agent().to_json(),
+                self.folder / CURVE: _text_of(self.rows),
+                self.folder / SETTINGS: files.json_text(state),
+            }
+        )
         self.kept = time.monotonic()
 
 

@@ -38,11 +38,13 @@ def play(
     task: str | None = None,
     model: AnyModels = None,
     seed: int = 0,
+    watch: Callable[[DiaboloVectorEnv], object] = lambda env: None,
     **options: Any,
 ) -> dict[str, NDArray[Any]]:
     """Play episodes side by side, each to its end; what they came to, an entry for each (DiaboloEnv.outcome).
 
-    task: the agent's own, unless one is given. options: of DiaboloVectorEnv; period and steps are the
+    task: the agent's own, unless one is given. watch: is shown the environments at first and after each
+    period; those that are over stay as they ended. options: of DiaboloVectorEnv; period and steps are the
     agent's. Raises ValueError about bad input.
     """
     act: Callable[[NDArray[np.float32]], Any]
@@ -53,10 +55,14 @@ def play(
         act = agent
     else:
         raise ValueError(f"agent: {shown(agent)}; expected an Agent, or a function together with a task")
+    if "autoreset_mode" in options:
+        raise ValueError("autoreset_mode: given; expected none, each episode is played once")
     env = DiaboloVectorEnv(episodes, task, model, autoreset_mode=AutoresetMode.DISABLED, **options)
     observations, _ = env.reset(seed=seed)
+    watch(env)
     over = np.zeros(episodes, bool)
     while not over.all():
         observations, _, terminated, truncated, _ = env.step(act(observations))
         over |= terminated | truncated
+        watch(env)
     return env.outcomes()

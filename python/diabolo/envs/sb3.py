@@ -25,6 +25,8 @@ class DiaboloVecEnv(VecEnv):  # type: ignore[misc]
     def __init__(
         self, num_envs: int = 1, task: str = "Hold", model: AnyModels = None, **options: Any
     ) -> None:
+        if taken := {"copy", "autoreset_mode"} & options.keys():
+            raise ValueError(f"{min(taken)}: given; expected none, Stable-Baselines3 wants its own")
         self._many = DiaboloVectorEnv(
             num_envs, task, model, autoreset_mode=AutoresetMode.SAME_STEP, **options
         )

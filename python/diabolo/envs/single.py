@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import Arena, Camera, EpisodeStart, HandLimits, State
-from ..checks import numbers, shown
+from ..checks import list_of, numbers, shown
 from .picture import picture
 from .spaces import ACTION, OBSERVATION, AnyModels, camera_of, models_of, options_of
 
@@ -60,7 +60,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             autoreset="disabled",
             limits=self._limits,
             camera=camera_of(difficulty),
-            starts=starts,
+            starts=list_of("starts", starts, (EpisodeStart,)),
             start_share=start_share,
         )
         self.metadata = {**self.metadata, "render_fps": round(1.0 / period)}

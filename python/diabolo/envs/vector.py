@@ -12,8 +12,8 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import Arena, Camera, EpisodeStart, HandLimits
-from ..checks import LARGEST_SEED, MOST_THREADS, shown, whole_number
+from .._core import Arena, Camera, EpisodeStart, HandLimits, State
+from ..checks import LARGEST_SEED, MOST_THREADS, list_of, shown, whole_number
 from .spaces import ACTION, OBSERVATION, AnyModels, camera_of, models_of, options_of
 
 Floats = NDArray[np.float32]
@@ -79,7 +79,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             threads,
             limits or HandLimits(),
             camera_of(difficulty),
-            starts,
+            list_of("starts", starts, (EpisodeStart,)),
             start_share,
         )
         self._arena, self._begun = arena, False
@@ -124,6 +124,10 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             self._given(self._truncated),
             infos,
         )
+
+    def pose(self, i: int) -> tuple[State, NDArray[np.float64], NDArray[np.float64]]:
+        """Of environment i: see DiaboloEnv.pose."""
+        return self._arena.pose(whole_number("i", i, 0, self.num_envs - 1))
 
     def outcomes(self) -> dict[str, NDArray[Any]]:
         """What the episodes have come to, an entry for each: see DiaboloEnv.outcome."""
