@@ -193,6 +193,15 @@ left half (along y) the left tip keeps to, and the right tip to the other.)")
            }),
            "speed"_a = usual.speed, "acceleration"_a = usual.acceleration, "gap"_a = usual.gap,
            "string_margin"_a = usual.string_margin, "centre"_a = usual.centre, "half"_a = usual.half)
+      .def(py::pickle(
+          [](const HandLimits& l) {
+            return py::make_tuple(l.speed, l.acceleration, l.gap, l.string_margin, l.centre, l.half);
+          },
+          [](const py::tuple& t) {
+            return HandLimits{t[0].cast<double>(),          t[1].cast<double>(),
+                              t[2].cast<double>(),          t[3].cast<double>(),
+                              t[4].cast<Vector3<double>>(), t[5].cast<Vector3<double>>()};
+          }))
       .def_readonly("speed", &HandLimits::speed)
       .def_readonly("acceleration", &HandLimits::acceleration)
       .def_readonly("gap", &HandLimits::gap)
@@ -213,6 +222,14 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
            }),
            "noise"_a = eyes.noise, "spin_noise"_a = eyes.spin_noise, "dropouts"_a = eyes.dropouts,
            "least_delay"_a = eyes.least_delay, "most_delay"_a = eyes.most_delay)
+      .def(py::pickle(
+          [](const Camera& c) {
+            return py::make_tuple(c.noise, c.spin_noise, c.dropouts, c.least_delay, c.most_delay);
+          },
+          [](const py::tuple& t) {
+            return Camera{t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>(), t[3].cast<int>(),
+                          t[4].cast<int>()};
+          }))
       .def_readonly("noise", &Camera::noise)
       .def_readonly("spin_noise", &Camera::spin_noise)
       .def_readonly("dropouts", &Camera::dropouts)
@@ -224,7 +241,16 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
       "What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: "
       "the diabolo's state, the tips' places [m] and velocities [m/s], and the goal; None: it is drawn.")
       .def(py::init(&make_start), "state"_a, "left"_a, "right"_a, "left_velocity"_a = none,
-           "right_velocity"_a = none, "goal"_a = py::none());
+           "right_velocity"_a = none, "goal"_a = py::none())
+      .def(py::pickle(
+          [](const EpisodeStart& s) {
+            return py::make_tuple(s.state, s.hands.position, s.hands.velocity, s.goal);
+          },
+          [](const py::tuple& t) {
+            return EpisodeStart{t[0].cast<State<double>>(),
+                                {t[1].cast<Hands::Pair>(), t[2].cast<Hands::Pair>()},
+                                t[3].cast<std::optional<Goal>>()};
+          }));
   py::class_<Arena>(module, "Arena",
                     "Environments side by side, in the compiled core: what diabolo.envs is made of. Its "
                     "arrays are its own memory, which each step overwrites.")

@@ -85,7 +85,7 @@ class Trainer:
         if checkpoint is None:
             self.learner = PPO("MlpPolicy", env, seed=settings.seed, device="cpu", **PPO_OPTIONS)
         else:
-            self.learner = PPO.load(checkpoint, env=env, device="cpu")
+            self.learner = _loaded(checkpoint, env)
             env.seed(settings.seed + self.begun.steps)  # episodes that it has not seen
         self._ended: deque[tuple[float, float]] = deque(maxlen=RECENT)
         self._episodes, self._start = self.begun.episodes, time.monotonic()
@@ -106,7 +106,7 @@ class Trainer:
     def progress(self) -> Progress:
         """How far it is by now."""
         passed = self.begun.seconds + time.monotonic() - self._start
-        worth, length = np.mean(self._ended or [(np.nan, np.nan)], axis=0)
+        worth, length = np.mean(self._ended or [(self.begun.worth, self.begun.length)], axis=0)
         return Progress(self.learner.num_timesteps, passed, self._episodes, float(worth), float(length))
 
     def see(self, infos: list[dict[str, Any]]) -> None:
@@ -129,6 +129,16 @@ class Trainer:
             for one in (*hidden, self.learner.policy.action_net)
         ]
         return Agent(self.settings.task, self.settings.period, self.settings.steps, layers)
+
+
+def _loaded(checkpoint: Path, env: DiaboloVecEnv) -> PPO:
+    """A learner as save() left it; else raises ValueError."""
+    try:
+        return PPO.load(checkpoint, env=env, device="cpu")
+    except Exception as error:  # of zip, pickle, torch or what it asserts: whatever a broken file leads to
+        raise ValueError(
+            f"{checkpoint}: cannot be read ({type(error).__name__}); expected a training's checkpoint"
+        ) from error
 
 
 class _Watch(BaseCallback):  # type: ignore[misc]

@@ -107,7 +107,7 @@ TEST_CASE("hands move as mirrored by mirrored actions") {
 TEST_CASE("limits that no hands can keep are refused with a sentence") {
   HandLimits limits;
   limits.speed = 0.0;
-  CHECK_THROWS_WITH(limits.validate(), "limits, speed: 0; expected a positive number");
+  CHECK_THROWS_WITH(limits.validate(), "limits, speed: 0; expected a positive number up to 1000");
   limits = {.gap = 0.8};
   CHECK_THROWS_WITH(limits.validate(), Contains("limits, gap: 0.8 m; expected at least 0"));
 }

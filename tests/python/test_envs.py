@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Environments: what Gymnasium expects of them, laws of episodes, and bad input."""
 
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -263,7 +264,7 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         ),
         (
             lambda: DiaboloEnv(starts=[EpisodeStart(State([0, 0, 1]), [0, 9, 1], [0, -0.3, 1])]),
-            "starts, 0: a tip at 9 m with 0 m/s along axis 1; expected it within the limits, with room to stop",
+            "starts, 0: a tip at 9 m with 0 m/s along axis 1; expected it within the limits, with room",
         ),
         (lambda: DiaboloEnv(starts=3), "starts: 3; expected"),
         (lambda: DiaboloEnv(starts=["here"]), "starts"),
@@ -277,7 +278,7 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (lambda: shipped_agent("Fly"), "task: 'Fly' has no agent in the package; expected "),
         (lambda: play(lambda seen: seen), "expected an Agent, or a function together with a task"),
         (lambda: play(shipped_agent("SpinUp"), 0), "num_envs: 0; expected a whole number from 1"),
-        (lambda: HandLimits(speed=-1.0), "limits, speed: -1; expected a positive number"),
+        (lambda: HandLimits(speed=-1.0), "limits, speed: -1; expected a positive number up to 1000"),
         (lambda: DiaboloVectorEnv(0), "num_envs: 0; expected a whole number from 1"),
         (
             lambda: DiaboloVectorEnv(2, autoreset_mode="soon"),
@@ -294,13 +295,45 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (lambda: DiaboloEnv().reset(options={"model": 1}), "options, model: 1"),
         (lambda: DiaboloEnv().reset(options={"goal": [1.0]}), "goal: 1 numbers; expected 2"),
         (lambda: DiaboloEnv("SpinUp").reset(options={"goal": [1.0]}), "goal: 1 numbers; expected 0"),
-        (lambda: DiaboloEnv().reset(options={"goal": [np.nan, 0.0]}), "goal: not finite"),
+        (lambda: DiaboloEnv().reset(options={"goal": [np.nan, 0.0]}), "goal: [nan, 0.0]; expected finite"),
+        (lambda: DiaboloEnv().reset(options={"goal": [[1], [2, 3]]}), "options, goal: "),
+        (lambda: DiaboloEnv().reset(options="abc"), "options: 'abc'; expected a dict"),
+        (lambda: DiaboloVectorEnv(2).reset(options=5), "options: 5; expected a dict"),
+        (lambda: DiaboloEnv().reset(seed=-1), "seed: -1; expected a whole number from 0"),
+        (
+            lambda: shipped_agent("SpinUp").act(np.full(32, np.nan)),
+            "observations: not finite; expected numbers",
+        ),
+        (
+            lambda: DiaboloEnv(model=Parameters(string_length=0.5), limits=HandLimits(gap=0.7)),
+            "limits, gap: 0.7 m; expected less than 0.498 m, as for the string",
+        ),
     ],
 )
 def test_bad_input_is_told_in_one_sentence(call: Any, complaint: str) -> None:
     with pytest.raises(ValueError) as caught:
         call()
     assert complaint in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_nothing_is_played_before_its_reset_and_what_is_far_off_stays_within_bounds() -> None:
+    many = DiaboloVectorEnv(3, "Hold")
+    many.reset(seed=1, options={"reset_mask": np.array([True, False, True])})
+    for ask in (lambda: many.step(np.zeros((3, 6))), many.outcomes, lambda: many.pose(0), DiaboloEnv().pose):
+        with pytest.raises(gymnasium.error.ResetNeeded):
+            ask()
+    one = DiaboloEnv("Hold")
+    for options in ({"goal": [1e39, 0.0]}, {"state": State([1e39, 0.0, 1.0])}):
+        seen, _ = one.reset(seed=1, options=options)
+        assert one.observation_space.contains(seen)
+
+
+def test_what_an_environment_is_made_of_can_be_copied() -> None:
+    start = EpisodeStart(State([0, 0, 0.6]), [0, 0.3, 1.25], [0, -0.3, 1.25], goal=[0.1, 0.2])
+    for one in (Camera(noise=2e-3), HandLimits(speed=1.0), start):
+        copied = pickle.loads(pickle.dumps(one))
+        assert pickle.dumps(copied) == pickle.dumps(one)
+    assert gymnasium.make("Diabolo/Hold-v0", difficulty=Camera(), starts=[start]).spec is not None
 
 
 def test_bad_actions_are_refused_before_anything_moves() -> None:

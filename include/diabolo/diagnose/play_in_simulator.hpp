@@ -90,14 +90,15 @@ inline std::vector<Stretch> stretches_of(const Recording& recording) {
 inline std::vector<TakeToPlay> takes_to_play(const Diagnosis& real, const std::vector<Recording>& holdout) {
   std::vector<TakeToPlay> takes;
   if (!real.final_fit) return takes;
-  const auto& [physics, fit, free] = *real.final_fit;
-  for (const HeldOutRecording& held : leave_out(fit, Evidence(fit), free, {}, holdout)) {
+  const Fit& fit = real.final_fit->fit;
+  for (const HeldOutRecording& held : leave_out(fit, Evidence(fit), real.final_fit->free, {}, holdout)) {
     Recording level = levelled(corrected(held.recording, fit.at), fit.at[index_of(Unknown::kTiltX)],
                                fit.at[index_of(Unknown::kTiltY)]);
     UnknownVector at = held.at;
     at[index_of(Unknown::kTiltX)] = at[index_of(Unknown::kTiltY)] = 0.0;
     std::vector<Stretch> stretches = stretches_of(level);
-    takes.push_back({std::move(level), augmented_model(physics, at, "real"), std::move(stretches)});
+    takes.push_back(
+        {std::move(level), augmented_model(real.final_fit->physics, at, "real"), std::move(stretches)});
   }
   return takes;
 }

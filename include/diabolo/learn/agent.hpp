@@ -46,13 +46,17 @@ class Policy {
 
   const std::vector<Layer>& layers() const { return layers_; }
 
-  /// Actions, 6 x n, of observations, kObservationSize x n.
+  /// Actions, 6 x n, of observations, kObservationSize x n. Throws std::invalid_argument where a number is
+  /// not finite, or so large that the layers give none that is.
   Eigen::MatrixXf act(const Eigen::Ref<const Eigen::MatrixXf>& observations) const {
+    if (!observations.allFinite()) throw std::invalid_argument("observations: not finite; expected numbers");
     Eigen::MatrixXf values = observations;
     for (std::size_t i = 0; i < layers_.size(); ++i) {
       values = (layers_[i].weights * values).colwise() + layers_[i].bias;
       if (i + 1 < layers_.size()) values = values.array().tanh();
     }
+    if (!values.allFinite())
+      throw std::invalid_argument("layers: they give what is not finite; expected smaller weights");
     return values.cwiseMax(-1.0F).cwiseMin(1.0F);
   }
 

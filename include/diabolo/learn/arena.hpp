@@ -47,6 +47,10 @@ class Arena {
       if (!model.parameters.same_rules(models_.front().parameters) ||
           !same_laws(model.effects.get<FormulaLaws>(), models_.front().effects.get<FormulaLaws>()))
         throw std::invalid_argument("models: they differ in rules or formulas; expected the same in all");
+      const double longest = model.parameters.string_length - limits().string_margin;
+      if (!(limits().gap < longest))
+        throw std::invalid_argument("limits, gap: " + shown(limits().gap) + " m; expected less than " +
+                                    shown(longest) + " m, as for the string");
       const FullPredictor<double> predictor(model.parameters, model.effects);
       hanging_.push_back(hang_at_rest(predictor, home(model), 0.5 * (task().least_spin + task().most_spin)));
     }

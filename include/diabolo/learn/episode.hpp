@@ -73,6 +73,9 @@ inline constexpr std::size_t kObservationSize = [] {
   return sum;
 }();
 
+/// Largest number of an observation.
+inline constexpr double kMostObserved = 1e3;
+
 /// Forces of the string on the tips, in weights of the diabolo, no larger than 20: what it does to the
 /// diabolo [m/s^2], along its two sides. Straight sides cannot be distinguished, and get little.
 inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, const Vector3<double>& pulled) {
@@ -88,9 +91,11 @@ inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, co
           std::clamp((right - cosine * left) / determinant, 0.0, kMost) * sides[1]};
 }
 
-/// Writes kObservationSize numbers. With `camera`, what it saw.
+/// Writes kObservationSize numbers, none beyond kMostObserved. With `camera`, what it saw.
 inline void observe(const Episode& episode, const Vector3<double>& centre, bool camera, float* to) {
-  const auto put = [&to](double x) { *to++ = static_cast<float>(x); };
+  const auto put = [&to](double x) {
+    *to++ = static_cast<float>(std::clamp(x, -kMostObserved, kMostObserved));
+  };
   const auto put3 = [&](const Vector3<double>& v) {
     for (const double x : v) put(x);
   };

@@ -34,14 +34,15 @@ struct HandLimits {
   /// Throws std::invalid_argument where a bound is out of its range.
   void validate() const {
     const auto positive = [](const char* name, double value) {
-      if (!(value > 0.0 && std::isfinite(value)))
+      if (!(value > 0.0 && value <= 1e3))
         throw std::invalid_argument(std::string("limits, ") + name + ": " + shown(value) +
-                                    "; expected a positive number");
+                                    "; expected a positive number up to 1000");
     };
     positive("speed", speed);
     positive("acceleration", acceleration);
     for (const double side : half) positive("half", side);
-    if (!centre.allFinite()) throw std::invalid_argument("limits, centre: not finite; expected numbers");
+    if (!(centre.cwiseAbs().maxCoeff() <= 1e3))
+      throw std::invalid_argument("limits, centre: expected numbers from -1000 to 1000 m");
     if (!(gap >= 0.0 && gap < half.y()))
       throw std::invalid_argument("limits, gap: " + shown(gap) + " m; expected at least 0 and less than " +
                                   shown(half.y()) + " m, half the box's width");

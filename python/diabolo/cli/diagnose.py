@@ -124,8 +124,7 @@ def run(arguments: argparse.Namespace) -> None:
         names = [MODEL_FILE, REPORT_FILE, RESULT_FILE]
         names += [COMPARISON_FILE, SIMULATOR_FILE] if arguments.simulated else []
         names += [drawn_file(i) for i in range(arguments.draws)]
-        if arguments.draws:
-            check_drawn(folder, arguments.draws)
+        check_drawn(folder, arguments.draws)
         outputs += [folder / name for name in names]
         check_report(folder / REPORT_FILE)
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
@@ -187,10 +186,9 @@ def drawn_file(i: int) -> str:
 def check_drawn(folder: Path, draws: int) -> None:
     """Raise ValueError where a folder holds models that were drawn before, and would stay."""
     for path in sorted(folder.glob("model-*.json")):
-        if path.name not in {drawn_file(i) for i in range(draws)}:
-            raise ValueError(
-                f"{path}: drawn before; remove it, as it would be taken for one of these {draws}"
-            )
+        number = path.stem.removeprefix("model-")
+        if number.isdecimal() and int(number) > draws:
+            raise ValueError(f"{path}: drawn before; remove it, or take another folder")
 
 
 def read_simulated(path: str, like: Recording) -> Recording:

@@ -53,6 +53,7 @@ def add_parser(commands: Any) -> None:
         "--model",
         metavar="NAME",
         nargs="+",
+        action="extend",
         help="to play on: consistent, paper, published or model files; of several, each episode draws "
         "one; default: consistent with a string that rubs on the axle",
     )
@@ -79,6 +80,10 @@ def run(arguments: argparse.Namespace) -> None:
     ):
         if not low <= value <= high:
             raise ValueError(f"{name} {value}; expected {low} to {high}")
+    if arguments.agent == "":
+        raise ValueError("--agent '': expected the name of a file")
+    if arguments.out and not arguments.out.endswith(".csv"):
+        raise ValueError(f"{arguments.out}: expected a name that ends in .csv")
     outputs = [arguments.out, arguments.html, arguments.json]
     if arguments.out:
         outputs.append(Path(arguments.out).with_suffix(".json"))

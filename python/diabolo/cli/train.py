@@ -49,6 +49,7 @@ def add_parser(commands: Any) -> None:
         "--model",
         metavar="NAME",
         nargs="+",
+        action="extend",
         help="to train on: consistent, paper, published or model files; of several, each episode draws "
         "one; default: consistent with a string that rubs on the axle",
     )
@@ -80,10 +81,12 @@ def run(arguments: argparse.Namespace) -> None:
     )
     folder = Path(arguments.out)
     begun = _begun(folder, settings, arguments.resume)
-    files.check_outputs([folder / name for name in (CHECKPOINT, AGENT, CURVE, SETTINGS)], [], folder)
+    read = [one for one in arguments.model or [] if Path(one).exists()]
+    files.check_outputs([folder / name for name in (CHECKPOINT, AGENT, CURVE, SETTINGS)], read, folder)
     trainer = Trainer(settings, models, checkpoint=folder / CHECKPOINT if begun else None, begun=begun)
     with files.made_folder(folder), progress_steps() as show:
         keeper = _Keeper(folder, trainer, show, seconds, arguments.steps)
+        keeper.keep()  # the folder is taken from here on
         trainer.learn(seconds=seconds, steps=arguments.steps, report=keeper.report)
         keeper.keep()
     print(f"{folder / AGENT}: {_sentence(trainer.progress())}")
@@ -100,7 +103,7 @@ def _check_numbers(arguments: argparse.Namespace) -> float:
         ("--seed", arguments.seed, 0, LARGEST_SEED),
     ):
         if value is not None and not low <= value <= high:
-            raise ValueError(f"{name} {value}; expected {low:g} to {high:g}")
+            raise ValueError(f"{name} {value}; expected {low} to {high}")
     if arguments.steps is not None:
         return float("inf")
     return 120.0 if arguments.seconds is None else float(arguments.seconds)
@@ -112,31 +115,39 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
 
     path = folder / SETTINGS
     if not resume:
-        if path.exists():
-            raise ValueError(f"{folder}: holds a training; expected another folder, or --resume")
+        for name in (SETTINGS, CHECKPOINT, AGENT):
+            if (folder / name).exists():
+                raise ValueError(f"{folder / name}: is there; expected another folder, or --resume")
         return None
     if not path.exists() or not (folder / CHECKPOINT).exists():
         raise ValueError(f"{folder}: expected {SETTINGS} and {CHECKPOINT} of a training to resume")
     try:
         kept = json.loads(path.read_text(encoding="utf-8"))
-        progress = {one.name: kept["progress"][one.name] for one in fields(Progress)}
-        before = kept["settings"]
+        if kept["schema"] != SCHEMA:
+            raise ValueError(f"schema {shown(kept['schema'])}; expected {SCHEMA}")
+        before, progress = kept["settings"], kept["progress"]
         for name, value in asdict(settings).items():
             if before[name] != (list(value) if isinstance(value, tuple) else value):
                 raise ValueError(f"{name} {before[name]} at first, {value} now; expected the same")
-        known: dict[str, Any] = {name: float("nan") if one is None else one for name, one in progress.items()}
-        return Progress(**known)
-    except (KeyError, TypeError, json.JSONDecodeError) as error:
-        raise ValueError(f"{path}: {shown(error)}; expected the schema {SCHEMA}") from None
+        for one in fields(Progress):
+            known = progress[one.name]
+            least_is_there = known is None or (isinstance(known, int | float) and known == known)
+            if not least_is_there or (one.type == "int" and (not isinstance(known, int) or known < 0)):
+                raise ValueError(f"progress, {one.name} {shown(known)}; expected a number")
+        values = {one.name: progress[one.name] for one in fields(Progress)}
+        return Progress(**{name: float("nan") if one is None else one for name, one in values.items()})
+    except (KeyError, TypeError, AttributeError, json.JSONDecodeError, UnicodeDecodeError):
+        raise ValueError(f"{path}: not of the schema {SCHEMA}; expected what a training wrote") from None
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
 
 
 def _sentence(progress: Progress) -> str:
-    return (
-        f"{progress.steps / 1e6:.1f} M control steps, {progress.episodes} episodes; of the last ones, the "
-        f"mean return is {progress.worth:.2f} and the mean length {progress.length:.1f} s"
-    )
+    done = f"{progress.steps / 1e6:.1f} M control steps, {progress.episodes} episodes"
+    if progress.worth != progress.worth:
+        return f"{done}, none of them over yet"
+    means = f"the mean return is {progress.worth:.2f}, the mean length {progress.length:.1f} s"
+    return f"{done}; of the last ones, {means}"
 
 
 class _Keeper:
@@ -186,6 +197,9 @@ def _curve(path: Path, steps: int) -> list[list[str]]:
     """Rows of a curve, up to where the checkpoint is."""
     if not path.exists():
         return []
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.reader(file))[1:]
-    return [row for row in rows if row and float(row[0]) <= steps]
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            rows = [row for row in list(csv.reader(file))[1:] if row]
+        return [row for row in rows if float(row[0]) <= steps]
+    except (ValueError, csv.Error) as error:
+        raise ValueError(f"{path}: {shown(str(error))}; expected the curve of a training") from None

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import Arena, Camera, EpisodeStart, HandLimits, State
-from ..checks import list_of, numbers, shown
+from ..checks import LARGEST_SEED, list_of, numbers, shown, whole_number
 from .picture import picture
 from .spaces import ACTION, OBSERVATION, AnyModels, camera_of, models_of, options_of
 
@@ -75,6 +75,8 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an episode. options: a state, a goal or the number of the model in place of what is drawn."""
         given = options_of(options, len(self._lengths))
+        if seed is not None:
+            seed = whole_number("seed", seed, 0, LARGEST_SEED)
         super().reset(seed=seed)
         if seed is not None or not self._begun:
             self._arena.seed(0, int(self.np_random_seed if seed is None else seed) % 2**64)
@@ -84,8 +86,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def step(self, action: ArrayLike) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Play a period."""
-        if not self._begun:
-            raise gymnasium.error.ResetNeeded("step: called before the first reset")
+        self._expect_begun("step")
         given = numbers("action", action)
         if given.shape != (6,):
             raise ValueError(f"action: {shown(given)}; expected six numbers from -1 to 1")
@@ -101,18 +102,22 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def pose(self) -> tuple[State, NDArray[np.float64], NDArray[np.float64]]:
         """State of the diabolo, left tip and right tip [m]: exactly, whatever an agent sees."""
+        self._expect_begun("pose")
         return self._arena.pose(0)
 
     def outcome(self) -> dict[str, Any]:
         """What the episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin
         and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
+        self._expect_begun("outcome")
         return dict(self._arena.outcome(0))
+
+    def _expect_begun(self, what: str) -> None:
+        if not self._begun:
+            raise gymnasium.error.ResetNeeded(f"{what}: called before the first reset")
 
     def render(self) -> NDArray[np.uint8] | None:
         """What the player sees, RGB, shape (480, 480, 3); None without a render_mode."""
         if self.render_mode is None:
             return None
-        if not self._begun:
-            raise gymnasium.error.ResetNeeded("render: called before the first reset")
         state, left, right = self.pose()
         return picture(self._task, state, (left, right), self._limits, self._lengths[self._arena.model_of(0)])

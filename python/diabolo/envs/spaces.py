@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from .._core import Camera, Model, Parameters, State, StringFriction, observation_infos
-from ..checks import instance_of, list_of, number, shown, whole_number
+from ..checks import instance_of, list_of, numbers, shown, whole_number
 
 AnyModels: TypeAlias = Model | Parameters | Sequence[Model | Parameters] | None
 
@@ -47,6 +47,8 @@ def camera_of(difficulty: str | Camera) -> Camera | None:
 
 def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:
     """The options of a reset, checked: state (a State), goal (numbers), model (which one, a number)."""
+    if given is not None and not isinstance(given, Mapping):
+        raise ValueError(f"options: {shown(given)}; expected a dict of {', '.join(OPTIONS)}")
     options = dict(given or {})
     if unknown := sorted(map(str, options.keys() - {*OPTIONS})):
         raise ValueError(f"options: found {shown(unknown[0])}; expected {', '.join(OPTIONS)}")
@@ -55,5 +57,8 @@ def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:
     if options.get("model") is not None:
         options["model"] = whole_number("options, model", options["model"], 0, models - 1)
     if options.get("goal") is not None:
-        options["goal"] = [number("options, goal", one) for one in np.atleast_1d(options["goal"])]
+        goal = numbers("options, goal", options["goal"])
+        if goal.ndim > 1 or not np.isfinite(goal).all():
+            raise ValueError(f"options, goal: {shown(options['goal'])}; expected finite numbers")
+        options["goal"] = np.atleast_1d(goal).tolist()
     return options

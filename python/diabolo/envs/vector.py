@@ -82,7 +82,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             list_of("starts", starts, (EpisodeStart,)),
             start_share,
         )
-        self._arena, self._begun = arena, False
+        self._arena, self._begun = arena, np.zeros(self.num_envs, bool)
         self._observations, self._final = arena.observations, arena.final_observations
         self._rewards = arena.rewards
         self._terminated, self._truncated = arena.terminated.view(bool), arena.truncated.view(bool)
@@ -91,23 +91,22 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self, *, seed: int | Sequence[int | None] | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Floats, dict[str, Any]]:
         """Begin episodes: of all, or of those in options["reset_mask"], an array of bool."""
-        given = dict(options or {})
-        mask = self._mask(given.pop("reset_mask", None))
+        given = {**options} if isinstance(options, Mapping) else options
+        mask = self._mask(given.pop("reset_mask", None) if given else None)
         checked = options_of(given, self._models)
         seeds = self._seeds(seed)
         for i in np.flatnonzero(mask):
             if (own := seeds[i]) is not None:
                 self._arena.seed(i, own)
             self._arena.reset(i, **checked)
-        self._begun = True
+        self._begun |= mask
         return self._given(self._observations), {}
 
     def step(
         self, actions: ArrayLike
     ) -> tuple[Floats, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Play a period in all. actions: shape (num_envs, 6)."""
-        if not self._begun:
-            raise gymnasium.error.ResetNeeded("step: called before the first reset")
+        self._expect_begun("step")
         self._arena.step(actions)
         infos: dict[str, Any] = {}
         if self._mode is AutoresetMode.SAME_STEP:
@@ -127,12 +126,19 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
 
     def pose(self, i: int) -> tuple[State, NDArray[np.float64], NDArray[np.float64]]:
         """Of environment i: see DiaboloEnv.pose."""
+        self._expect_begun("pose")
         return self._arena.pose(whole_number("i", i, 0, self.num_envs - 1))
 
     def outcomes(self) -> dict[str, NDArray[Any]]:
         """What the episodes have come to, an entry for each: see DiaboloEnv.outcome."""
+        self._expect_begun("outcomes")
         each = [self._arena.outcome(i) for i in range(self.num_envs)]
         return {name: np.array([one[name] for one in each]) for name in each[0]}
+
+    def _expect_begun(self, what: str) -> None:
+        if not self._begun.all():
+            first = int(np.argmin(self._begun))
+            raise gymnasium.error.ResetNeeded(f"{what}: called before environment {first} was first reset")
 
     def _given(self, numbers: NDArray[Any]) -> NDArray[Any]:
         return numbers.copy() if self._copy else numbers
@@ -149,7 +155,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
 
     def _seeds(self, given: int | Sequence[int | None] | None) -> list[int | None]:
         if given is None:
-            if self._begun:
+            if self._begun.all():
                 return [None] * self.num_envs
             given = int(np.random.default_rng().integers(2**62))
         if isinstance(given, Sequence | np.ndarray):
