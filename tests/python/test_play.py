@@ -32,7 +32,7 @@ def test_the_first_episode_is_a_recording_and_a_page(tmp_path: Path) -> None:
     recording = load_recording(take)
     assert recording.rate == pytest.approx(50.0) and len(recording) == 501
     assert recording.string_length == pytest.approx(1.45)
-    assert np.nanmean(recording.spin()[-10:]) == pytest.approx(episodes["spin"][0], rel=0.02)
+    assert np.nanmean(recording.spin()[-3:]) == pytest.approx(episodes["spin"][0], rel=0.03)
     assert "<html" in page.read_text(encoding="utf-8")[:200]
 
 
@@ -54,7 +54,9 @@ def test_another_model_is_another_play(tmp_path: Path, capsys: pytest.CaptureFix
         ("play SpinUp --agent nothing.json", "nothing.json: "),
         ("play SpinUp --agent agent.json", "agent.json: "),
         ("play SpinUp --model theirs", "model theirs: no such file"),
-        ("play SpinUp --out agent.json --agent agent.json", "agent.json: this file is read"),
+        ("play SpinUp --json agent.json --agent agent.json", "agent.json: this file is read"),
+        ("play SpinUp --out take", "take: expected a name that ends in .csv"),
+        ("play SpinUp --agent=", "--agent '': expected the name of a file"),
     ],
 )
 def test_bad_input_is_told_in_one_sentence(

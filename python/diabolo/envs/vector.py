@@ -92,7 +92,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
     ) -> tuple[Floats, dict[str, Any]]:
         """Begin episodes: of all, or of those in options["reset_mask"], an array of bool."""
         given = {**options} if isinstance(options, Mapping) else options
-        mask = self._mask(given.pop("reset_mask", None) if given else None)
+        mask = self._mask(given.pop("reset_mask", None) if isinstance(given, dict) else None)
         checked = options_of(given, self._models)
         seeds = self._seeds(seed)
         for i in np.flatnonzero(mask):
