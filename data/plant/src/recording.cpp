@@ -23,12 +23,13 @@ std::string text_of(double value, int decimals) {
   return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
-constexpr int kDecimals = 6;
+constexpr int kTimeDecimals = 6;
+constexpr int kPositionDecimals = 5;     // no camera sees 0.01 mm
 constexpr int kOrientationDecimals = 4;  // no camera sees 2e-4 rad
 constexpr int kTruthDecimals = 9;
 
 void write_position(std::ostream& out, const std::optional<Pose>& pose) {
-  for (int i = 0; i < 3; ++i) out << ',' << (pose ? text_of(pose->position(i), kDecimals) : "");
+  for (int i = 0; i < 3; ++i) out << ',' << (pose ? text_of(pose->position(i), kPositionDecimals) : "");
 }
 
 void write_orientation(std::ostream& out, const std::optional<Pose>& pose) {
@@ -48,7 +49,7 @@ void write_frames(std::ostream& out, const std::vector<Frame>& frames, bool stic
   if (stick_orientation) out << ",left_qx,left_qy,left_qz,left_qw,right_qx,right_qy,right_qz,right_qw";
   out << '\n';
   for (const Frame& frame : frames) {
-    out << text_of(frame.time, kDecimals);
+    out << text_of(frame.time, kTimeDecimals);
     write_position(out, frame.sticks[0]);
     write_position(out, frame.sticks[1]);
     write_position(out, frame.diabolo);

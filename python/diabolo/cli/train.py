@@ -131,10 +131,10 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
                 raise ValueError(f"{name} {before[name]} at first, {value} now; expected the same")
         for one in fields(Progress):
             known = progress[one.name]
-            least_is_there = known is None or (isinstance(known, int | float) and known == known)
-            if not least_is_there or (one.type == "int" and (not isinstance(known, int) or known < 0)):
+            whole = isinstance(known, int) and known >= 0
+            if not (whole if one.type == "int" else known is None or isinstance(known, int | float)):
                 raise ValueError(f"progress, {one.name} {shown(known)}; expected a number")
-        values = {one.name: progress[one.name] for one in fields(Progress)}
+        values: dict[str, Any] = {one.name: progress[one.name] for one in fields(Progress)}
         return Progress(**{name: float("nan") if one is None else one for name, one in values.items()})
     except (KeyError, TypeError, AttributeError, json.JSONDecodeError, UnicodeDecodeError):
         raise ValueError(f"{path}: not of the schema {SCHEMA}; expected what a training wrote") from None
