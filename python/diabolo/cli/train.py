@@ -134,8 +134,9 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
             whole = isinstance(known, int) and known >= 0
             if not (whole if one.type == "int" else known is None or isinstance(known, int | float)):
                 raise ValueError(f"progress, {one.name} {shown(known)}; expected a number")
-        values: dict[str, Any] = {one.name: progress[one.name] for one in fields(Progress)}
-        return Progress(**{name: float("nan") if one is None else one for name, one in values.items()})
+        found: dict[str, Any] = {one.name: progress[one.name] for one in fields(Progress)}
+        found = {name: float("nan") if value is None else value for name, value in found.items()}
+        return Progress(**found)
     except (KeyError, TypeError, AttributeError, json.JSONDecodeError, UnicodeDecodeError):
         raise ValueError(f"{path}: not of the schema {SCHEMA}; expected what a training wrote") from None
     except ValueError as error:
