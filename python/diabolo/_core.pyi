@@ -3570,7 +3570,11 @@ class HandLimits:
     string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
     left half (along y) the left tip keeps to, and the right tip to the other.
     """
+    def __getstate__(self) -> tuple[float, float, float, float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+        ...
     def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def acceleration(self) -> float:
@@ -3597,7 +3601,11 @@ class Camera:
     noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
     nothing is seen; least_delay to most_delay [frames]: each episode draws one.
     """
+    def __getstate__(self) -> tuple[float, float, float, int, int]:
+        ...
     def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def dropouts(self) -> float:
@@ -3616,9 +3624,13 @@ class Camera:
         ...
 class EpisodeStart:
     """
-    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], and the goal.
+    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], and the goal; None: it is drawn.
     """
-    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+    def __getstate__(self) -> tuple[State, typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[float], "FixedSize(2)"] | None]:
+        ...
+    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
 class Arena:
     """
