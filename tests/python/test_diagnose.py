@@ -56,8 +56,12 @@ def test_models_are_drawn_from_what_the_recordings_leave_open(found: Diagnosis) 
     assert 0.5 < within.mean() <= 1.0
     assert abs(np.median(values) - friction.value) < friction.ci90.high - friction.value
     assert found.models[0].name != found.models[1].name
-    losses = {model.spin_loss.bearing for model in found.models}
-    assert len(losses) > 1  # not claimed, and not excluded
+    drags = {model.air.linear_drag for model in found.models}
+    assert len(drags) > 1 and min(drags) == 0.0  # not claimed, and not excluded
+    flex = next(effect for effect in found.effects if effect.name in ("stick_flex", "string_elasticity"))
+    bend = [model.stick_flex.compliance > 0.0 for model in found.models]
+    assert any(bend)
+    assert all(bend) != bool(flex.tied_with)
 
 
 def test_the_friction_of_the_plant_is_named_and_helps(found: Diagnosis) -> None:
@@ -410,12 +414,14 @@ def test_an_output_that_cannot_be_is_told_before_the_work(
     assert option.split()[1] in error and error.count("\n") == 1
 
 
-def test_the_command_writes_models_that_were_drawn(short: Path) -> None:
-    out = short.parent / "drawn"
-    assert main(["diagnose", str(short), "--out", str(out), "--draws", "2"]) == 0
+def test_the_command_writes_models_that_were_drawn(tmp_path: Path) -> None:
+    out = tmp_path / "drawn"
+    take = str(next(path for path in plant_recordings() if path.stem == "hop"))
+    assert main(["diagnose", take, "--out", str(out), "--draws", "2"]) == 0
     names = sorted(path.name for path in out.glob("model*.json"))
     assert names == ["model-1.json", "model-2.json", "model.json"]
-    assert Model.load(out / "model-1.json").name.endswith(" 1")
+    assert Model.load(out / "model-1.json").name == "diagnosed 1"
+    assert main(["diagnose", take, "--out", str(out)]) == 2  # the drawn ones would stay
 
 
 def test_bad_input_makes_no_folder(short: Path) -> None:
