@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 pytestmark = pytest.mark.learn
-STEPS = 600_000
+STEPS = 1_000_000
 
 
 def diabolo(*arguments: object, status: int = 0) -> subprocess.CompletedProcess[str]:
@@ -46,7 +46,7 @@ def test_an_agent_learns_to_spin_the_diabolo_up(trained: Path) -> None:
 
     still, _ = gained(lambda seen: np.zeros((len(seen), 6)))
     spin, dropped = gained(Agent.load(trained / "agent.json"))
-    assert spin > still + 30.0
+    assert spin > still + 50.0
     assert dropped <= 0.05
 
 
@@ -70,6 +70,11 @@ def test_what_plays_needs_nothing_of_what_trained(trained: Path) -> None:
     assert "episodes ended with a drop" in done.stdout
 
 
+def steps_kept(folder: Path) -> int:
+    path = folder / "training.json"
+    return int(json.loads(path.read_text())["progress"]["steps"]) if path.exists() else 0
+
+
 def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path) -> None:
     folder = tmp_path / "hold"
     process = subprocess.Popen(
@@ -78,20 +83,20 @@ def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path) -> None:
     )
     try:
         end = time.monotonic() + 120.0
-        while not (folder / "training.json").exists() and time.monotonic() < end:
+        while steps_kept(folder) == 0 and time.monotonic() < end:
             time.sleep(0.2)
         process.send_signal(signal.SIGINT)
         assert process.wait(60) == 130
     finally:
         process.kill()
-    before = json.loads((folder / "training.json").read_text())["progress"]["steps"]
+    before = steps_kept(folder)
     assert before > 0
     diabolo("train", "Hold", "--out", folder, "--envs", 32, "--steps", 4096, status=2)  # not resumed
     diabolo("train", "Hold", "--out", folder, "--envs", 64, "--steps", 4096, "--resume", status=2)
     other = ("--envs", 32, "--steps", 4096, "--resume", "--model", "paper")
     assert "models [] at first" in diabolo("train", "Hold", "--out", folder, *other, status=2).stderr
     diabolo("train", "Hold", "--out", folder, "--envs", 32, "--steps", 4096, "--resume")
-    assert json.loads((folder / "training.json").read_text())["progress"]["steps"] >= before + 4096
+    assert steps_kept(folder) >= before + 4096
     steps = [
         int(float(line.split(",")[0])) for line in (folder / "progress.csv").read_text().splitlines()[1:]
     ]
