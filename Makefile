@@ -85,10 +85,11 @@ test-cpp:
 	@cmake --build $(BUILD)/test -j $(JOBS) -- -k 0
 	@$(ctest) --test-dir $(BUILD)/test -LE long
 
-test-long: # Every header compiles alone, and every law keeps in every Scalar: as long to compile as test-cpp.
-	@$(packages) build test
+test-long: # Every header compiles alone, and every law keeps in every Scalar.
+	@$(packages) build test lint
+	@tools/check_headers.sh $(JOBS)
 	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
-	@cmake --build $(BUILD)/test -j $(JOBS) --target test_headers tests_long -- -k 0
+	@cmake --build $(BUILD)/test -j $(JOBS) --target tests_long -- -k 0
 	@$(ctest) --test-dir $(BUILD)/test -L long
 
 test-core: # The predictor alone: the quick part of test-cpp.

@@ -104,9 +104,9 @@ class StrongNetwork:
     and the mean of several networks."""
 
     name = "neural net, strong"
-    UNROLLED, MEMBERS, TURNS = 24, 4, 4
+    UNROLLED, MEMBERS, TURNS = 24, 3, 2
 
-    def __init__(self, tracks: Sequence[Track], seed: int, epochs: int = 12) -> None:
+    def __init__(self, tracks: Sequence[Track], seed: int, epochs: int = 6) -> None:
         torch.manual_seed(seed)
         dt = tracks[0].dt
         states, tips = self._copies(*sequences(tracks, self.UNROLLED, 3))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/diagnose/permuted_law.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -16,18 +17,26 @@ namespace {
 
 const LawNumber kSize{"size", "m/s^2", 0.5, 0.0, -1e3, 1e3};
 
-/// What is said of a law by a formula where a push across the string's plane by another one is at work.
+/// What was diagnosed of play with a push across the string's plane at work; once for each push.
+const Fit& fit_of(const std::string& at_work, double size) {
+  static std::map<std::string, Diagnosis> known;
+  const auto [place, is_new] = known.try_emplace(at_work);
+  if (is_new) {
+    AllEffects<double> effects;
+    effects.get<FormulaLaws>() =
+        FormulaLaws<double>({Law("push", "a push", Acts::kAcross, at_work, {kSize})});
+    effects.get<FormulaLaws>().numbers[0] = size;
+    DiagnosisOptions options;
+    options.bank = {"air_drag_linear"};
+    place->second = diagnose({played(effects, 14.0, 8)}, options);
+  }
+  return place->second.final_fit->fit;
+}
+
+/// What is said of a law by a formula where a push by another one is at work.
 std::optional<Dependence> asked(const std::string& at_work, double size, const std::string& formula) {
-  const Law truth("push", "a push", Acts::kAcross, at_work, {kSize});
-  AllEffects<double> effects;
-  effects.get<FormulaLaws>() = FormulaLaws<double>({truth});
-  effects.get<FormulaLaws>().numbers[0] = size;
-  DiagnosisOptions options;
-  options.bank = {"air_drag_linear"};
-  const Diagnosis d = diagnose({played(effects, 14.0, 8)}, options);
-  const Fit& fit = d.final_fit->fit;
   const Law law("asked", "a push", Acts::kAcross, formula, {kSize});
-  Fit begun = fit;  // without the law that was learnt
+  Fit begun = fit_of(at_work, size);  // without the law that was learnt
   for (std::size_t i = 0; i < Law::kMostNumbers; ++i) begun.at[index_of(own_number(i))] = 0.0;
   ActiveSet set = ActiveSet::Constant(false);
   set[index_of(own_number(0))] = true;
