@@ -62,7 +62,8 @@ def test_example_runs_and_draws(tmp_path):
 
 
 def test_what_its_own_tendon_lacks_is_named(tmp_path):
-    """Friction and drag are at work in the recordings; MuJoCo's tendon knows neither."""
+    """Friction and drag are at work in the recordings; MuJoCo's tendon knows neither. Friction is named;
+    of the drag it is not said that the two agree."""
     report = tmp_path / "mujoco.html"
     takes = [str(ROOT / "data" / "recordings" / f"puzzle_{number}.csv") for number in (1, 2)]
     done = subprocess.run(
@@ -71,8 +72,9 @@ def test_what_its_own_tendon_lacks_is_named(tmp_path):
         text=True,
     )
     assert done.returncode == 0, done.stderr
-    lacks = done.stdout.split(";")[0]
-    assert "lacks friction of the string on the axle" in lacks and "drag" in lacks
+    lacks, rest = done.stdout.split(";")[0], done.stdout
+    assert "lacks friction of the string on the axle" in lacks
+    assert "drag" in lacks or "agree in the drag of the air cannot be told" in rest
     ahead, errors = done.stdout.splitlines()[-1].split(" s ahead:")
     alone, better = (float(part.split()[0]) for part in errors.split("->"))
     assert float(ahead) == 1.0
