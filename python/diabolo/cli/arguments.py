@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import Calibration, Model, Recording, load_recording
+from ..checks import shown
 from ..evaluation import DEFAULT_MODELS, Excerpt
 from .files import STDOUT
 
@@ -60,6 +61,31 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
         help="map a CSV of your own: time=t[ms],left_x=lx[mm],..., each TIDY=NAME or TIDY=NAME[UNIT] "
         "with s, ms, us, ns, m, cm, mm, in or ft",
     )
+
+
+def add_playing(parser: argparse.ArgumentParser, verb: str) -> None:
+    """What agents play: the task, the models and what they see."""
+    parser.add_argument("task", metavar="TASK", help="one of docs/environments.md: Hold, Swing, SpinUp, ...")
+    parser.add_argument(
+        "--model",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        help=f"to {verb} on: consistent, paper, published or model files; of several, each episode draws "
+        "one; default: consistent with a string that rubs on the axle",
+    )
+    parser.add_argument(
+        "--difficulty",
+        choices=("easy", "real"),
+        default="easy",
+        help="what the agent sees: the exact state (easy, default), or what a camera would (real)",
+    )
+
+
+def check_task(task: str, tasks: tuple[str, ...]) -> None:
+    """Raise ValueError where there is no such task."""
+    if task not in tasks:
+        raise ValueError(f"TASK {shown(task)}; expected one of {', '.join(tasks)}")
 
 
 def output_name(text: str) -> str:

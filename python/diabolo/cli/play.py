@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import LARGEST_SEED, check_library, shown
+from ..checks import LARGEST_SEED, check_library
 from . import files
-from .arguments import add_command, output_name, read_model
+from .arguments import add_command, add_playing, check_task, output_name, read_model
 from .tables import format_table
 
 if TYPE_CHECKING:
@@ -43,23 +43,12 @@ def add_parser(commands: Any) -> None:
         "  diabolo play SpinUp --agent spin_up/agent.json --model diagnosis/model.json --difficulty real\n"
         "  diabolo play SpinUp --html spin_up.html",
     )
-    parser.add_argument("task", metavar="TASK", help="one of docs/environments.md: Hold, Swing, SpinUp, ...")
     parser.add_argument(
         "--agent", metavar="FILE", help="what `diabolo train` wrote; default: the agent of the package"
     )
     parser.add_argument("--episodes", type=int, default=100, metavar="N", help="default: 100")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of what is drawn; default: 0")
-    parser.add_argument(
-        "--model",
-        metavar="NAME",
-        nargs="+",
-        action="extend",
-        help="to play on: consistent, paper, published or model files; of several, each episode draws "
-        "one; default: consistent with a string that rubs on the axle",
-    )
-    parser.add_argument(
-        "--difficulty", choices=("easy", "real"), default="easy", help="what the agent sees; default: easy"
-    )
+    add_playing(parser, "play")
     parser.add_argument("--json", metavar="FILE", type=str, help="write every episode; - for standard output")
     parser.add_argument(
         "--out", metavar="FILE.csv", type=output_name, help="the first episode, a tidy recording"
@@ -72,8 +61,7 @@ def run(arguments: argparse.Namespace) -> None:
     from .. import envs
     from ..view import view_html
 
-    if arguments.task not in envs.TASKS:
-        raise ValueError(f"TASK {shown(arguments.task)}; expected one of {', '.join(envs.TASKS)}")
+    check_task(arguments.task, envs.TASKS)
     for name, value, low, high in (
         ("--episodes", arguments.episodes, 1, 2**20),
         ("--seed", arguments.seed, 0, LARGEST_SEED - 2**20),

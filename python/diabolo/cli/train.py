@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..checks import check_library, shown
 from . import files
-from .arguments import add_command, output_name, progress_steps, read_model
+from .arguments import add_command, add_playing, check_task, output_name, progress_steps, read_model
 
 if TYPE_CHECKING:
     from ..training import Progress, Settings, Trainer
@@ -39,26 +39,12 @@ def add_parser(commands: Any) -> None:
         "  diabolo train SpinUp --out spin_up --seconds 120 --resume\n"
         "  diabolo play SpinUp --agent spin_up/agent.json",
     )
-    parser.add_argument("task", metavar="TASK", help="one of docs/environments.md: Hold, Swing, SpinUp, ...")
     parser.add_argument("--out", metavar="DIR", required=True, type=output_name, help="folder to write")
     parser.add_argument("--seconds", type=float, metavar="X", help="how long to train; default: 120")
     parser.add_argument("--steps", type=int, metavar="N", help="control steps to train, instead of a time")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of what is drawn; default: 0")
     parser.add_argument("--envs", type=int, default=256, metavar="N", help="side by side; default: 256")
-    parser.add_argument(
-        "--model",
-        metavar="NAME",
-        nargs="+",
-        action="extend",
-        help="to train on: consistent, paper, published or model files; of several, each episode draws "
-        "one; default: consistent with a string that rubs on the axle",
-    )
-    parser.add_argument(
-        "--difficulty",
-        choices=("easy", "real"),
-        default="easy",
-        help="what the agent sees: the exact state (easy, default), or what a camera would (real)",
-    )
+    add_playing(parser, "train")
     parser.add_argument("--resume", action="store_true", help="go on with the training in DIR")
 
 
@@ -68,8 +54,7 @@ def run(arguments: argparse.Namespace) -> None:
     from ..envs import TASKS
     from ..training import Settings, Trainer
 
-    if arguments.task not in TASKS:
-        raise ValueError(f"TASK {shown(arguments.task)}; expected one of {', '.join(TASKS)}")
+    check_task(arguments.task, TASKS)
     seconds = _check_numbers(arguments)
     models = [read_model(name) for name in arguments.model] if arguments.model else None
     settings = Settings(
