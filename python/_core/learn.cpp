@@ -14,6 +14,7 @@
 #include "diabolo/batch/kernels.hpp"
 #include "diabolo/json/agent_file.hpp"
 #include "diabolo/learn/arena.hpp"
+#include "diabolo/learn/live_agent.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -117,6 +118,14 @@ EpisodeStart make_start(const State<double>& state, const Vector3<double>& left,
   EpisodeStart start{state, {{left, right}, {left_velocity, right_velocity}}, {}};
   if (goal) start.goal = goal_of(*goal, 1, kMostGoalNumbers);
   return start;
+}
+
+LiveAgent make_live(const Agent& agent, const Vector3<double>& left, const Vector3<double>& right,
+                    const std::vector<double>& goal, const HandLimits& limits, double string_length,
+                    double gravity) {
+  const std::size_t size = goal_size(*task_named(agent.task).info);
+  const LiveOptions options{goal_of(goal, size, size), limits, string_length, gravity};
+  return {agent, Hands{{left, right}, {Vector3<double>::Zero(), Vector3<double>::Zero()}}, options};
 }
 
 using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -306,6 +315,25 @@ weights of the shape (outputs, inputs), with tanh between them. Outputs are cut 
            })
       .def(py::pickle([](const Agent& agent) { return write_agent(agent); },
                       [](const std::string& text) { return read_agent(text, "pickle"); }));
+  const LiveOptions live;
+  py::class_<LiveAgent>(module, "LiveAgent",
+                        R"(An agent at the sticks of a robot or of somebody else's simulator.
+
+left and right [m]: where the tips are at first, at rest; goal: as many numbers as the task has; string_length [m];
+gravity [m/s^2]. Raises ValueError where the tips are not within the limits.)")
+      .def(py::init(&make_live), "agent"_a, "left"_a, "right"_a, "goal"_a = std::vector<double>(),
+           py::arg_v("limits", usual, "HandLimits()"), "string_length"_a = live.string_length,
+           "gravity"_a = live.gravity)
+      .def(
+          "act",
+          [](LiveAgent& agent, const State<double>& state) {
+            const Hands& hands = agent.act(state);
+            return py::make_tuple(hands.position[0], hands.position[1], hands.velocity[0], hands.velocity[1]);
+          },
+          "state"_a,
+          "Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's "
+          "end. "
+          "Until then their accelerations are constant.");
   module.def("task_infos", &task_infos,
              "What can be played: name, meaning, reward, seconds, goal and first spin of each.");
   module.def("observation_infos", &observation_infos, "What an agent sees: name, unit, size and meaning.");

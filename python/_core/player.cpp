@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/learn/taught_starts.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/plan/success_rate.hpp"
 #include "diabolo/robot/motion/plan_limits.hpp"
@@ -200,6 +201,24 @@ PlannedPlay make_action(const std::string& action, const std::vector<Model>& mod
     planned = plan_action(wanted, by);
   });
   return planned;
+}
+
+std::vector<EpisodeStart> make_taught_starts(const std::string& task, const std::vector<Model>& models,
+                                             int plays, std::uint64_t seed, const HandLimits& limits) {
+  const std::vector<Simulator> by = simulators(models);
+  LessonOptions options{.plays = plays, .seed = seed, .limits = limits};
+  std::vector<EpisodeStart> starts;
+  run_interruptibly([&](const std::atomic<bool>& cancel) {
+    options.cancelled = [&cancel] { return cancel.load(); };
+    starts = taught_starts(task, by, options);
+  });
+  return starts;
+}
+
+py::list lessons() {
+  py::list tasks;
+  for (const Lesson& lesson : kLessons) tasks.append(lesson.task);
+  return tasks;
 }
 
 /// What a path leads to by a model.
@@ -460,6 +479,9 @@ void bind_played(py::module_& module) {
   module.def("plan_action", &make_action, "action"_a, "models"_a, "start"_a, "cycles"_a, "spin"_a, "size"_a,
              "pace"_a, "height"_a, "sideways"_a, "spin_gain"_a, "limits"_a, "solver"_a, "seconds"_a,
              "random_seed"_a, "dt"_a, "sticks"_a, "See diabolo.plan_action.");
+  module.def("taught_starts", &make_taught_starts, "task"_a, "models"_a, "plays"_a, "seed"_a, "limits"_a,
+             "See diabolo.envs.taught_starts.");
+  module.def("lessons", &lessons, "Tasks that the player teaches.");
   module.def(
       "success_rate",
       [](const PlannedPlay& planned, const std::vector<Model>& models) {

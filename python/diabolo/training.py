@@ -18,6 +18,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from ._core import Agent
 from .envs.sb3 import DiaboloVecEnv
 from .envs.spaces import AnyModels
+from .envs.teaching import taught_starts
 
 PPO_OPTIONS: dict[str, Any] = {
     "n_steps": 64,
@@ -43,6 +44,8 @@ class Settings:
     difficulty: str = "easy"
     models: tuple[str, ...] = ()
     """Digests of what is played with, in place of the usual model."""
+    taught: float = 0.0
+    """Share of the episodes that begin in the middle of a play of the player's (envs.taught_starts)."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,7 @@ class Trainer:
     ) -> None:
         torch.set_num_threads(1)
         self.settings, self.begun = settings, begun or Progress()
+        starts = taught_starts(settings.task, model, seed=settings.seed) if settings.taught else ()
         env = DiaboloVecEnv(
             settings.envs,
             settings.task,
@@ -81,6 +85,8 @@ class Trainer:
             period=settings.period,
             steps=settings.steps,
             difficulty=settings.difficulty,
+            starts=starts,
+            start_share=settings.taught,
         )
         if checkpoint is None:
             self.learner = PPO("MlpPolicy", env, seed=settings.seed, device="cpu", **PPO_OPTIONS)

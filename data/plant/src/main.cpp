@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "key.hpp"
+#include "live.hpp"
 #include "recording.hpp"
 #include "scenario.hpp"
 #include "take.hpp"
@@ -23,6 +24,7 @@ struct Options {
   std::string truth;
   std::string key;
   std::optional<std::uint64_t> seed;
+  bool live = false;
 };
 
 /// Whether two names lead to the same file.
@@ -83,13 +85,24 @@ void make_recording(const Options& options) {
   std::cout << '\n';
 }
 
+void play_hands_of_others(const Options& options) {
+  if (!options.out.empty() || !options.truth.empty() || !options.key.empty()) {
+    throw plant::ScenarioError("--live: writes no file; expected it without --out, --truth and --key");
+  }
+  plant::play_live(plant::load_scenario(options.scenario, options.seed), std::cin, std::cout);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Simulates diabolo play and films it: writes a tidy recording NAME.csv and NAME.json.");
   app.add_option("scenario", options.scenario, "Scenario file (JSON)")->required();
-  app.add_option("--out", options.out, "Recording to write, NAME.csv")->required();
+  app.add_option("--out", options.out, "Recording to write, NAME.csv");
+  app.add_flag(
+      "--live", options.live,
+      "Play on with hands that are moved from outside: a line of standard input for each period, its "
+      "duration and six accelerations; a line of standard output for each moment");
   app.add_option("--truth", options.truth, "True motion to write, CSV");
   app.add_option("--key", options.key, "True parameters to write, JSON, in the names of the diagnosis");
   app.add_option("--seed", options.seed, "Seed of all random numbers, in place of the scenario's");
@@ -99,7 +112,11 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
   try {
-    make_recording(options);
+    if (options.live) {
+      play_hands_of_others(options);
+    } else {
+      make_recording(options);
+    }
   } catch (const std::invalid_argument& error) {
     std::cerr << "diabolo-plant: " << error.what() << '\n';
     return kBadInput;

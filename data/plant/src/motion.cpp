@@ -51,7 +51,22 @@ Pair<Stick> Motion::at(double time) const {
       sticks[side].acceleration += share.second_rate * reach.offsets[side];
     }
   }
+  if (push_ && time >= push_->begin) {
+    const double passed = time - push_->begin;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Vec3& acceleration = push_->accelerations[side];
+      sticks[side].tip = push_->tips[side] + passed * (push_->velocities[side] + 0.5 * passed * acceleration);
+      sticks[side].velocity = push_->velocities[side] + passed * acceleration;
+      sticks[side].acceleration = acceleration;
+    }
+  }
   return sticks;
+}
+
+Motion Motion::pushed(const Push& push) const {
+  Motion motion = *this;
+  motion.push_ = push;
+  return motion;
 }
 
 Motion Motion::reaching(const Reach& reach) const {

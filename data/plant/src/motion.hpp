@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reach.hpp"
@@ -15,6 +16,14 @@ struct SticksPose {
   Pair<Vec3> tips{Vec3(0.0, 0.3, 1.25), Vec3(0.0, -0.3, 1.25)};  ///< [m]
   Pair<double> yaws{0.0, 0.0};                                   ///< to the left of forward [rad]
   Pair<double> pitches{0.0, 0.0};                                ///< above the horizontal [rad]
+};
+
+/// Hands that somebody else moves for a while, with constant accelerations; the sticks keep their directions.
+struct Push {
+  double begin = 0.0, end = 0.0;  ///< [s]
+  Pair<Vec3> tips;                ///< at its begin [m]
+  Pair<Vec3> velocities;          ///< at its begin [m/s]
+  Pair<Vec3> accelerations;       ///< [m/s^2]
 };
 
 /// Unsteadiness of the hands: slow random wandering, which fades in and out within a second.
@@ -36,12 +45,16 @@ class Motion {
   /// The same with a reach of both hands on top.
   Motion reaching(const Reach& reach) const;
 
+  /// The same, but for what is pushed: the tips from its begin on, and after its end too.
+  Motion pushed(const Push& push) const;
+
  private:
   friend class MotionBuilder;
   explicit Motion(CubicSpline<10> spline) : spline_(std::move(spline)) {}
 
   CubicSpline<10> spline_;
   std::vector<Reach> reaches_;
+  std::optional<Push> push_;
 };
 
 /// Puts a motion together from elements, each of which starts where the one before it ended. Vectors are

@@ -59,21 +59,32 @@ struct HandLimits {
                      : std::pair(middle - half[1], middle - 0.5 * gap);
   }
 
+  /// Whether a tip is within its room along an axis, not too fast, and has room to stop.
+  bool allow(const Hands& hands, std::size_t side, int axis) const {
+    constexpr double kSlack = 1e-9;
+    const auto [low, high] = room(side, axis);
+    const double place = hands.position[side][axis], speed_now = hands.velocity[side][axis];
+    const double way = speed_now > 0.0 ? high - place : place - low;  // that is left to stop in
+    return place >= low - kSlack && place <= high + kSlack && std::abs(speed_now) <= speed + kSlack &&
+           speed_now * speed_now <= 2.0 * acceleration * way + kSlack;
+  }
+
+  bool allow(const Hands& hands) const {
+    for (std::size_t side = 0; side < 2; ++side)
+      for (int axis = 0; axis < 3; ++axis)
+        if (!allow(hands, side, axis)) return false;
+    return true;
+  }
+
   /// Throws std::invalid_argument where hands, those of start `number`, are outside or too fast.
   void expect_within(const Hands& hands, std::size_t number) const {
-    constexpr double kSlack = 1e-9;
     for (std::size_t side = 0; side < 2; ++side)
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] = room(side, axis);
-        const double place = hands.position[side][axis], speed_now = hands.velocity[side][axis];
-        const double way = speed_now > 0.0 ? high - place : place - low;  // that is left to stop in
-        if (!(place >= low - kSlack && place <= high + kSlack && std::abs(speed_now) <= speed + kSlack &&
-              speed_now * speed_now <= 2.0 * acceleration * way + kSlack))
-          throw std::invalid_argument("starts, " + std::to_string(number) + ": a tip at " + shown(place) +
-                                      " m with " + shown(speed_now) + " m/s along axis " +
-                                      std::to_string(axis) +
-                                      "; expected it within the limits, with room to stop");
-      }
+      for (int axis = 0; axis < 3; ++axis)
+        if (!allow(hands, side, axis))
+          throw std::invalid_argument(
+              "starts, " + std::to_string(number) + ": a tip at " + shown(hands.position[side][axis]) +
+              " m with " + shown(hands.velocity[side][axis]) + " m/s along axis " + std::to_string(axis) +
+              "; expected it within the limits, with room to stop");
   }
 };
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 SCHEMA = "diabolo.training/1"
 CHECKPOINT, AGENT, CURVE, SETTINGS = "checkpoint.zip", "agent.json", "progress.csv", "training.json"
 KEEP_EVERY = 10.0  # [s]
+USUALLY_TAUGHT = 0.7
 LARGEST_SEED = 2**32 - 1  # that Stable-Baselines3 takes
 
 
@@ -32,6 +33,8 @@ def add_parser(commands: Any) -> None:
         run=run,
         summary="train an agent that plays",
         text="Train an agent on a task by PPO (pip install '.[learn]').\n\n"
+        "What a reward alone does not lead to, such as a throw, the player teaches: most episodes\n"
+        "then begin in the middle of plays that it plans first, in some ten seconds.\n\n"
         "DIR gets agent.json, which `diabolo play` runs without the training's libraries; progress.csv;\n"
         "and what --resume goes on from. Its files are whole at any time: they are\n"
         "written every ten seconds, between updates, and Ctrl-C loses what came after.",
@@ -44,6 +47,13 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--steps", type=int, metavar="N", help="control steps to train, instead of a time")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of what is drawn; default: 0")
     parser.add_argument("--envs", type=int, default=256, metavar="N", help="side by side; default: 256")
+    parser.add_argument(
+        "--taught",
+        type=float,
+        metavar="SHARE",
+        help="of the episodes that begin so; default: 0.7 in tasks that the player knows, Hop, Throw and "
+        "ThrowAndCatch, else 0",
+    )
     add_playing(parser, "train")
     parser.add_argument("--resume", action="store_true", help="go on with the training in DIR")
 
@@ -51,7 +61,7 @@ def add_parser(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> None:
     for library in ("gymnasium", "stable_baselines3"):
         check_library("diabolo train", library, "learn")
-    from ..envs import TASKS
+    from ..envs import TASKS, TAUGHT
     from ..training import Settings, Trainer
 
     check_task(arguments.task, TASKS)
@@ -62,6 +72,7 @@ def run(arguments: argparse.Namespace) -> None:
         arguments.seed,
         arguments.envs,
         difficulty=arguments.difficulty,
+        taught=_taught(arguments.taught, arguments.task, TAUGHT),
         models=tuple(sha256(one.to_json().encode()).hexdigest()[:12] for one in models or ()),
     )
     folder = Path(arguments.out)
@@ -92,6 +103,17 @@ def _check_numbers(arguments: argparse.Namespace) -> float:
     if arguments.steps is not None:
         return float("inf")
     return 120.0 if arguments.seconds is None else float(arguments.seconds)
+
+
+def _taught(wanted: float | None, task: str, known: tuple[str, ...]) -> float:
+    """The share of episodes that begin in the middle of a play; raises ValueError about a wrong one."""
+    if wanted is None:
+        return USUALLY_TAUGHT if task in known else 0.0
+    if not 0.0 <= wanted <= 1.0:
+        raise ValueError(f"--taught {wanted}; expected 0 to 1")
+    if wanted > 0.0 and task not in known:
+        raise ValueError(f"--taught {wanted}: the player does not teach {task}; expected {', '.join(known)}")
+    return wanted
 
 
 def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:

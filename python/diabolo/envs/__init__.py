@@ -13,23 +13,35 @@ from __future__ import annotations
 
 from gymnasium.envs.registration import register
 
-from .._core import Agent, Camera, EpisodeStart, HandLimits, observation_infos, task_infos
+from .._core import (
+    Agent,
+    Camera,
+    EpisodeStart,
+    HandLimits,
+    LiveAgent,
+    observation_infos,
+    task_infos,
+)
 from .playing import play, shipped_agent
 from .single import DiaboloEnv
+from .teaching import TAUGHT, taught_starts
 from .vector import DiaboloVectorEnv
 
 __all__ = [
     "TASKS",
+    "TAUGHT",
     "Agent",
     "Camera",
     "DiaboloEnv",
     "DiaboloVectorEnv",
     "EpisodeStart",
     "HandLimits",
+    "LiveAgent",
     "observation_infos",
     "play",
     "shipped_agent",
     "task_infos",
+    "taught_starts",
 ]
 
 TASKS: tuple[str, ...] = tuple(info["name"] for info in task_infos())

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "diabolo/learn/agent.hpp"
+#include "diabolo/text/shown.hpp"
+
+namespace diabolo {
+
+/// What an agent plays with where it is not in an arena.
+struct LiveOptions {
+  Goal goal{};
+  HandLimits limits{};
+  double string_length = 1.45;        ///< [m]
+  double gravity = kStandardGravity;  ///< [m/s^2]
+};
+
+/// An agent at the sticks of a robot or of somebody else's simulator. Once a period it is shown the diabolo
+/// and says where the tips go, as it would in an arena.
+class LiveAgent {
+ public:
+  /// `hands`: where the tips are at first. Throws std::invalid_argument where they are not within the limits.
+  LiveAgent(Agent agent, const Hands& hands, const LiveOptions& options)
+      : agent_(std::move(agent)), options_(options), task_(task_named(agent_.task)) {
+    options_.limits.validate();
+    options_.limits.expect_within(hands, 0);
+    if (!((hands.position[0] - hands.position[1]).norm() <= options.string_length))
+      throw std::invalid_argument("hands: farther apart than the string is long, " +
+                                  shown(options.string_length) + " m");
+    episode_.hands = hands;
+    episode_.goal = options.goal;
+  }
+
+  const Agent& agent() const { return agent_; }
+  const Hands& hands() const { return episode_.hands; }
+
+  /// Shows the diabolo: the tips at the end of the period that begins now, and their velocities. Until then
+  /// their accelerations are constant (tips_between). Throws std::invalid_argument where a number is not
+  /// finite.
+  const Hands& act(const State<double>& state) {
+    if (!state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
+      throw std::invalid_argument("state: not finite; expected numbers");
+    const State<double> before = episode_.periods > 0 ? episode_.state : state;
+    episode_.state = state;
+    if (episode_.periods++ > 0) {
+      remember(before);
+    } else {
+      episode_.rest = state.position;
+      if (state.string_state == StringState::kOnString)
+        episode_.pull = options_.gravity * Vector3<double>::UnitZ();
+    }
+    Eigen::VectorXf seen(static_cast<Eigen::Index>(kObservationSize));
+    observe(episode_, options_.limits.centre, false, seen.data());
+    const Eigen::MatrixXf action = agent_.policy.act(seen);
+    move_hands(episode_.hands, action.data(), options_.limits, options_.string_length, agent_.period);
+    return episode_.hands;
+  }
+
+ private:
+  /// What happened since it was last shown.
+  void remember(const State<double>& before) {
+    episode_.pull = (episode_.state.velocity - before.velocity) / agent_.period +
+                    options_.gravity * Vector3<double>::UnitZ();
+    task_.judge({.before = before,
+                 .after = episode_.state,
+                 .hands = episode_.hands,
+                 .centre = options_.limits.centre,
+                 .rest = episode_.rest,
+                 .gravity = options_.gravity,
+                 .period = agent_.period,
+                 .goal = episode_.goal},
+                episode_.memory);
+  }
+
+  Agent agent_;
+  LiveOptions options_;
+  const Task& task_;
+  Episode episode_;
+};
+
+}  // namespace diabolo
