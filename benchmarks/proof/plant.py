@@ -8,8 +8,12 @@ import json
 import os
 import subprocess
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 PROGRAM = Path("build/plant/diabolo-plant")
 LONGEST_RUN = 1200.0  # [s]
@@ -43,6 +47,72 @@ def check(program: Path) -> None:
         raise ValueError(f"{program}: cannot be run ({error}); expected the plant's program") from error
     if told.returncode != 0 or "--key" not in told.stdout:
         raise ValueError(f"{program}: another program; expected the plant's, which `make plant` builds")
+
+
+class LivePlay:
+    """A play whose hands are moved from here, a period at a time; a context manager.
+
+    It begins as the scenario says; raises what play() does.
+    """
+
+    def __init__(self, program: Path, scenario: dict[str, Any]) -> None:
+        self._folder = tempfile.TemporaryDirectory()
+        asked = Path(self._folder.name) / "scenario.json"
+        asked.write_text(json.dumps(scenario), encoding="utf-8")
+        self._process = subprocess.Popen(
+            [str(program.absolute()), str(asked), "--live"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.moment = self._told()
+
+    def __enter__(self) -> LivePlay:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._process.communicate()
+        self._folder.cleanup()
+
+    def push(self, period: float, accelerations: Iterable[float]) -> Moment:
+        """Move the hands for a period [s], by constant accelerations, left x, y, z, right x, y, z [m/s^2]."""
+        assert self._process.stdin
+        self._process.stdin.write(" ".join(f"{x:.12g}" for x in (period, *accelerations)) + "\n")
+        self._process.stdin.flush()
+        self.moment = self._told()
+        return self.moment
+
+    def _told(self) -> Moment:
+        assert self._process.stdout
+        words = self._process.stdout.readline().split()
+        if len(words) != len(Moment._fields[:2]) + 13:
+            _, said = self._process.communicate()
+            kind = RefusedError if self._process.returncode == 2 else FailedError
+            raise kind(f"the plant: {' '.join(said.split()) or 'it ended'}")
+        numbers = np.array([float(word) for word in words[2:]])
+        return Moment(
+            float(words[0]),
+            words[1],
+            numbers[:3],
+            numbers[3:6],
+            float(numbers[6]),
+            numbers[7:10],
+            numbers[10:],
+        )
+
+
+class Moment(NamedTuple):
+    """What is true at a time [s]: mode (MISSED: play is over), position [m], velocity [m/s], spin [rad/s] and
+    hands [m]."""
+
+    time: float
+    mode: str
+    position: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    spin: float
+    left: NDArray[np.float64]
+    right: NDArray[np.float64]
 
 
 def play(

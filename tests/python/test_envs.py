@@ -21,10 +21,12 @@ from diabolo.envs import (  # noqa: E402
     DiaboloVectorEnv,
     EpisodeStart,
     HandLimits,
+    LiveAgent,
     observation_infos,
     play,
     shipped_agent,
     task_infos,
+    taught_starts,
 )
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
@@ -375,3 +377,43 @@ def test_the_page_has_what_the_code_says() -> None:
 def test_the_package_needs_no_gymnasium() -> None:
     script = "import sys; sys.modules['gymnasium'] = None; import diabolo; print(diabolo.__version__)"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, check=True).stdout
+
+
+def test_the_player_teaches_what_a_reward_alone_does_not_lead_to() -> None:
+    starts = taught_starts("ThrowAndCatch", plays=2, seed=3)
+    assert len(starts) > 20
+    many = DiaboloVectorEnv(64, "ThrowAndCatch", starts=starts, start_share=1.0)
+    observations, _ = many.reset(seed=1)
+    assert len(np.unique(observations[:, 8:10])) > 1  # some are loose or fly, some are not
+    with pytest.raises(ValueError, match=r"task: 'Hold'; expected one of Hop"):
+        taught_starts("Hold")
+    with pytest.raises(ValueError, match="plays: 0"):
+        taught_starts("Hop", plays=0)
+    with pytest.raises(ValueError, match="limits: 3"):
+        taught_starts("Hop", limits=3)  # type: ignore[arg-type]
+
+
+def test_an_agent_outside_of_an_environment_does_what_it_does_inside() -> None:
+    agent = shipped_agent("ThrowAndCatch")
+    env = DiaboloEnv("ThrowAndCatch", period=agent.period, steps=agent.steps)
+    seen, _ = env.reset(seed=4, options={"goal": (0.5, 0.1)})
+    state, left, right = env.pose()
+    live = LiveAgent(agent, left, right, (0.5, 0.1))
+    for _ in range(40):
+        left, right, left_velocity, _ = live.act(state)
+        seen, _, over, _, _ = env.step(agent.act(seen))
+        state, *places = env.pose()
+        np.testing.assert_allclose(places, [left, right], atol=1e-6)
+        assert np.abs(left_velocity).max() <= HandLimits().speed + 1e-9
+        assert not over
+
+
+def test_a_live_agent_refuses_what_it_cannot_play_with() -> None:
+    agent = shipped_agent("ThrowAndCatch")
+    left, right = (0.0, 0.3, 1.25), (0.0, -0.3, 1.25)
+    with pytest.raises(ValueError, match="goal: 1 numbers; expected 2"):
+        LiveAgent(agent, left, right, (0.5,))
+    with pytest.raises(ValueError, match="left tip|a tip at 3"):
+        LiveAgent(agent, (0.0, 3.0, 1.25), right, (0.5, 0.1))
+    with pytest.raises(ValueError, match="state: not finite"):
+        LiveAgent(agent, left, right, (0.5, 0.1)).act(diabolo.State((0.0, 0.0, np.nan)))

@@ -14,7 +14,7 @@ import diabolo
 import numpy as np
 from diabolo import Model, Parameters, Recording, State, TipPath
 from diabolo.enums import StringState
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .. import plant
 
@@ -117,6 +117,12 @@ class Plant:
         elements = [{"type": "hold", "duration": LEAD}, follow, {"type": "hold", "duration": tail}]
         home = tips[0, :3].tolist(), tips[0, 3:].tolist()
         return self._run(self._scenario(home, elements, spin, {"steers": steers}, self.seed, wander=False))
+
+    def live(self, left: ArrayLike, right: ArrayLike, spin: float) -> plant.LivePlay:
+        """A play whose hands are moved from outside; they begin at `left` and `right` [m]."""
+        home = [[float(x) for x in np.asarray(hand)] for hand in (left, right)]
+        hold = [{"type": "hold", "duration": LEAD}]
+        return plant.LivePlay(self.program, self._scenario(home, hold, spin, {}, self.seed, wander=False))
 
     def practice(self) -> list[Recording]:
         """PRACTICE seconds of the plant's own player, filmed: figures of play, throws among them, as they

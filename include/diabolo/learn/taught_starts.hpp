@@ -115,10 +115,10 @@ std::vector<EpisodeStart> taught_starts(std::string_view task,
     wanted.spin = draw.uniform(info.least_spin, info.most_spin);
     wanted.height = draw.uniform(info.goal[0].low, info.goal[0].high);
     if (!info.goal[1].name.empty()) wanted.sideways = draw.uniform(info.goal[1].low, info.goal[1].high);
-    const Predictor<double, Effects...>& model = models[draw.index(models.size())];
-    wanted.limits = tip_limits(options.limits, home_pose(wanted.figure(), model.parameters().string_length));
-    const std::vector<EpisodeStart> along =
-        starts_along(plan_action(wanted, {model}), options.limits, kEvery);
+    const std::vector model{models[draw.index(models.size())]};
+    const double length = model.front().parameters().string_length;
+    wanted.limits = tip_limits(options.limits, home_pose(wanted.figure(), length));
+    const std::vector<EpisodeStart> along = starts_along(plan_action(wanted, model), options.limits, kEvery);
     starts.insert(starts.end(), along.begin(), along.end());
   }
   if (starts.empty())

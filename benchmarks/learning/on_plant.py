@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: MIT
+"""Agents and the player, thrown on the independent plant: who catches.
+
+Each plant has numbers of its own (benchmarks.proof.player), and a goal: a height and a place. An agent looks
+50 times a second and moves the hands of the plant; the player plans once, on a model, and its plan is played
+as it is. Both keep to the same limits of the hands, and to the same box.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import diabolo
+import numpy as np
+from diabolo.envs import Agent, HandLimits, LiveAgent, shipped_agent
+from numpy.typing import NDArray
+
+from .. import command
+from ..proof import plant as program
+from ..proof.player.plant import FORWARD, Plant
+from ..proof.player.session import draw
+
+EXAMPLE = """\
+  make plant && python -m benchmarks.learning.on_plant
+  python -m benchmarks.learning.on_plant --agent robust/agent.json --plants 100 --height 0.6"""
+TASK = "ThrowAndCatch"
+SECONDS = 4.0  # that an episode of the task lasts
+KEPT = 0.5  # after the catch [s]
+TAIL = 1.0  # of still hands, after a plan [s]
+SHORTEST = 0.1  # a flight [s]
+MODES = {"ON_STRING": "on_string", "LOOSE": "loose", "FLYING": "flying"}
+
+
+@dataclass(frozen=True)
+class Thrown:
+    """What became of a throw: whether it was caught and kept, its apex above the hands' box's centre, and
+    where it was caught, from that centre to the left [m]."""
+
+    caught: bool
+    apex: float
+    place: float
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = command.make_parser("benchmarks.learning.on_plant", __doc__, EXAMPLE)
+    parser.add_argument(
+        "--agent", metavar="FILE", nargs="+", type=Path, default=[], help="beside the shipped one"
+    )
+    parser.add_argument("--plants", type=int, default=100, metavar="N", help="drawn ones; default: 100")
+    parser.add_argument(
+        "--height", type=float, metavar="H", help="of all throws [m]; default: drawn, 0.3 to 0.8"
+    )
+    parser.add_argument("--seed", type=int, default=1, metavar="N")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="each throw, to write")
+    program.add_option(parser)
+    return command.run(parser, run, arguments)
+
+
+def run(given: argparse.Namespace) -> int:
+    program.check(given.plant)
+    players: dict[str, Any] = {"shipped agent": shipped_agent(TASK)}
+    players |= {str(path): Agent.load(str(path)) for path in given.agent}
+    found: dict[str, list[Thrown]] = {name: [] for name in (*players, *MODELS)}
+    wanted: list[tuple[float, float]] = []
+    for number in range(given.plants):
+        rng = np.random.default_rng([given.seed, number])
+        plant, spin = draw(given.plant, rng), float(rng.uniform(60.0, 120.0))
+        height = given.height or float(rng.uniform(0.3, 0.8))
+        goal = (height, float(rng.uniform(-0.3, 0.3)))
+        wanted.append(goal)
+        for name, agent in players.items():
+            found[name].append(thrown_by_agent(plant, agent, goal, spin))
+        for name in MODELS:
+            found[name].append(thrown_by_player(plant, MODELS[name](plant), goal, spin))
+        print(f"\rplant {number + 1} of {given.plants}", end="", file=sys.stderr, flush=True)
+    print(file=sys.stderr)
+    print_table(found, np.array(wanted))
+    if given.json:
+        rows = {name: [vars(one) for one in throws] for name, throws in found.items()}
+        given.json.write_text(json.dumps({"goals": wanted, "throws": rows}, indent=1), encoding="utf-8")
+    return 0
+
+
+MODELS = {
+    "player, usual model": lambda plant: diabolo.Model(diabolo.Parameters(string_length=plant.length)),
+    "player, the plant's own numbers": lambda plant: plant.known(),
+}
+"""What the player plans on."""
+
+
+def thrown_by_agent(plant: Plant, agent: Agent, goal: tuple[float, float], spin: float) -> Thrown:
+    """An agent's hands on the plant, for an episode."""
+    limits = HandLimits()
+    aside = np.array([0.0, 0.288, 0.0])  # where an episode begins
+    left, right = limits.centre + aside, limits.centre - aside
+    hands = LiveAgent(agent, left, right, list(goal), string_length=plant.length)
+    speeds = np.zeros(6)
+    rows = []
+    with plant.live(left, right, spin) as play:
+        for _ in range(round(SECONDS / agent.period)):
+            moment = play.moment
+            rows.append((moment.time, moment.mode, moment.position - limits.centre))
+            if moment.mode == "MISSED":
+                break
+            state = diabolo.State(moment.position, moment.velocity, moment.spin, MODES[moment.mode])
+            next_speeds = np.concatenate(hands.act(state)[2:])
+            play.push(agent.period, (next_speeds - speeds) / agent.period)
+            speeds = next_speeds
+    return judged(rows)
+
+
+def thrown_by_player(plant: Plant, model: Any, goal: tuple[float, float], spin: float) -> Thrown:
+    """A plan of the player's, as the plant's hands play it."""
+    own, middle = HandLimits(), np.array([FORWARD, 0.0, 1.25])  # of its hands at first
+    limits = diabolo.TipLimits(
+        speed=own.speed, acceleration=own.acceleration, lowest=middle - own.half, highest=middle + own.half
+    )
+    planned = diabolo.plan_action(
+        "throw_and_catch", model, spin=spin, height=goal[0], sideways=goal[1], limits=limits
+    )
+    played = plant.play(planned.path, spin, tail=TAIL)
+    rows = list(zip(played.time, played.mode, played.position - middle, strict=True))
+    if played.time[-1] < planned.path.end - planned.path.begin + 0.9 * TAIL:  # it ends where it misses
+        rows.append((played.time[-1], "MISSED", rows[-1][2]))
+    return judged(rows)
+
+
+def judged(rows: Sequence[tuple[float, str, NDArray[np.float64]]]) -> Thrown:
+    """The first flight that counts as one, and whether it was kept on the string half a second later."""
+    begun, apex = None, -np.inf
+    for number, (time, mode, place) in enumerate(rows):
+        if mode == "FLYING":
+            begun = time if begun is None else begun
+            apex = max(apex, place[2])
+        elif begun is not None and time - begun < SHORTEST:
+            begun, apex = None, -np.inf
+        elif begun is not None:
+            after = [later for when, later, _ in rows[number:] if when <= time + KEPT]
+            lasts = rows[-1][0] >= time + KEPT
+            caught = mode != "MISSED" and "MISSED" not in after and after[-1] != "FLYING" and lasts
+            return Thrown(bool(caught), float(apex), float(place[1]))
+    return Thrown(False, float("nan"), float("nan"))
+
+
+def print_table(found: dict[str, list[Thrown]], wanted: NDArray[np.float64]) -> None:
+    print("| who | caught | apex off, median | within 10 % | caught beside the place, median |")
+    print("|---|---|---|---|---|")
+    for name, throws in found.items():
+        caught = np.array([one.caught for one in throws])
+        apex = np.abs(np.array([one.apex for one in throws]) - wanted[:, 0])
+        beside = np.abs(np.array([one.place for one in throws]) - wanted[:, 1])
+        low, high = interval(int(caught.sum()), len(caught))
+        cells = [f"{caught.sum()} of {len(caught)} ({low:.0%} to {high:.0%})"]
+        if caught.any():
+            near = np.count_nonzero(apex[caught] < 0.1 * wanted[caught, 0])
+            cells += [f"{np.median(apex[caught]):.2f} m", f"{near}", f"{np.median(beside[caught]):.2f} m"]
+        print(f"| {name} | " + " | ".join(cells) + " |")
+
+
+def interval(hits: int, count: int) -> tuple[float, float]:
+    """Of a share, at 95 % (Wilson 1927)."""
+    z = 1.96
+    share, more = hits / count, z * z / count
+    middle, half = share + more / 2.0, z * np.sqrt(share * (1.0 - share) / count + more / (4.0 * count))
+    return float((middle - half) / (1.0 + more)), float((middle + half) / (1.0 + more))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

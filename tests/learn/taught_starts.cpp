@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/learn/taught_starts.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "catch.hpp"
+#include "diabolo/batch/kernels.hpp"
+#include "diabolo/full_predictor.hpp"
+#include "diabolo/learn/arena.hpp"
+
+using namespace diabolo;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<FullPredictor<double>> models() { return {FullPredictor<double>(Parameters<double>())}; }
+
+std::vector<EpisodeStart> few(std::uint64_t seed = 0) {
+  return taught_starts("ThrowAndCatch", models(), {.plays = 3, .seed = seed});
+}
+
+}  // namespace
+
+TEST_CASE("starts lie along plays, from the string into the flight, within the limits") {
+  const std::vector<EpisodeStart> starts = few();
+  REQUIRE(starts.size() > 30);
+  const HandLimits limits;
+  std::size_t flying = 0;
+  for (const EpisodeStart& start : starts) {
+    CHECK(limits.allow(start.hands));
+    REQUIRE(start.goal);
+    CHECK((*start.goal)[0] >= start.state.position.z() - limits.centre.z());
+    CHECK(std::abs((*start.goal)[1]) < 0.6);
+    if (start.state.string_state == StringState::kFlying) ++flying;
+  }
+  CHECK(flying > 0);
+  CHECK(flying < starts.size());
+}
+
+TEST_CASE("starts are those of their seed") {
+  const std::vector<EpisodeStart> once = few(), again = few(), others = few(1);
+  REQUIRE(once.size() == again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) CHECK(once[i].state.position == again[i].state.position);
+  CHECK(once.front().goal != others.front().goal);
+}
+
+TEST_CASE("whoever begins in flight and keeps the hands where they are sees the apex of the goal") {
+  std::vector<EpisodeStart> starts = few();
+  std::erase_if(starts, [](const EpisodeStart& start) {
+    return start.state.string_state != StringState::kFlying || start.state.velocity.z() < 1.0;
+  });
+  REQUIRE(!starts.empty());
+  for (const EpisodeStart& start : starts) {
+    const ArenaOptions options{
+        .task = "ThrowAndCatch", .autoreset = Autoreset::kDisabled, .starts = {start}, .start_share = 1.0};
+    Arena arena(options, {Model(Parameters<double>())}, best_batch_kernel());
+    arena.reset(0);
+    const std::vector<float> still(6, 0.0F);
+    double apex = -INFINITY;
+    for (int period = 0; period < 100 && arena.episode(0).state.string_state == StringState::kFlying;
+         ++period) {
+      arena.step(still.data());
+      apex = std::max(apex, arena.episode(0).state.position.z() - arena.limits().centre.z());
+    }
+    CHECK(apex == Approx((*start.goal)[0]).margin(0.01));
+  }
+}
+
+TEST_CASE("a play that is not caught, and what nobody teaches, give no starts") {
+  CHECK(starts_along(plan_action({.action = "hop"}, models()), HandLimits{.centre = {0.0, 0.0, 1.25}}, 0.02)
+            .size() > 5);
+  CHECK(starts_along(plan_action({.action = "swing"}, models()), {}, 0.02).empty());
+  CHECK_THROWS_WITH(taught_starts("Hold", models(), {}), Contains("task: found 'Hold'") && Contains("Hop"));
+  CHECK_THROWS_WITH(taught_starts("Hop", models(), {.plays = 0}), Contains("plays: 0; expected 1"));
+  CHECK_THROWS_WITH(taught_starts("Hop", std::vector<FullPredictor<double>>(), {}), Contains("models: none"));
+}
