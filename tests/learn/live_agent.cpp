@@ -26,7 +26,7 @@ TEST_CASE("a live agent does what it does in an arena") {
     const Agent agent = agent_of(random, task);
     const ArenaOptions options{
         .task = task, .period = agent.period, .steps = agent.steps, .autoreset = Autoreset::kDisabled};
-    Arena arena(options, {Model(Parameters<double>())}, best_batch_kernel());
+    Arena arena(options, {consistent_model()}, best_batch_kernel());
     arena.seed(0, 7);
     arena.reset(0);
     const Episode& episode = arena.episode(0);

@@ -50,7 +50,8 @@ struct ArenaOptions {
                                   (starts.empty() ? "0, since there are no starts" : "1"));
     limits.validate();
     if (camera) camera->validate();
-    for (std::size_t i = 0; i < starts.size(); ++i) limits.expect_within(starts[i].hands, i);
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      limits.expect_within(starts[i].hands, "starts, " + std::to_string(i));
   }
 };
 

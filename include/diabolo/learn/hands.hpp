@@ -76,15 +76,15 @@ struct HandLimits {
     return true;
   }
 
-  /// Throws std::invalid_argument where hands, those of start `number`, are outside or too fast.
-  void expect_within(const Hands& hands, std::size_t number) const {
+  /// Throws std::invalid_argument, which begins with `whose`, where hands are outside or too fast.
+  void expect_within(const Hands& hands, const std::string& whose) const {
     for (std::size_t side = 0; side < 2; ++side)
       for (int axis = 0; axis < 3; ++axis)
         if (!allow(hands, side, axis))
-          throw std::invalid_argument(
-              "starts, " + std::to_string(number) + ": a tip at " + shown(hands.position[side][axis]) +
-              " m with " + shown(hands.velocity[side][axis]) + " m/s along axis " + std::to_string(axis) +
-              "; expected it within the limits, with room to stop");
+          throw std::invalid_argument(whose + ": a tip at " + shown(hands.position[side][axis]) + " m with " +
+                                      shown(hands.velocity[side][axis]) + " m/s along axis " +
+                                      std::to_string(axis) +
+                                      "; expected it within the limits, with room to stop");
   }
 };
 

@@ -26,7 +26,7 @@ class LiveAgent {
   LiveAgent(Agent agent, const Hands& hands, const LiveOptions& options)
       : agent_(std::move(agent)), options_(options), task_(task_named(agent_.task)) {
     options_.limits.validate();
-    options_.limits.expect_within(hands, 0);
+    options_.limits.expect_within(hands, "hands");
     if (!((hands.position[0] - hands.position[1]).norm() <= options.string_length))
       throw std::invalid_argument("hands: farther apart than the string is long, " +
                                   shown(options.string_length) + " m");

@@ -25,7 +25,7 @@ struct Lesson {
   std::string_view task, action;
 };
 
-inline constexpr std::array kLessons{Lesson{"Hop", "hop"}, Lesson{"Throw", kThrowAndCatch},
+inline constexpr std::array kLessons{Lesson{"Throw", kThrowAndCatch},
                                      Lesson{"ThrowAndCatch", kThrowAndCatch}};
 
 /// The lesson for a task. Throws std::invalid_argument where there is none.

@@ -51,7 +51,7 @@ def add_parser(commands: Any) -> None:
         "--taught",
         type=float,
         metavar="SHARE",
-        help="of the episodes that begin so; default: 0.7 in tasks that the player knows, Hop, Throw and "
+        help="of the episodes that begin so; default: 0.7 in tasks that the player knows, Throw and "
         "ThrowAndCatch, else 0",
     )
     add_playing(parser, "train")
