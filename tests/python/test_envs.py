@@ -4,7 +4,6 @@
 import pickle
 import subprocess
 import sys
-from pathlib import Path
 from typing import Any
 
 import diabolo
@@ -356,20 +355,6 @@ def test_bad_actions_are_refused_before_anything_moves() -> None:
     one.reset(seed=1)
     with pytest.raises(ValueError, match=r"action: .*; expected six numbers from -1 to 1"):
         one.step([0.0, 0.0])
-
-
-def test_the_page_has_what_the_code_says() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "environments.md").read_text(encoding="utf-8")
-    for task in task_infos():
-        reward = task["reward"].replace("|", r"\|")
-        assert f"| `{task['name']}` | {task['meaning']} | {task['seconds']:g} s |" in page
-        assert f"| `{task['name']}` | {reward} |" in page
-        for number in task["goal"]:
-            assert f"`{number['name']}` {number['low']:g} to {number['high']:g} {number['unit']}" in page
-        low, high = task["spin"]
-        assert f"{low:g} to {high:g} rad/s" in page
-    for info in observation_infos():
-        assert f"| `{info['name']}` | {info['size']} | {info['unit']} | {info['meaning']} |" in page
 
 
 def test_the_package_needs_no_gymnasium() -> None:
