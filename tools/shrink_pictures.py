@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Saves the pages' pictures with a palette, no wider than a page shows, at a third of their size: after drawing
-one anew.
+"""Saves the pages' pictures with a palette and no wider than a page shows them: after drawing one anew.
 
 python tools/shrink_pictures.py docs/*.png docs/images/*.png
 """

@@ -6,7 +6,7 @@ import gymnasium, diabolo.envs
 env = gymnasium.make("Diabolo/SpinUp-v0")
 many = gymnasium.make_vec("Diabolo/SpinUp-v0", num_envs=1024, vectorization_mode="vector_entry_point")
 
-For Stable-Baselines3: diabolo.envs.sb3.DiaboloVecEnv.
+For Stable-Baselines3: diabolo.envs.sb3.DiaboloVecEnv. For Minari: diabolo.envs.minari.record.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from __future__ import annotations
 from gymnasium.envs.registration import register
 
 from .._core import Agent, Camera, EpisodeStart, HandLimits, observation_infos, task_infos
-from .playing import play, shipped_agent
+from .playing import Transition, play, shipped_agent
 from .single import DiaboloEnv
 from .vector import DiaboloVectorEnv
 
@@ -26,6 +26,7 @@ __all__ = [
     "DiaboloVectorEnv",
     "EpisodeStart",
     "HandLimits",
+    "Transition",
     "observation_infos",
     "play",
     "shipped_agent",
