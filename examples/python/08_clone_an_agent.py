@@ -36,7 +36,8 @@ for name, agent in (("teacher", teacher), ("clone", Agent.load("08_clone_an_agen
     outcomes = play(agent, 200, seed=1000)  # episodes that were not recorded
     gained[name] = outcomes["spin"] - outcomes["first_spin"]
     drops = np.count_nonzero(outcomes["dropped"])
-    print(f"{name}: gains {np.median(gained[name]):.1f} rad/s (median of 200 episodes), drops {drops}")
+    middle, least = np.median(gained[name]), gained[name].min()
+    print(f"{name}: gains {middle:.1f} rad/s (median of 200 episodes, least {least:.0f}), drops {drops}")
 
 try:
     import matplotlib.pyplot as plt
