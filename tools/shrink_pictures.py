@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Saves the pages' pictures with a palette, at a third of their size: after drawing one anew.
+"""Saves the pages' pictures with a palette and no wider than a page shows them: after drawing one anew.
 
 python tools/shrink_pictures.py docs/*.png docs/images/*.png
 """
@@ -11,14 +11,18 @@ from pathlib import Path
 
 from PIL import Image
 
-COLOURS = 128
+COLOURS = 32
+WIDEST = 1092  # pixels
 
 
 def main() -> int:
     for name in sys.argv[1:]:
         before = Path(name).stat().st_size
         with Image.open(name) as picture:
-            small = picture.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+            full = picture.convert("RGB")
+        full.thumbnail((WIDEST, full.height), Image.Resampling.LANCZOS)
+        # Of rare colours too, such as a thin line's.
+        small = full.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
         small.save(name, optimize=True)
         print(f"{name}: {before} -> {Path(name).stat().st_size} bytes")
     return 0

@@ -4,7 +4,6 @@
 import pickle
 import subprocess
 import sys
-from pathlib import Path
 from typing import Any
 
 import diabolo
@@ -360,20 +359,6 @@ def test_bad_actions_are_refused_before_anything_moves() -> None:
         one.step([0.0, 0.0])
 
 
-def test_the_page_has_what_the_code_says() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "environments.md").read_text(encoding="utf-8")
-    for task in task_infos():
-        reward = task["reward"].replace("|", r"\|")
-        assert f"| `{task['name']}` | {task['meaning']} | {task['seconds']:g} s |" in page
-        assert f"| `{task['name']}` | {reward} |" in page
-        for number in task["goal"]:
-            assert f"`{number['name']}` {number['low']:g} to {number['high']:g} {number['unit']}" in page
-        low, high = task["spin"]
-        assert f"{low:g} to {high:g} rad/s" in page
-    for info in observation_infos():
-        assert f"| `{info['name']}` | {info['size']} | {info['unit']} | {info['meaning']} |" in page
-
-
 def test_the_package_needs_no_gymnasium() -> None:
     script = "import sys; sys.modules['gymnasium'] = None; import diabolo; print(diabolo.__version__)"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, check=True).stdout
@@ -413,7 +398,7 @@ def test_a_live_agent_refuses_what_it_cannot_play_with() -> None:
     left, right = (0.0, 0.3, 1.25), (0.0, -0.3, 1.25)
     with pytest.raises(ValueError, match="goal: 1 numbers; expected 2"):
         LiveAgent(agent, left, right, (0.5,))
-    with pytest.raises(ValueError, match="left tip|a tip at 3"):
+    with pytest.raises(ValueError, match="hands: a tip at 3 m"):
         LiveAgent(agent, (0.0, 3.0, 1.25), right, (0.5, 0.1))
     with pytest.raises(ValueError, match="state: not finite"):
         LiveAgent(agent, left, right, (0.5, 0.1)).act(diabolo.State((0.0, 0.0, np.nan)))

@@ -33,8 +33,13 @@ def numbers(pattern: str, text: str) -> list[float]:
     return [float(number) for number in match.groups()]
 
 
+def written(example: Path) -> set[str]:
+    """Files beside the picture."""
+    return {f"{example.stem}.json"} if "clone" in example.stem else set()
+
+
 def test_there_are_examples() -> None:
-    assert [example.name[:2] for example in EXAMPLES] == ["01", "02", "03", "04", "06"]
+    assert [example.name[:2] for example in EXAMPLES] == ["01", "02", "03", "04", "06", "08"]
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
@@ -43,7 +48,7 @@ def test_an_example_draws(example: Path, tmp_path: Path) -> None:
     output = run(example, tmp_path)
     picture = f"{example.stem}.png"
     assert output.splitlines()[-1] == f"picture: {picture}"
-    assert [path.name for path in tmp_path.iterdir()] == [picture]
+    assert {path.name for path in tmp_path.iterdir()} == {picture, *written(example)}
     assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
 
 
@@ -54,7 +59,7 @@ def test_an_example_does_without_matplotlib(example: Path, tmp_path: Path) -> No
     (blocked / "matplotlib.py").write_text("raise ModuleNotFoundError(name='matplotlib')\n")
     output = run(example, tmp_path, PYTHONPATH=f"{blocked}:{os.environ.get('PYTHONPATH', '')}")
     assert output.splitlines()[-1] == "(pip install matplotlib to see a picture)"
-    assert [path.name for path in tmp_path.iterdir()] == ["blocked"]
+    assert {path.name for path in tmp_path.iterdir()} == {"blocked", *written(example)}
 
 
 def test_the_fall_takes_as_long_as_it_must(tmp_path: Path) -> None:
@@ -91,3 +96,12 @@ def test_what_was_found_helps_on_another_recording(tmp_path: Path) -> None:
     (before,) = numbers(r"consistent: .*?([\d.]+) after 0.5 s", output)
     (after,) = numbers(r"diagnosed: .*?([\d.]+) after 0.5 s", output)
     assert after < 0.3 * before
+
+
+def test_a_clone_plays_nearly_as_well_as_its_teacher(tmp_path: Path) -> None:
+    output = run(EXAMPLES[5], tmp_path)
+    teacher, clone = (
+        numbers(rf"{name}: gains ([\d.]+) .*drops (\d+)", output) for name in ("teacher", "clone")
+    )
+    assert clone[0] > 0.9 * teacher[0]
+    assert clone[1] <= teacher[1] + 10  # of 200

@@ -85,3 +85,20 @@ def test_what_is_missing_is_told(
     assert main([command, "SpinUp", *(["--out", str(tmp_path / "d")] if command == "train" else [])]) == 2
     assert f"diabolo {command}: needs {library} (pip install" in capsys.readouterr().err
     assert not (tmp_path / "d").exists()
+
+
+def test_a_data_set_needs_minari(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setitem(sys.modules, "minari", None)
+    assert main(["play", "SpinUp", "--episodes", "1", "--minari", "diabolo/spin-up-v0"]) == 2
+    assert "a data set of Minari: needs minari (pip install '.[minari]'" in capsys.readouterr().err
+
+
+def test_each_period_is_kept() -> None:
+    from diabolo.envs import Transition, play, shipped_agent
+
+    kept: list[Transition] = []
+    outcomes = play(shipped_agent("SpinUp"), 3, keep=kept.append)
+    assert len(kept) == round(outcomes["seconds"][0] / 0.02)
+    np.testing.assert_allclose(sum(one.rewards for one in kept), outcomes["worth"])
+    np.testing.assert_array_equal(kept[0].after, kept[1].observations)
+    assert kept[-1].truncated.all() and not kept[-2].truncated.any()

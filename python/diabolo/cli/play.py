@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +43,8 @@ def add_parser(commands: Any) -> None:
         "Needs gymnasium (pip install '.[envs]'), and nothing of what trained the agent.",
         example="  diabolo play SpinUp\n"
         "  diabolo play SpinUp --agent spin_up/agent.json --model diagnosis/model.json --difficulty real\n"
-        "  diabolo play SpinUp --html spin_up.html",
+        "  diabolo play SpinUp --html spin_up.html\n"
+        "  diabolo play SpinUp --episodes 1000 --minari diabolo/spin-up-v0",
     )
     parser.add_argument(
         "--agent", metavar="FILE", help="what `diabolo train` wrote; default: the agent of the package"
@@ -54,6 +57,13 @@ def add_parser(commands: Any) -> None:
         "--out", metavar="FILE.csv", type=output_name, help="the first episode, a tidy recording"
     )
     parser.add_argument("--html", metavar="FILE.html", type=output_name, help="the same as a page that moves")
+    parser.add_argument(
+        "--minari",
+        metavar="NAME",
+        type=output_name,
+        help="write every episode as a data set of Minari of that name, such as diabolo/spin-up-v0, into "
+        "MINARI_DATASETS_PATH or its default (pip install '.[minari]')",
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -84,7 +94,8 @@ def run(arguments: argparse.Namespace) -> None:
         "difficulty": arguments.difficulty,
     }
     poses: list[Pose] = []
-    outcomes = envs.play(
+    played = player_of(arguments.minari)
+    outcomes = played(
         agent, arguments.episodes, seed=arguments.seed, watch=lambda env: poses.append(env.pose(0)), **options
     )
     if arguments.out or arguments.html:
@@ -105,6 +116,17 @@ def run(arguments: argparse.Namespace) -> None:
     files.write_json(arguments.json, found)
     if arguments.json != files.STDOUT:
         print(text_of(arguments.task, outcomes))
+
+
+def player_of(name: str | None) -> Callable[..., dict[str, NDArray[Any]]]:
+    """What plays, and also records where a data set is named."""
+    if name is None:
+        from ..envs import play
+
+        return play
+    from ..envs.minari import record
+
+    return partial(record, name)
 
 
 def text_of(task: str, outcomes: dict[str, NDArray[Any]]) -> str:

@@ -6,7 +6,7 @@ import gymnasium, diabolo.envs
 env = gymnasium.make("Diabolo/SpinUp-v0")
 many = gymnasium.make_vec("Diabolo/SpinUp-v0", num_envs=1024, vectorization_mode="vector_entry_point")
 
-For Stable-Baselines3: diabolo.envs.sb3.DiaboloVecEnv.
+For Stable-Baselines3: diabolo.envs.sb3.DiaboloVecEnv. For Minari: diabolo.envs.minari.record.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .._core import (
     observation_infos,
     task_infos,
 )
-from .playing import play, shipped_agent
+from .playing import Transition, play, shipped_agent
 from .single import DiaboloEnv
 from .teaching import TAUGHT, taught_starts
 from .vector import DiaboloVectorEnv
@@ -37,6 +37,7 @@ __all__ = [
     "EpisodeStart",
     "HandLimits",
     "LiveAgent",
+    "Transition",
     "observation_infos",
     "play",
     "shipped_agent",

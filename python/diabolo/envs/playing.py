@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib.resources import files
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from gymnasium.vector import AutoresetMode
@@ -18,6 +18,18 @@ from .vector import DiaboloVectorEnv
 
 Acting: TypeAlias = Agent | Callable[[NDArray[np.float32]], Any]
 """An agent, or a function that gives actions (n, 6) of observations (n, k)."""
+
+
+class Transition(NamedTuple):
+    """A period of n episodes side by side: what was seen (n, k), done (n, 6), and came of it, `after` being
+    what is seen next. Of an episode that was over before, nothing is meant by it."""
+
+    observations: NDArray[np.float32]
+    actions: NDArray[np.float32]
+    rewards: NDArray[np.float64]
+    terminated: NDArray[np.bool_]
+    truncated: NDArray[np.bool_]
+    after: NDArray[np.float32]
 
 
 def shipped_agent(task: str) -> Agent:
@@ -39,13 +51,14 @@ def play(
     model: AnyModels = None,
     seed: int = 0,
     watch: Callable[[DiaboloVectorEnv], object] = lambda env: None,
+    keep: Callable[[Transition], object] = lambda transition: None,
     **options: Any,
 ) -> dict[str, NDArray[Any]]:
     """Play episodes side by side, each to its end; what they came to, an entry for each (DiaboloEnv.outcome).
 
     task: the agent's own, unless one is given. watch: is shown the environments at first and after each
-    period; those that are over stay as they ended. options: of DiaboloVectorEnv; period and steps are the
-    agent's. Raises ValueError about bad input.
+    period; those that are over stay as they ended. keep: is given each period, such as a list's append.
+    options: of DiaboloVectorEnv; period and steps are the agent's. Raises ValueError about bad input.
     """
     act: Callable[[NDArray[np.float32]], Any]
     if isinstance(agent, Agent):
@@ -62,7 +75,9 @@ def play(
     watch(env)
     over = np.zeros(episodes, bool)
     while not over.all():
-        observations, _, terminated, truncated, _ = env.step(act(observations))
-        over |= terminated | truncated
+        actions = np.asarray(act(observations), np.float32)
+        after, rewards, terminated, truncated, _ = env.step(actions)
+        keep(Transition(observations, actions, rewards, terminated, truncated, after))
+        observations, over = after, over | terminated | truncated
         watch(env)
     return env.outcomes()
