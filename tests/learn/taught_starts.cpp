@@ -70,7 +70,7 @@ TEST_CASE("whoever begins in flight and keeps the hands where they are sees the 
 TEST_CASE("a play that is not caught, and what nobody teaches, give no starts") {
   CHECK(starts_along(plan_action({.action = "swing"}, models()), {}, 0.02).empty());
   CHECK_THROWS_WITH(taught_starts("Hold", models(), {}),
-                    Contains("task: found 'Hold'") && Contains("Throw, ThrowAndCatch"));
+                    Contains("task: found \"Hold\"") && Contains("Throw, ThrowAndCatch"));
   CHECK_THROWS_WITH(taught_starts("Throw", models(), {.plays = 0}), Contains("plays: 0; expected 1"));
   CHECK_THROWS_WITH(taught_starts("Throw", std::vector<FullPredictor<double>>(), {}),
                     Contains("models: none"));
