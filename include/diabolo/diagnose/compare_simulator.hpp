@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/compare_learnt.hpp"
+#include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/differing.hpp"
 #include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/result_of.hpp"
@@ -116,7 +117,7 @@ inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, c
                     ? verdict_of(candidate, in_real, in_simulated, claim != nullptr, same != nullptr)
                 : in_one ? "cannot_tell"
                          : "agrees";
-  if (claim != nullptr) law.tied_with = claim->tied_with;
+  law.tied_with = (claim != nullptr ? claim : same)->tied_with;
   law.p_value = family_wise(significance(candidate, difference));
   law.real = parameters_of(finding_of(candidate, in_real), real.base_string_length, real.base_gravity);
   law.simulated = parameters_of(finding_of(candidate, in_simulated), simulated.base_string_length,
@@ -128,15 +129,15 @@ inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, c
 }
 
 /// Names of some verdict in a row: "a, b and c"; of faults of measurement or of all else.
-inline std::string listed(const std::vector<ComparedLaw>& laws, std::string_view verdict,
-                          bool faults = false) {
+inline std::string listed(const std::vector<ComparedLaw>& laws, const Diagnosis& real,
+                          std::string_view verdict, bool faults = false) {
   std::vector<std::string> names;
   for (const ComparedLaw& law : laws) {
     const bool fault = law.kind == "measurement" && law.verdict == "should_not_have";
     if (law.verdict != verdict || fault != faults) continue;
     names.push_back(law.what);
     for (std::size_t i = 0; i < law.tied_with.size(); ++i)
-      names.back() += (i == 0 ? " (or " : ", ") + std::string(candidate_of(law.tied_with[i]).plain) +
+      names.back() += (i == 0 ? " (or " : ", ") + plainly(real, law.tied_with[i]) +
                       (i + 1 == law.tied_with.size() ? ")" : "");
   }
   std::string text;
@@ -164,20 +165,20 @@ inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& re
     return "Nothing can be compared: of what was simulated, " + simulated.reason + ".";
   std::string text;
   const auto say = [&](const char* verdict, const std::string& before, const std::string& after) {
-    const std::string names = listed(c.laws, verdict);
+    const std::string names = listed(c.laws, real, verdict);
     if (!names.empty()) text += (text.empty() ? "The simulator " : "; it ") + before + names + after;
   };
   say("lacks", "lacks ", "");
   say("too_little", "has too little of ", "");
   say("too_much", "has too much of ", "");
   say("should_not_have", "has ", ", which reality has not");
-  if (const std::string faults = listed(c.laws, "should_not_have", true); !faults.empty())
+  if (const std::string faults = listed(c.laws, real, "should_not_have", true); !faults.empty())
     text += (text.empty() ? "The simulator" : "; it") + (" plays as with a fault of " + faults);
   text =
       text.empty() ? "The simulator has what reality has, as far as these recordings can show." : text + ".";
-  if (const std::string both = listed(c.laws, "agrees"); !both.empty())
+  if (const std::string both = listed(c.laws, real, "agrees"); !both.empty())
     text += " Reality and the simulator agree in " + both + ".";
-  if (const std::string open = listed(c.laws, "cannot_tell"); !open.empty())
+  if (const std::string open = listed(c.laws, real, "cannot_tell"); !open.empty())
     text += " Whether the two agree in " + open + " cannot be told.";
   if (!c.recording_faults.empty()) {
     text += " The recordings are off by ";

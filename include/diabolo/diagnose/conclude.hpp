@@ -144,9 +144,8 @@ inline void say_denied(Diagnosis& d, const Candidate& candidate) {
     if (f.candidate == &candidate && !f.claimed) f.reason = kDenied;
 }
 
-/// The first of what a finding is tied with, in plain words.
-inline std::string tied_plainly(const Diagnosis& d, const Finding& finding) {
-  const std::string_view name = finding.tied_with.front();
+/// A candidate, or a law of somebody's own, in plain words.
+inline std::string plainly(const Diagnosis& d, std::string_view name) {
   const auto is_it = [&](const Candidate& candidate) { return candidate.name == name; };
   if (const auto known = std::ranges::find_if(candidates(), is_it); known != candidates().end())
     return std::string(known->plain);
@@ -225,8 +224,9 @@ inline void conclude(Diagnosis& d) {
   } else if (tied != leading.end()) {
     d.headline = Headline::kTie;
     d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
-                 names(leading) + " would explain it, and so would " + tied_plainly(d, **tied) +
-                 " in place of " + std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
+                 names(leading) + " would explain it, and so would " +
+                 plainly(d, (*tied)->tied_with.front()) + " in place of " +
+                 std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
                  (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + names(faults)) +
                  (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!physics.empty()) {
