@@ -51,12 +51,15 @@ std::array<Vector3<Scalar>, 3> string_frame(const Tips<Scalar>& tips) {
   return {right, forward, cross(right, forward)};
 }
 
-/// Speed of the axle's surface against the string, towards the right tip [m/s].
+/// Speed of the axle's surface against the string, towards the right tip, by the mean of both strands [m/s].
 template <class Scalar>
 Scalar slip(const State<Scalar>& state, const Tips<Scalar>& tips, const Parameters<Scalar>& parameters) {
-  const Vector3<Scalar> to_right = tips.right - state.position;
-  const Vector3<Scalar> passing = tips.right_velocity - state.velocity;
-  return state.spin * parameters.axle_radius - to_right.dot(passing) / norm(to_right);
+  const Vector3<Scalar> to_left = tips.left - state.position, to_right = tips.right - state.position;
+  const std::array<Scalar, 2> lengths = norms(to_left, to_right);
+  const Vector3<Scalar> from_left = state.velocity - tips.left_velocity,
+                        from_right = tips.right_velocity - state.velocity;
+  const Scalar passing = to_left.dot(from_left) / lengths[0] + to_right.dot(from_right) / lengths[1];
+  return state.spin * parameters.axle_radius - passing * Scalar(0.5);
 }
 
 }  // namespace residual_detail
