@@ -66,16 +66,20 @@ struct ResidualForce : NeutralEffect<Scalar> {
   static Vector3<Scalar> push_of(const ResidualPart& part, const ResidualScene<Scalar>& scene) {
     Vector3<Scalar> push = Vector3<Scalar>::Constant(Scalar(0));
     for (std::size_t k = 0; k < scene.axes.size(); ++k) {
-      Scalar size(0);
+      std::array<Scalar, 2> sums{Scalar(0), Scalar(0)};  // two, since each sum waits for the one before
       for (std::size_t i = kResidualBegins[k]; i < kResidualBegins[k + 1]; ++i)
-        size += scene.terms[i] * Scalar(part.weights[i]);
-      push = push + scene.axes[k] * size;
+        sums[i % 2] += scene.terms[i] * Scalar(part.weights[i]);
+      push = push + scene.axes[k] * Scalar(sums[0] + sums[1]);
     }
     return push * fade(part, scene);
   }
 
   /// 1 in the ranges, and smoothly to 0 where one is left by half its width.
   static Scalar fade(const ResidualPart& part, const ResidualScene<Scalar>& scene) {
+    Mask<Scalar> inside(true);
+    for (std::size_t i = 0; i < kResidualInputs; ++i)
+      inside = inside && scene.inputs[i] >= Scalar(part.low[i]) && scene.inputs[i] <= Scalar(part.high[i]);
+    if (all(inside)) return Scalar(1);
     Scalar beyond(0);
     for (std::size_t i = 0; i < kResidualInputs; ++i) {
       const double middle = 0.5 * (part.low[i] + part.high[i]), half = 0.5 * (part.high[i] - part.low[i]);
@@ -89,9 +93,14 @@ struct ResidualForce : NeutralEffect<Scalar> {
 
   Vector3<Scalar> bounded(const Vector3<Scalar>& push, const Vector3<Scalar>& velocity) const {
     const Scalar largest(law->largest);
-    const Vector3<Scalar> held = push * Scalar(largest / maximum(norm(push), largest));
-    const Scalar too_much = maximum(Scalar(held.dot(velocity) - Scalar(law->power)), Scalar(0));
-    return held - velocity * Scalar(too_much / (squared_norm(velocity) + tiny<Scalar>()));
+    Vector3<Scalar> held = push;
+    if (any(squared_norm(push) > largest * largest))
+      held = held * Scalar(largest / maximum(norm(push), largest));
+    const Scalar too_much = held.dot(velocity) - Scalar(law->power);
+    if (any(too_much > Scalar(0)))
+      held =
+          held - velocity * Scalar(maximum(too_much, Scalar(0)) / (squared_norm(velocity) + tiny<Scalar>()));
+    return held;
   }
 };
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "diabolo/effects/residual_law.hpp"
+#include "diabolo/math/pairs.hpp"
 #include "diabolo/parameters.hpp"
 #include "diabolo/state.hpp"
 #include "diabolo/sticks.hpp"
@@ -31,23 +32,21 @@ inline constexpr double kSlow = 0.05;                      ///< below it a direc
 inline constexpr double kHardPull = 30.0, kUsual = 10.0;   ///< of the string [m/s^2]
 inline constexpr double kUsualSpin = 200.0, kAside = 0.5;  ///< [rad/s], [m]
 
-/// x / sqrt(x^2 + small^2): its sign, smoothly.
+/// x / (|x| + small): its sign, smoothly.
 template <class Scalar>
 Scalar soft_sign(const Scalar& x, double small) {
-  using std::sqrt;
-  return x / sqrt(x * x + Scalar(small * small));
+  return x / (absolute(x) + Scalar(small));
 }
 
 /// Towards the right tip, forward and level, up.
 template <class Scalar>
 std::array<Vector3<Scalar>, 3> string_frame(const Tips<Scalar>& tips) {
-  using std::sqrt;
   const Vector3<Scalar> span = tips.right - tips.left;
   const Scalar level_square = span.x() * span.x() + span.y() * span.y() + Scalar(1e-6);
-  const Scalar over_level = Scalar(1) / sqrt(level_square),
-               over_span = Scalar(1) / sqrt(level_square + span.z() * span.z());
-  const Vector3<Scalar> right = span * over_span,
-                        forward(-span.y() * over_level, span.x() * over_level, Scalar(0));
+  const std::array<Scalar, 2> lengths =
+                                  square_roots<Scalar>(level_square, level_square + span.z() * span.z()),
+                              over = inverses<Scalar>(lengths[0], lengths[1]);
+  const Vector3<Scalar> right = span * over[1], forward(-span.y() * over[0], span.x() * over[0], Scalar(0));
   return {right, forward, cross(right, forward)};
 }
 
@@ -58,15 +57,17 @@ Scalar slip(const State<Scalar>& state, const Tips<Scalar>& tips, const Paramete
   const std::array<Scalar, 2> lengths = norms(to_left, to_right);
   const Vector3<Scalar> from_left = state.velocity - tips.left_velocity,
                         from_right = tips.right_velocity - state.velocity;
-  const Scalar passing = to_left.dot(from_left) / lengths[0] + to_right.dot(from_right) / lengths[1];
-  return state.spin * parameters.axle_radius - passing * Scalar(0.5);
+  const std::array<Scalar, 2> passing =
+      quotients<Scalar>(to_left.dot(from_left), to_right.dot(from_right), lengths[0], lengths[1]);
+  return state.spin * parameters.axle_radius - (passing[0] + passing[1]) * Scalar(0.5);
 }
 
 }  // namespace residual_detail
 
 template <class Scalar>
-ResidualScene<Scalar> residual_scene(const State<Scalar>& state, const Tips<Scalar>& tips,
-                                     const Parameters<Scalar>& parameters) {
+[[gnu::always_inline]] inline ResidualScene<Scalar> residual_scene(const State<Scalar>& state,
+                                                                   const Tips<Scalar>& tips,
+                                                                   const Parameters<Scalar>& parameters) {
   using namespace residual_detail;
   using std::sqrt;
   ResidualScene<Scalar> scene;
@@ -78,8 +79,8 @@ ResidualScene<Scalar> residual_scene(const State<Scalar>& state, const Tips<Scal
                         hands = (tips.left_velocity + tips.right_velocity) * Scalar(0.5);
   const std::array<Scalar, 3> v = in_frame(state.velocity), aside = in_frame(state.position - middle),
                               carried = in_frame(hands);
-  const Scalar square = squared_norm(state.velocity), speed = sqrt(square + Scalar(1e-12)),
-               over_speed = Scalar(1) / sqrt(square + Scalar(kSlow * kSlow)),
+  const Scalar square = squared_norm(state.velocity),
+               over_speed = Scalar(1) / sqrt(square + Scalar(kSlow * kSlow)), speed = square * over_speed,
                pull = minimum(norm(state.string_acceleration), Scalar(kHardPull)) * Scalar(1.0 / kUsual),
                spin = state.spin * Scalar(1.0 / kUsualSpin),
                slipping = soft_sign(slip(state, tips, parameters), kSlow);
