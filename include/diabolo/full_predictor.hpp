@@ -30,7 +30,7 @@ template <class From, class To>
 void copy_effects(const From& from, To& to) {
   const auto copy = []<class One, class Other>(const One& one, Other& other) {
     if constexpr (One::kName == Other::kName) {
-      if constexpr (One::kHasText) other.take_laws(one);
+      if constexpr (One::kHasText) other.take_text(one);
       copy_fields(one, other);
     }
   };

@@ -112,21 +112,21 @@ void assign_effects(AllEffects<double>& effects, const py::kwargs& given) {
   for (const auto& [key, value] : given) {
     const std::string name = py::str(key);
     std::string names;
-    bool found = name == FormulaLaws<double>::kName;
-    if (found)
-      effects.get<FormulaLaws>() =
-          value.is_none() ? FormulaLaws<double>{}
-                          : cast_to<FormulaLaws<double>>(value, name, "FormulaLaws, a list of laws or None");
-    for_each_effect(effects, [&](auto& effect) {
-      using Effect = std::remove_reference_t<decltype(effect)>;
-      names.append(Effect::kName).append(", ");
+    bool found = false;
+    const auto assign = [&]<class Effect>(Effect& effect, const char* expected) {
       if (name != Effect::kName) return;
-      const std::string expected = class_name(Effect::kName) + " or None";
-      effect = value.is_none() ? Effect{} : cast_to<Effect>(value, name, expected.c_str());
+      effect = value.is_none() ? Effect{} : cast_to<Effect>(value, name, expected);
       found = true;
+    };
+    assign(effects.get<FormulaLaws>(), "FormulaLaws, a list of laws or None");
+    assign(effects.get<ResidualForce>(), "ResidualForce or None");
+    for_each_effect(effects, [&](auto& effect) {
+      names.append(effect.kName).append(", ");
+      assign(effect, (class_name(effect.kName) + " or None").c_str());
     });
     if (!found)
-      throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names + "formula_laws");
+      throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names +
+                           "formula_laws, residual_force");
   }
 }
 

@@ -38,6 +38,7 @@ py::dict model_dict(const Model& model) {
   for_each_effect(model.effects,
                   [&](const auto& effect) { fields[py::str(std::string(effect.kName))] = py::cast(effect); });
   fields["formula_laws"] = py::cast(model.effects.get<FormulaLaws>());
+  fields["residual_force"] = py::cast(model.effects.get<ResidualForce>());
   return fields;
 }
 
@@ -95,6 +96,10 @@ says that its own count.)");
       "formula_laws", [](const Model& m) { return m.effects.get<FormulaLaws>(); },
       [](Model& m, const FormulaLaws<double>& laws) { m.effects.get<FormulaLaws>() = laws; },
       "Laws by formulas (FormulaLaws): a copy; set them anew to change them.");
+  cls.def_property(
+      "residual_force", [](const Model& m) { return m.effects.get<ResidualForce>(); },
+      [](Model& m, const ResidualForce<double>& force) { m.effects.get<ResidualForce>() = force; },
+      "What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it.");
   cls.def("to_dict", &model_dict, "The keyword arguments that make the model again.");
   cls.def("__repr__",
           [](const Model& m) { return call_text("Model", model_dict(m), model_dict(model_from({}))); });

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, module) {
   bind_parameters(module);
   bind_effects(module);
   bind_laws(module);
+  bind_residual_force(module);
   bind_model(module);
   bind_state(module);
   bind_recording(module);
@@ -25,6 +26,7 @@ PYBIND11_MODULE(_core, module) {
   bind_evaluation(module);
   bind_diagnosis_result(module);
   bind_diagnosis(module);
+  bind_residual_fit(module);
   bind_player(module);
   bind_robot(module);
   bind_learn(module);

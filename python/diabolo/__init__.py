@@ -30,6 +30,8 @@ from ._core import (
     RecedingHorizon,
     Recording,
     RecordingError,
+    ResidualFit,
+    ResidualForce,
     Spheroid,
     SpinLoss,
     State,
@@ -66,6 +68,7 @@ from .enums import (
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
 from .player import best_guess, hang_at_rest, model_for, plan, plan_action, success_rate
+from .residual import fit_residual
 from .rollout import Rollout, RolloutGradient, RolloutWarning, rollout, rollout_gradient
 from .view import view_html
 
@@ -108,6 +111,8 @@ __all__ = [
     "Recording",
     "RecordingError",
     "RecordingWarning",
+    "ResidualFit",
+    "ResidualForce",
     "Rollout",
     "RolloutGradient",
     "RolloutWarning",
@@ -136,6 +141,7 @@ __all__ = [
     "compare_simulator",
     "diagnose",
     "evaluate",
+    "fit_residual",
     "hang_at_rest",
     "load_recording",
     "model_for",

@@ -188,3 +188,27 @@ TEST_CASE("A model that no file can hold is refused, and a file appears whole or
   save_model(paper_model(), folder / "m.json");
   CHECK(same(load_model(folder / "m.json"), paper_model()));
 }
+
+TEST_CASE("A residual survives the model's file bit for bit, and its faults are told") {
+  ResidualLaw law;
+  law.largest = 1.0 / 3.0;
+  law.power = 0.7;
+  law.on_string.weights[4] = -1.0 / 7.0;
+  law.off_string.low[3] = -0.1;
+  law.off_string.high[3] = 1e-9;
+  Model model = consistent_model();
+  model.effects.get<ResidualForce>() = ResidualForce<double>(law);
+  const std::string text = write_model(model);
+  CHECK(*read_model(text, "m.json").effects.get<ResidualForce>().law == law);
+  const auto changed = [&](const char* pointer, const nlohmann::json& value) {
+    nlohmann::json json = nlohmann::json::parse(text);
+    json[nlohmann::json::json_pointer(pointer)] = value;
+    return complaint([&] { read_model(json.dump(), "m.json"); });
+  };
+  CHECK(changed("/residual/largest", 21).starts_with("m.json: field \"residual.largest\" is 21"));
+  CHECK(changed("/residual/on_string/weights", {1.0, 2.0}).find("expected a list of 25 numbers") !=
+        std::string::npos);
+  CHECK(changed("/residual/on_string/high/0", -1.0).find("no number below that of \"low\"") !=
+        std::string::npos);
+  CHECK(changed("/residual/size", 1) == "m.json: unknown field \"residual.size\"");
+}

@@ -309,5 +309,5 @@ TEST_CASE("what cannot be played is refused before anything moves") {
   CHECK_THROWS_WITH(arena({.steps = 0}), "steps: 0; expected 1 to 1000");
   CHECK_THROWS_WITH(arena({}, {}), "models: none; expected at least one");
   CHECK_THROWS_WITH(arena({}, {rubbing(), published_model()}),
-                    "models: they differ in rules or formulas; expected the same in all");
+                    "models: they differ in rules, formulas or residual; expected the same in all");
 }

@@ -29,9 +29,15 @@ RATE = 120.0
 
 
 def make_recording(
-    motion: str = "swing", seconds: float = 4.0, spin: float = 100.0, name: str = "played"
+    motion: str = "swing",
+    seconds: float = 4.0,
+    spin: float = 100.0,
+    name: str = "played",
+    model: diabolo.Model | diabolo.Parameters | None = None,
+    noise: float = 0.0,
 ) -> diabolo.Recording:
-    """What the library's own model makes of a built-in motion, as a camera at 120 Hz would record it."""
+    """What a model, by default the library's own, makes of a built-in motion, as a camera at 120 Hz would
+    record it, with so much noise of the diabolo's place [m]."""
     tips = motions.MOTIONS[motion](seconds)
     steps_per_sample = 8  # close to the evaluation's step of 1 ms
     samples = int(seconds * RATE)
@@ -39,7 +45,7 @@ def make_recording(
     spheroid = diabolo.Spheroid(left[0], right[0], 1.45)
     initial = np.concatenate([spheroid.center - [0.0, 0.0, spheroid.semi_minor], np.zeros(3), [spin]])
     result = diabolo.rollout(
-        diabolo.Parameters(),
+        diabolo.Parameters() if model is None else model,
         initial,
         tips,
         dt=1.0 / (RATE * steps_per_sample),
@@ -54,7 +60,7 @@ def make_recording(
         np.arange(samples + 1) / RATE,
         left,
         right,
-        states[:, :3],
+        states[:, :3] + noise * np.random.default_rng(1).normal(size=(samples + 1, 3)),
         RATE,
         diabolo_orientation=np.stack([-np.sin(angle / 2), zero, zero, np.cos(angle / 2)], axis=1),
         name=name,

@@ -50,9 +50,10 @@ struct Batch {
     for (std::size_t i = 0; i < models; ++i) {
       parameters_of(i).validate();
       effects_of(i).validate();
-      if (!same_laws(effects_of(0).get<FormulaLaws>(), effects_of(i).get<FormulaLaws>()))
+      if (!same_texts(effects_of(0), effects_of(i)))
         throw std::invalid_argument("batch: effect set " + std::to_string(i) +
-                                    " has other laws by formulas than the first; must be the same");
+                                    " has other laws by formulas or another residual than the first; must be "
+                                    "the same");
     }
   }
 

@@ -71,7 +71,8 @@ Parameters<Pack> gather_parameters(const LaneBlock& block) {
 template <class Pack>
 AllEffects<Pack> gather_effects(const LaneBlock& block) {
   AllEffects<Pack> packed;
-  packed.template get<FormulaLaws>().take_laws(block.effects[0]->get<FormulaLaws>());
+  packed.template get<FormulaLaws>().take_text(block.effects[0]->get<FormulaLaws>());
+  packed.template get<ResidualForce>().take_text(block.effects[0]->get<ResidualForce>());
   for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
     const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
       (gather_fields(std::get<I>(block.effects[lane]->members), std::get<I>(packed.members), lane), ...);

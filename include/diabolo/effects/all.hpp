@@ -8,6 +8,7 @@
 #include "diabolo/effects/gyroscopic_tilt.hpp"
 #include "diabolo/effects/landing_restitution.hpp"
 #include "diabolo/effects/magnus_lift.hpp"
+#include "diabolo/effects/residual_force.hpp"
 #include "diabolo/effects/spin_loss.hpp"
 #include "diabolo/effects/stick_flex.hpp"
 #include "diabolo/effects/string_elasticity.hpp"
@@ -21,10 +22,19 @@ namespace diabolo {
 template <class Scalar, template <class> class... Others>
 using MotionEffects =
     EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, UnnamedForce, FormulaLaws, Others...>;
+              StickFlex, StringMass, LandingRestitution, UnnamedForce, FormulaLaws,
+              ResidualForce, Others...>;
 
 /// Every effect of the library.
 template <class Scalar>
 using AllEffects = MotionEffects<Scalar, GyroscopicTilt>;
+
+/// Whether two sets have the same laws by formulas and the same residual, whatever their numbers, as rollouts
+/// side by side must.
+template <class Scalar>
+bool same_texts(const AllEffects<Scalar>& a, const AllEffects<Scalar>& b) {
+  return same_laws(a.template get<FormulaLaws>(), b.template get<FormulaLaws>()) &&
+         same_residual(a.template get<ResidualForce>(), b.template get<ResidualForce>());
+}
 
 }  // namespace diabolo

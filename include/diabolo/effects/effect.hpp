@@ -57,7 +57,8 @@ struct Contact {
 /// and its kLaws. All hooks are const, allocate nothing and know no time but the step's length dt [s].
 template <class Scalar>
 struct NeutralEffect {
-  /// Whether it holds more than numbers; then its fields are not all of it.
+  /// Whether it holds more than numbers; then its fields are not all of it, and it has a take_text() for the
+  /// rest.
   static constexpr bool kHasText = false;
   /// What a diagnosis may find of it.
   static constexpr std::array<NamedLaw, 0> kLaws{};

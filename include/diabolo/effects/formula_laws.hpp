@@ -46,7 +46,7 @@ struct FormulaLaws : NeutralEffect<Scalar> {
 
   /// Takes over another Scalar's laws, not their numbers.
   template <class Other>
-  void take_laws(const FormulaLaws<Other>& other) {
+  void take_text(const FormulaLaws<Other>& other) {
     if constexpr (std::is_assignable_v<Laws&, const typename FormulaLaws<Other>::Laws&>)
       laws = other.laws;
     else

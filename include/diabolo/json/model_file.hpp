@@ -16,6 +16,7 @@
 #include "diabolo/json/fields.hpp"
 #include "diabolo/json/laws.hpp"
 #include "diabolo/json/numbers.hpp"
+#include "diabolo/json/residual.hpp"
 #include "diabolo/json/rules.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/text/file.hpp"
@@ -34,17 +35,18 @@ inline constexpr std::array<std::pair<const char*, bool Model::*>, 3> kRecordedP
 ///   {"schema": "diabolo.model/1", "base": "consistent", "name": "stretchy",
 ///    "parameters": {"string_length": 1.45}, "rules": {"projection": "closest_point"},
 ///    "effects": {"string_elasticity": {"stiffness": 600, "damping": 2}},
-///    "laws": [...], "interpolation": "spline", "from_recording": ["mass", "axle_radius"]}
-/// ("laws" as in laws_from_json().) Everything but "schema" and "base" (consistent, paper or published) may
-/// be left out and is then as in the base; the name is then the file's. "from_recording" lists those of
-/// string_length, mass and axle_radius that a recording decides; left out, these are the base's without those
-/// that "parameters" gives. Throws RecordingError with file, field, what was found and what was expected.
+///    "laws": [...], "residual": {...}, "interpolation": "spline", "from_recording": ["mass", "axle_radius"]}
+/// ("laws" as in laws_from_json(), "residual" as in residual_from_json().) Everything but "schema" and "base"
+/// (consistent, paper or published) may be left out and is then as in the base; the name is then the file's.
+/// "from_recording" lists those of string_length, mass and axle_radius that a recording decides; left out,
+/// these are the base's without those that "parameters" gives. Throws RecordingError with file, field, what
+/// was found and what was expected.
 inline Model read_model(std::string_view text, const std::string& file_name) {
   const nlohmann::json json = parse_json(text, file_name);
   const JsonFields file(json, file_name);
   file.expect_text("schema", kModelSchema);
-  file.expect_only({"schema", "base", "name", "parameters", "rules", "effects", "laws", "interpolation",
-                    "from_recording"});
+  file.expect_only({"schema", "base", "name", "parameters", "rules", "effects", "laws", "residual",
+                    "interpolation", "from_recording"});
   const bool named = file.has("base") && json.at("base").is_string();
   const std::string base = named ? json.at("base").get<std::string>() : "";
   if (base != "consistent" && base != "paper" && base != "published")
@@ -73,6 +75,7 @@ inline Model read_model(std::string_view text, const std::string& file_name) {
   }
   if (file.has("effects")) model.effects = effects_from_json(json.at("effects"), file_name);
   if (file.has("laws")) model.effects.get<FormulaLaws>() = laws_from_json(json.at("laws"), file_name, "laws");
+  if (file.has("residual")) model.effects.get<ResidualForce>() = residual_from_json(file.object("residual"));
   if (file.has("interpolation"))
     model.interpolation = rule_from_json<Interpolation>(json, file, "interpolation");
   if (file.has("from_recording")) {
@@ -128,6 +131,7 @@ inline nlohmann::ordered_json changes_from_base(const Model& model, const std::s
   if (nlohmann::ordered_json effects = to_json(model.effects); !effects.empty()) json["effects"] = effects;
   if (nlohmann::ordered_json laws = to_json(model.effects.get<FormulaLaws>()); !laws.empty())
     json["laws"] = laws;
+  if (const auto& law = model.effects.get<ResidualForce>().law) json["residual"] = to_json(*law);
   if (model.interpolation != base.interpolation) json["interpolation"] = rule_to_json(model.interpolation);
   if (!told_by_numbers) json["from_recording"] = from_recording;
   return json;

@@ -45,8 +45,9 @@ class Arena {
     if (models_.empty()) throw std::invalid_argument("models: none; expected at least one");
     for (const Model& model : models_) {
       if (!model.parameters.same_rules(models_.front().parameters) ||
-          !same_laws(model.effects.get<FormulaLaws>(), models_.front().effects.get<FormulaLaws>()))
-        throw std::invalid_argument("models: they differ in rules or formulas; expected the same in all");
+          !same_texts(model.effects, models_.front().effects))
+        throw std::invalid_argument(
+            "models: they differ in rules, formulas or residual; expected the same in all");
       const double longest = model.parameters.string_length - limits().string_margin;
       if (!(limits().gap < longest))
         throw std::invalid_argument("limits, gap: " + shown(limits().gap) + " m; expected less than " +
