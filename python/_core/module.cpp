@@ -27,9 +27,9 @@ PYBIND11_MODULE(_core, module) {
   bind_diagnosis_result(module);
   bind_diagnosis(module);
   bind_residual_fit(module);
-  bind_player(module);
-  bind_robot(module);
   bind_learn(module);
+  bind_player(module);  // plays what an agent learns from
+  bind_robot(module);
   bind_pickles();
   check_arguments(module);
   pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
