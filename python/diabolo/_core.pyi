@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -931,6 +931,36 @@ class FormulaLaws:
         """
         The laws as the constructor takes them.
         """
+class ResidualForce:
+    """
+    A force that was learnt from what named physics leaves.
+    
+    An acceleration in the string's frame by `fit_residual`: right along the tips, forward and level, up. Each is a sum of
+    weights [m/s^2] times what the diabolo does: its velocity, place, spin and slip, the string's pull, and the hands'
+    velocity. It fades out where nothing was seen, and neither its size nor its work are larger than there. Without
+    arguments there is none.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __bool__(self) -> bool:
+        ...
+    def __copy__(self) -> ResidualForce:
+        ...
+    def __deepcopy__(self, memo: dict) -> ResidualForce:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def to_dict(self) -> typing.Any:
+        """
+        largest, power, on_string and off_string, as the constructor takes them.
+        """
 class Model:
     """
     Everything that decides a prediction.
@@ -1035,6 +1065,14 @@ class Model:
         """
     @own_string_length.setter
     def own_string_length(self, arg0: bool) -> None:
+        ...
+    @property
+    def residual_force(self) -> ResidualForce:
+        """
+        What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it.
+        """
+    @residual_force.setter
+    def residual_force(self, arg1: ResidualForce) -> None:
         ...
 class State:
     """
@@ -2965,6 +3003,220 @@ class SimulatorComparison:
         """
         Diagnosis of what was simulated.
         """
+class ResidualFit:
+    """
+    A residual that was fitted, and its errors on what it was not fitted to.
+    """
+    @property
+    def base_error(self) -> float:
+        """
+        Median distance without it, half a second later [m].
+        """
+    @property
+    def error(self) -> float:
+        """
+        The same with it [m].
+        """
+    @property
+    def gain_ci95(self) -> typing.Any:
+        """
+        95 % interval of the mean by which it takes errors off [m]; None where there are too few.
+        """
+    @property
+    def model(self) -> Model:
+        """
+        The base, with the residual where it stands.
+        """
+    @property
+    def stands(self) -> bool:
+        """
+        Whether predictions get better by more than 1 mm half a second later, for sure.
+        """
+    @property
+    def usual(self) -> float:
+        """
+        The size that weights were expected to have [m/s^2].
+        """
+    @property
+    def windows(self) -> int:
+        """
+        How many predictions were compared.
+        """
+class HandLimits:
+    """
+    What the tips may do under an agent.
+    
+    speed [m/s] and acceleration [m/s^2] of either tip along each axis; gap [m]: between the tips along y;
+    string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
+    left half (along y) the left tip keeps to, and the right tip to the other.
+    """
+    def __getstate__(self) -> tuple[float, float, float, float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+        ...
+    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    @property
+    def acceleration(self) -> float:
+        ...
+    @property
+    def centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def gap(self) -> float:
+        ...
+    @property
+    def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def speed(self) -> float:
+        ...
+    @property
+    def string_margin(self) -> float:
+        ...
+class Camera:
+    """
+    How an agent sees the diabolo: with noise, late, and not in every frame. A frame is a period.
+    
+    noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
+    nothing is seen; least_delay to most_delay [frames]: each episode draws one.
+    """
+    def __getstate__(self) -> tuple[float, float, float, int, int]:
+        ...
+    def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    @property
+    def dropouts(self) -> float:
+        ...
+    @property
+    def least_delay(self) -> int:
+        ...
+    @property
+    def most_delay(self) -> int:
+        ...
+    @property
+    def noise(self) -> float:
+        ...
+    @property
+    def spin_noise(self) -> float:
+        ...
+class EpisodeStart:
+    """
+    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], and the goal; None: it is drawn.
+    """
+    def __getstate__(self) -> tuple[State, typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[float], "FixedSize(2)"] | None]:
+        ...
+    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+class Arena:
+    """
+    Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites.
+    """
+    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def model_of(self, environment: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        Number of the model that it plays with.
+        """
+    def outcome(self, environment: typing.SupportsInt | typing.SupportsIndex) -> dict:
+        """
+        What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model.
+        """
+    def pose(self, environment: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+        """
+        State of the diabolo, left tip and right tip.
+        """
+    def reset(self, environment: typing.SupportsInt | typing.SupportsIndex, state: State | None = None, goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, model: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
+        """
+        Begins its next episode, with what is given in place of what is drawn.
+        """
+    def seed(self, environment: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Its episodes begin anew with this seed.
+        """
+    def step(self, actions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
+        """
+        Plays a period. actions: shares of the tips' accelerations, shape (count, 6).
+        """
+    @property
+    def count(self) -> int:
+        ...
+    @property
+    def final_observations(self) -> numpy.ndarray:
+        """
+        Of episodes that the same step has reset.
+        """
+    @property
+    def observations(self) -> numpy.ndarray:
+        """
+        float32, shape (count, numbers of an observation).
+        """
+    @property
+    def rewards(self) -> numpy.ndarray:
+        ...
+    @property
+    def terminated(self) -> numpy.ndarray:
+        ...
+    @property
+    def truncated(self) -> numpy.ndarray:
+        ...
+class Agent:
+    """
+    An agent: a network that sees observations and gives actions, and what it was trained for.
+    
+    task: its name; period [s] between its actions; steps of the simulation in a period; layers: (weights, bias) of each,
+    weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1.
+    """
+    @staticmethod
+    def load(path: os.PathLike | str | bytes) -> Agent:
+        """
+        Reads a file of the schema diabolo.agent/1.
+        """
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, task: str, period: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each.
+        """
+    def to_json(self) -> str:
+        """
+        The text of its file.
+        """
+    @property
+    def layers(self) -> list:
+        ...
+    @property
+    def period(self) -> float:
+        ...
+    @property
+    def steps(self) -> int:
+        ...
+    @property
+    def task(self) -> str:
+        ...
+class LiveAgent:
+    """
+    An agent at the sticks of a robot or of somebody else's simulator.
+    
+    left and right [m]: where the tips are at first, at rest; goal: as many numbers as the task has; string_length [m];
+    gravity [m/s^2]. Raises ValueError where the tips are not within the limits.
+    """
+    def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], limits: HandLimits = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.45, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> None:
+        ...
+    def act(self, state: State) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+        """
+        Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant.
+        """
 class Waypoint:
     """
     A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
@@ -3562,168 +3814,6 @@ class RobotLimits:
         ...
     def __setstate__(self, arg0: tuple) -> None:
         ...
-class HandLimits:
-    """
-    What the tips may do under an agent.
-    
-    speed [m/s] and acceleration [m/s^2] of either tip along each axis; gap [m]: between the tips along y;
-    string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
-    left half (along y) the left tip keeps to, and the right tip to the other.
-    """
-    def __getstate__(self) -> tuple[float, float, float, float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
-        ...
-    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
-        ...
-    @property
-    def acceleration(self) -> float:
-        ...
-    @property
-    def centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
-    @property
-    def gap(self) -> float:
-        ...
-    @property
-    def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
-    @property
-    def speed(self) -> float:
-        ...
-    @property
-    def string_margin(self) -> float:
-        ...
-class Camera:
-    """
-    How an agent sees the diabolo: with noise, late, and not in every frame. A frame is a period.
-    
-    noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
-    nothing is seen; least_delay to most_delay [frames]: each episode draws one.
-    """
-    def __getstate__(self) -> tuple[float, float, float, int, int]:
-        ...
-    def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
-        ...
-    @property
-    def dropouts(self) -> float:
-        ...
-    @property
-    def least_delay(self) -> int:
-        ...
-    @property
-    def most_delay(self) -> int:
-        ...
-    @property
-    def noise(self) -> float:
-        ...
-    @property
-    def spin_noise(self) -> float:
-        ...
-class EpisodeStart:
-    """
-    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], and the goal; None: it is drawn.
-    """
-    def __getstate__(self) -> tuple[State, typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[float], "FixedSize(2)"] | None]:
-        ...
-    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
-        ...
-class Arena:
-    """
-    Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites.
-    """
-    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
-        ...
-    def model_of(self, environment: typing.SupportsInt | typing.SupportsIndex) -> int:
-        """
-        Number of the model that it plays with.
-        """
-    def outcome(self, environment: typing.SupportsInt | typing.SupportsIndex) -> dict:
-        """
-        What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model.
-        """
-    def pose(self, environment: typing.SupportsInt | typing.SupportsIndex) -> tuple:
-        """
-        State of the diabolo, left tip and right tip.
-        """
-    def reset(self, environment: typing.SupportsInt | typing.SupportsIndex, state: State | None = None, goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, model: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
-        """
-        Begins its next episode, with what is given in place of what is drawn.
-        """
-    def seed(self, environment: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex) -> None:
-        """
-        Its episodes begin anew with this seed.
-        """
-    def step(self, actions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
-        """
-        Plays a period. actions: shares of the tips' accelerations, shape (count, 6).
-        """
-    @property
-    def count(self) -> int:
-        ...
-    @property
-    def final_observations(self) -> numpy.ndarray:
-        """
-        Of episodes that the same step has reset.
-        """
-    @property
-    def observations(self) -> numpy.ndarray:
-        """
-        float32, shape (count, numbers of an observation).
-        """
-    @property
-    def rewards(self) -> numpy.ndarray:
-        ...
-    @property
-    def terminated(self) -> numpy.ndarray:
-        ...
-    @property
-    def truncated(self) -> numpy.ndarray:
-        ...
-class Agent:
-    """
-    An agent: a network that sees observations and gives actions, and what it was trained for.
-    
-    task: its name; period [s] between its actions; steps of the simulation in a period; layers: (weights, bias) of each,
-    weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1.
-    """
-    @staticmethod
-    def load(path: os.PathLike | str | bytes) -> Agent:
-        """
-        Reads a file of the schema diabolo.agent/1.
-        """
-    def __getstate__(self) -> str:
-        ...
-    def __init__(self, task: str, period: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: str) -> None:
-        ...
-    def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each.
-        """
-    def to_json(self) -> str:
-        """
-        The text of its file.
-        """
-    @property
-    def layers(self) -> list:
-        ...
-    @property
-    def period(self) -> float:
-        ...
-    @property
-    def steps(self) -> int:
-        ...
-    @property
-    def task(self) -> str:
-        ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """
     The figure of that name from a pose of the tips and a state of the diabolo.
@@ -3752,6 +3842,8 @@ def diagnosis_schema() -> str:
     """
     The JSON schema of a diagnosis' file.
     """
+def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: typing.SupportsInt | typing.SupportsIndex) -> ResidualFit:
+    ...
 def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0, down_to: typing.SupportsFloat | typing.SupportsIndex = ...) -> tuple:
     """
     What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`.
@@ -3779,6 +3871,10 @@ def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
 def largest_spin(rate: typing.SupportsFloat | typing.SupportsIndex) -> float:
     """
     Largest spin that a sampling rate [Hz] tells apart [rad/s].
+    """
+def lessons() -> list:
+    """
+    Tasks that the player teaches.
     """
 def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsFloat | typing.SupportsIndex) -> list[LimitUse]:
     """
@@ -3863,6 +3959,10 @@ def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> 
 def task_infos() -> list:
     """
     What can be played: name, meaning, reward, seconds, goal and first spin of each.
+    """
+def taught_starts(task: str, models: collections.abc.Sequence[Model], plays: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, limits: HandLimits) -> list[EpisodeStart]:
+    """
+    See diabolo.envs.taught_starts.
     """
 def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list[Recording], list[str]]:
     """
