@@ -324,6 +324,7 @@ gravity [m/s^2]. Raises ValueError where the tips are not within the limits.)")
       .def(py::init(&make_live), "agent"_a, "left"_a, "right"_a, "goal"_a = std::vector<double>(),
            py::arg_v("limits", usual, "HandLimits()"), "string_length"_a = live.string_length,
            "gravity"_a = live.gravity)
+      .def_property_readonly("agent", &LiveAgent::agent)
       .def(
           "act",
           [](LiveAgent& agent, const State<double>& state) {

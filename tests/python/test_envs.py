@@ -400,5 +400,5 @@ def test_a_live_agent_refuses_what_it_cannot_play_with() -> None:
         LiveAgent(agent, left, right, (0.5,))
     with pytest.raises(ValueError, match="hands: a tip at 3 m"):
         LiveAgent(agent, (0.0, 3.0, 1.25), right, (0.5, 0.1))
-    with pytest.raises(ValueError, match="state: not finite"):
-        LiveAgent(agent, left, right, (0.5, 0.1)).act(diabolo.State((0.0, 0.0, np.nan)))
+    with pytest.raises(TypeError, match="state"):
+        LiveAgent(agent, left, right, (0.5, 0.1)).act((0.0, 0.0, 0.6))  # type: ignore[arg-type]
