@@ -50,12 +50,14 @@ def _run(given: argparse.Namespace) -> int:
     plant.check(given.plant)
     if given.takes < 2:
         raise ValueError(f"--takes {given.takes}; expected 2 or more, of which one is held out")
-    kinds = [NULL] * given.nulls + [kind for kind in given.laws for _ in range(given.each)]
+    numbered = [(i + 1, NULL) for i in range(given.nulls)]
+    for law in given.laws:  # the same plants, whichever laws are asked for
+        numbered += [(1000 * (1 + [*strangers.KINDS].index(law)) + i, law) for i in range(given.each)]
     print(f"Median distance {AHEAD:g} s after starts each {EVERY:g} s on a take held out [mm]:\n")
     print("| law | starts | " + " | ".join(COLUMNS) + " | worst by the residual |")
     print("|---|---|" + "---|" * (len(COLUMNS) + 1))
     found: dict[str, list[Errors]] = {"null": [], "strangers": []}
-    for number, kind in enumerate(kinds, start=1):
+    for number, kind in numbered:
         begin = time.monotonic()
         takes = _takes(given, draw.Plan(given.seed, number, kind, "springs"))
         if len(takes) < 2:

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -931,6 +931,36 @@ class FormulaLaws:
         """
         The laws as the constructor takes them.
         """
+class ResidualForce:
+    """
+    A force that was learnt from what named physics leaves.
+    
+    An acceleration in the string's frame by `fit_residual`: right along the tips, forward and level, up. Each is a sum of
+    weights [m/s^2] times what the diabolo does: its velocity, place, spin and slip, the string's pull, and the hands'
+    velocity. It fades out where nothing was seen, and neither its size nor its work are larger than there. Without
+    arguments there is none.
+    """
+    __hash__: typing.ClassVar[None] = None
+    def __bool__(self) -> bool:
+        ...
+    def __copy__(self) -> ResidualForce:
+        ...
+    def __deepcopy__(self, memo: dict) -> ResidualForce:
+        ...
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> str:
+        ...
+    def __init__(self, **kwargs) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: str) -> None:
+        ...
+    def to_dict(self) -> typing.Any:
+        """
+        largest, power, on_string and off_string, as the constructor takes them.
+        """
 class Model:
     """
     Everything that decides a prediction.
@@ -1035,6 +1065,14 @@ class Model:
         """
     @own_string_length.setter
     def own_string_length(self, arg0: bool) -> None:
+        ...
+    @property
+    def residual_force(self) -> ResidualForce:
+        """
+        What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it.
+        """
+    @residual_force.setter
+    def residual_force(self, arg1: ResidualForce) -> None:
         ...
 class State:
     """
@@ -2965,6 +3003,45 @@ class SimulatorComparison:
         """
         Diagnosis of what was simulated.
         """
+class ResidualFit:
+    """
+    A residual that was fitted, and its errors on what it was not fitted to.
+    """
+    @property
+    def base_error(self) -> float:
+        """
+        Median distance without it, half a second later [m].
+        """
+    @property
+    def error(self) -> float:
+        """
+        The same with it [m].
+        """
+    @property
+    def gain_ci95(self) -> typing.Any:
+        """
+        95 % interval of the mean by which it takes errors off [m]; None where there are too few.
+        """
+    @property
+    def model(self) -> Model:
+        """
+        The base, with the residual where it stands.
+        """
+    @property
+    def stands(self) -> bool:
+        """
+        Whether predictions get better by more than 1 mm half a second later, for sure.
+        """
+    @property
+    def usual(self) -> float:
+        """
+        The size that weights were expected to have [m/s^2].
+        """
+    @property
+    def windows(self) -> int:
+        """
+        How many predictions were compared.
+        """
 class Waypoint:
     """
     A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
@@ -3752,6 +3829,8 @@ def diagnosis_schema() -> str:
     """
     The JSON schema of a diagnosis' file.
     """
+def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: typing.SupportsInt | typing.SupportsIndex) -> ResidualFit:
+    ...
 def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0, down_to: typing.SupportsFloat | typing.SupportsIndex = ...) -> tuple:
     """
     What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`.

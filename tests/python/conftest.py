@@ -60,7 +60,7 @@ def make_recording(
         np.arange(samples + 1) / RATE,
         left,
         right,
-        states[:, :3] + noise * np.random.default_rng(1).normal(size=(samples + 1, 3)),
+        states[:, :3] + noise * np.random.default_rng(round(spin)).normal(size=(samples + 1, 3)),
         RATE,
         diabolo_orientation=np.stack([-np.sin(angle / 2), zero, zero, np.cos(angle / 2)], axis=1),
         name=name,

@@ -76,15 +76,16 @@ def median_error(take: diabolo.Recording, model: Model) -> float:
     return row.score.model.median
 
 
-def takes_of(model: Model, seconds: float) -> list[diabolo.Recording]:
-    spins = (90.0, 110.0, 100.0)
+def takes_of(model: Model) -> list[diabolo.Recording]:
+    played = (("swing", 14.0, 90.0), ("swing", 12.0, 110.0), ("beat", 8.0, 120.0), ("swing", 6.0, 100.0))
     return [
-        make_recording("swing", seconds, spin, f"spin_{spin:g}", model=model, noise=1e-4) for spin in spins
+        make_recording(motion, seconds, spin, f"{motion}_{spin:g}", model=model, noise=1e-4)
+        for motion, seconds, spin in played
     ]
 
 
 def test_it_halves_the_error_of_a_law_without_a_name_on_a_take_held_out() -> None:
-    *learnt_from, held_out = takes_of(Model(formula_laws=[OWN_LAW]), 8.0)
+    *learnt_from, held_out = takes_of(Model(formula_laws=[OWN_LAW]))
     fit = diabolo.fit_residual(learnt_from)
     assert fit.stands and fit.error < 0.5 * fit.base_error
     assert fit.gain_ci95 is not None and fit.gain_ci95[0] > 1e-3
@@ -92,7 +93,7 @@ def test_it_halves_the_error_of_a_law_without_a_name_on_a_take_held_out() -> Non
 
 
 def test_it_stands_back_where_nothing_is_missing() -> None:
-    fit = diabolo.fit_residual(takes_of(Model(), 6.0)[0])
+    fit = diabolo.fit_residual(takes_of(Model()))
     assert not fit.stands and fit.model == Model.consistent()
 
 

@@ -31,6 +31,10 @@ struct ResidualFit {
 
 namespace diagnose_detail {
 
+/// So many neighbouring starts depend on each other: those of two seconds. (Recordings differ in their gains,
+/// which is no dependence within them.)
+inline constexpr std::size_t kResidualAlike = 10;
+
 /// Sizes of weights that are tried [m/s^2].
 inline constexpr std::array<double, 4> kResidualSizes{0.01, 0.03, 0.1, 0.3};
 
@@ -167,6 +171,7 @@ class ResidualProblem {
 /// Errors on what was held out, start by start [m].
 struct ResidualErrors {
   std::vector<double> base, with, gain;
+  double least_gain = INFINITY;  ///< smallest of the folds' medians
 };
 
 /// Fits without each fold in turn, and predicts it.
@@ -183,12 +188,16 @@ inline ResidualErrors errors_held_out(const ResidualProblem& problem, double usu
     const Model model = problem.with(problem.fit(usual, left_out));
     const auto without = errors_of(HorizonTask(held, problem.base(), options), threads, watch),
                with = errors_of(HorizonTask(held, model, options), threads, watch);
+    const std::size_t before = errors.gain.size();
     for (std::size_t i = 0; i < with.size(); ++i) {
       if (!both_predicted(without[i][0], with[i][0])) continue;
       errors.base.push_back(without[i][0].model);
       errors.with.push_back(with[i][0].model);
       errors.gain.push_back(without[i][0].model - with[i][0].model);
     }
+    const std::vector<double> own(errors.gain.begin() + static_cast<std::ptrdiff_t>(before),
+                                  errors.gain.end());
+    if (!own.empty()) errors.least_gain = std::min(errors.least_gain, median_of(own));
   }
   return errors;
 }
@@ -198,9 +207,9 @@ inline ResidualErrors errors_held_out(const ResidualProblem& problem, double usu
 /// Learns what a model leaves of recordings of one set-up as an acceleration in the string's frame (see
 /// ResidualForce), through predictions of half a second. Recordings, or thirds of a single one, are left out
 /// in turn to choose the size that weights may have, and to tell whether it stands: only where the error
-/// kAhead later falls by more than kImmaterialAhead, its median and all of a 95 % interval of its mean. Else
-/// the model is the base. A residual that the base has is left out. Throws RecordingError about recordings,
-/// std::invalid_argument about the base, Cancelled.
+/// kAhead later falls by more than kImmaterialAhead, its median and all of a 95 % interval of its mean, and
+/// in no fold rises. Else the model is the base. A residual that the base has is left out. Throws
+/// RecordingError about recordings, std::invalid_argument about the base, Cancelled.
 inline ResidualFit fit_residual(const std::vector<Recording>& recordings, const Model& base, int threads = 0,
                                 const Watch& watch = {}) {
   if (recordings.empty()) throw std::invalid_argument("recordings: none; expected at least one");
@@ -218,10 +227,10 @@ inline ResidualFit fit_residual(const std::vector<Recording>& recordings, const 
   }
   result.windows = best.gain.size();
   result.base_error = diagnose_detail::median_of(best.base);
+  if (best.gain.empty()) return result;
   std::mt19937_64 generator(1);
-  const std::size_t overlap = 1 + static_cast<std::size_t>(std::ceil(kAhead / kStartsEvery));
-  if (const auto gain = summarize(best.gain, overlap, generator)) result.gain_ci95 = gain->mean_ci95;
-  result.stands = result.gain_ci95 && result.gain_ci95->low > kImmaterialAhead &&
+  result.gain_ci95 = mean_interval(best.gain, diagnose_detail::kResidualAlike, generator);
+  result.stands = result.gain_ci95 && result.gain_ci95->low > kImmaterialAhead && best.least_gain > 0.0 &&
                   result.base_error - result.error > kImmaterialAhead;
   if (result.stands) {
     const std::vector<bool> none(window_count(problem.fit_takes()), false);
