@@ -22,8 +22,7 @@ namespace diabolo {
 template <class Scalar, template <class> class... Others>
 using MotionEffects =
     EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, UnnamedForce, FormulaLaws,
-              ResidualForce, Others...>;
+              StickFlex, StringMass, LandingRestitution, UnnamedForce, FormulaLaws, ResidualForce, Others...>;
 
 /// Every effect of the library.
 template <class Scalar>
