@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -75,9 +75,9 @@ def run(given: argparse.Namespace) -> int:
         goal = (height, float(rng.uniform(-0.3, 0.3)))
         wanted.append(goal)
         for name, agent in players.items():
-            found[name].append(thrown_by_agent(plant, agent, goal, spin))
+            found[name].append(tried(thrown_by_agent, plant, agent, goal, spin))
         for name in MODELS:
-            found[name].append(thrown_by_player(plant, MODELS[name](plant), goal, spin))
+            found[name].append(tried(thrown_by_player, plant, MODELS[name](plant), goal, spin))
         print(f"\rplant {number + 1} of {given.plants}", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
     print_table(found, np.array(wanted))
@@ -92,6 +92,14 @@ MODELS = {
     "player, the plant's own numbers": lambda plant: plant.known(),
 }
 """What the player plans on."""
+
+
+def tried(throw: Callable[..., Thrown], *given: Any) -> Thrown:
+    """A throw; one that the plant gives up on, as where a stick meets the axle, is not caught."""
+    try:
+        return throw(*given)
+    except program.FailedError:
+        return Thrown(False, float("nan"), float("nan"))
 
 
 def thrown_by_agent(plant: Plant, agent: Agent, goal: tuple[float, float], spin: float) -> Thrown:

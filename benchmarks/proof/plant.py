@@ -72,8 +72,7 @@ class LivePlay:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._process.communicate()
-        self._folder.cleanup()
+        self._end()
 
     def push(self, period: float, accelerations: Iterable[float]) -> Moment:
         """Move the hands for a period [s], by constant accelerations, left x, y, z, right x, y, z [m/s^2]."""
@@ -83,11 +82,18 @@ class LivePlay:
         self.moment = self._told()
         return self.moment
 
+    def _end(self) -> str:
+        """End the program; what it complained of."""
+        if self._process.returncode is None:
+            _, self._said = self._process.communicate()
+        self._folder.cleanup()
+        return self._said
+
     def _told(self) -> Moment:
         assert self._process.stdout
         words = self._process.stdout.readline().split()
         if len(words) != len(Moment._fields[:2]) + 13:
-            _, said = self._process.communicate()
+            said = self._end()
             kind = RefusedError if self._process.returncode == 2 else FailedError
             raise kind(f"the plant: {' '.join(said.split()) or 'it ended'}")
         numbers = np.array([float(word) for word in words[2:]])

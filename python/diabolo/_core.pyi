@@ -3217,6 +3217,9 @@ class LiveAgent:
         """
         Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant.
         """
+    @property
+    def agent(self) -> Agent:
+        ...
 class Waypoint:
     """
     A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
