@@ -93,7 +93,8 @@ inline ResidualWindow without_start(Eigen::MatrixXd normal, const Eigen::VectorX
 /// weight, a little changed.
 inline ResidualWindow residual_window(const Take& take, const FitWindow& window, Model model,
                                       const ResidualLaw& law) {
-  using namespace diagnose_detail;
+  using diagnose_detail::misses, diagnose_detail::residual_start, diagnose_detail::residual_weight,
+      diagnose_detail::without_start;
   constexpr double kPlace = 1e-4, kVelocity = 1e-3, kWeight = 1e-3;  // [m], [m/s], [m/s^2]
   const auto predictor = [&](const ResidualLaw& own) {
     model.effects.get<ResidualForce>() = ResidualForce<double>(own);

@@ -68,8 +68,9 @@ template <class Scalar>
 [[gnu::always_inline]] inline ResidualScene<Scalar> residual_scene(const State<Scalar>& state,
                                                                    const Tips<Scalar>& tips,
                                                                    const Parameters<Scalar>& parameters) {
-  using namespace residual_detail;
-  using std::sqrt;
+  using residual_detail::kAside, residual_detail::kHardPull, residual_detail::kSlow, residual_detail::kUsual,
+      residual_detail::kUsualSpin, residual_detail::slip, residual_detail::soft_sign,
+      residual_detail::string_frame, std::sqrt;
   ResidualScene<Scalar> scene;
   scene.axes = string_frame(tips);
   const auto in_frame = [&](const Vector3<Scalar>& v) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -74,7 +75,8 @@ inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const 
   const auto caught = last.base();
   const Vector3<double> shift =
       limits.centre - 0.5 * (instants.front().tips.left + instants.front().tips.right);
-  Goal goal{-INFINITY, caught->state.position.y() + shift.y() - limits.centre.y()};
+  Goal goal{-std::numeric_limits<double>::infinity(),
+            caught->state.position.y() + shift.y() - limits.centre.y()};
   for (auto instant = instants.begin(); instant != caught; ++instant)
     if (flies(*instant))
       goal[0] = std::max(goal[0], instant->state.position.z() + shift.z() - limits.centre.z());
