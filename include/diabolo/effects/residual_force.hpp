@@ -92,7 +92,7 @@ struct ResidualForce : NeutralEffect<Scalar> {
   }
 
   Vector3<Scalar> bounded(const Vector3<Scalar>& push, const Vector3<Scalar>& velocity) const {
-    const Scalar largest(law->largest);
+    const Scalar largest = Scalar(law->largest);
     Vector3<Scalar> held = push;
     if (any(squared_norm(push) > largest * largest))
       held = held * Scalar(largest / maximum(norm(push), largest));
