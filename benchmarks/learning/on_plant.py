@@ -63,6 +63,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def run(given: argparse.Namespace) -> int:
+    if given.plants < 1 or not (given.height is None or 0.3 <= given.height <= 0.8):
+        raise ValueError(
+            f"--plants {given.plants}, --height {given.height}; expected 1 or more, and 0.3 to 0.8 m"
+        )
     program.check(given.plant)
     players: dict[str, Any] = {"shipped agent": shipped_agent(TASK)}
     players |= {str(path): Agent.load(str(path)) for path in given.agent}

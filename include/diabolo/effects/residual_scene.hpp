@@ -26,7 +26,7 @@ struct ResidualScene {
   std::array<Scalar, kResidualInputs> inputs;
 };
 
-namespace residual_detail {
+namespace effects_detail {
 
 inline constexpr double kSlow = 0.05;                      ///< below it a direction counts less [m/s]
 inline constexpr double kHardPull = 30.0, kUsual = 10.0;   ///< of the string [m/s^2]
@@ -62,15 +62,15 @@ Scalar slip(const State<Scalar>& state, const Tips<Scalar>& tips, const Paramete
   return state.spin * parameters.axle_radius - (passing[0] + passing[1]) * Scalar(0.5);
 }
 
-}  // namespace residual_detail
+}  // namespace effects_detail
 
 template <class Scalar>
 [[gnu::always_inline]] inline ResidualScene<Scalar> residual_scene(const State<Scalar>& state,
                                                                    const Tips<Scalar>& tips,
                                                                    const Parameters<Scalar>& parameters) {
-  using residual_detail::kAside, residual_detail::kHardPull, residual_detail::kSlow, residual_detail::kUsual,
-      residual_detail::kUsualSpin, residual_detail::slip, residual_detail::soft_sign,
-      residual_detail::string_frame, std::sqrt;
+  using effects_detail::kAside, effects_detail::kHardPull, effects_detail::kSlow, effects_detail::kUsual,
+      effects_detail::kUsualSpin, effects_detail::slip, effects_detail::soft_sign,
+      effects_detail::string_frame, std::sqrt;
   ResidualScene<Scalar> scene;
   scene.axes = string_frame(tips);
   const auto in_frame = [&](const Vector3<Scalar>& v) {

@@ -166,9 +166,7 @@ class Arena {
   void set_state(Episode& episode, const State<double>& state) const {
     episode.state = state;
     episode.first_spin = state.spin;
-    const bool held = state.string_state == StringState::kOnString;
-    episode.pull = held ? models_[episode.model].parameters.gravity * Vector3<double>::UnitZ()
-                        : Vector3<double>(Vector3<double>::Zero());
+    episode.pull = first_pull(state, models_[episode.model].parameters.gravity);
     if (options_.camera) episode.sight = Sight(*options_.camera, state, episode.draw);
   }
 
@@ -226,18 +224,10 @@ class Arena {
     const bool failed = !is_finite_state(after);
     if (failed) episode.state = before;
     ++episode.periods;
-    episode.pull = (episode.state.velocity - before.velocity) / options_.period +
-                   parameters.gravity * Vector3<double>::UnitZ();
+    episode.pull = mean_pull(episode, before, parameters.gravity, options_.period);
     Worth worth;
     if (!failed)
-      worth = task_.judge({.before = before,
-                           .after = after,
-                           .hands = episode.hands,
-                           .centre = limits().centre,
-                           .rest = episode.rest,
-                           .gravity = parameters.gravity,
-                           .period = options_.period,
-                           .goal = episode.goal},
+      worth = task_.judge(moment_of(episode, before, limits().centre, parameters.gravity, options_.period),
                           episode.memory);
     if (options_.camera) episode.sight.look(*options_.camera, episode.state, options_.period, episode.draw);
     const bool lost =

@@ -40,6 +40,31 @@ struct EpisodeStart {
   std::optional<Goal> goal{};  ///< none: it is drawn
 };
 
+/// What the string does to the diabolo where an episode begins: it carries what hangs on it [m/s^2].
+inline Vector3<double> first_pull(const State<double>& state, double gravity) {
+  const bool held = state.string_state == StringState::kOnString;
+  return (held ? gravity : 0.0) * Vector3<double>::UnitZ();
+}
+
+/// The same as its mean over a period that ends with the episode's state.
+inline Vector3<double> mean_pull(const Episode& episode, const State<double>& before, double gravity,
+                                 double period) {
+  return (episode.state.velocity - before.velocity) / period + gravity * Vector3<double>::UnitZ();
+}
+
+/// A period that ends with the episode's state, as a task looks at it. It refers to what it is given.
+inline Moment moment_of(const Episode& episode, const State<double>& before, const Vector3<double>& centre,
+                        double gravity, double period) {
+  return {.before = before,
+          .after = episode.state,
+          .hands = episode.hands,
+          .centre = centre,
+          .rest = episode.rest,
+          .gravity = gravity,
+          .period = period,
+          .goal = episode.goal};
+}
+
 /// A slice of an observation.
 struct ObservationInfo {
   std::string_view name, unit;

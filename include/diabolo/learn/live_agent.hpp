@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -46,11 +47,12 @@ class LiveAgent {
     const State<double> before = episode_.periods > 0 ? episode_.state : state;
     episode_.state = state;
     if (episode_.periods++ > 0) {
-      remember(before);
+      episode_.pull = mean_pull(episode_, before, options_.gravity, agent_.period);
+      task_.judge(moment_of(episode_, before, options_.limits.centre, options_.gravity, agent_.period),
+                  episode_.memory);
     } else {
       episode_.rest = state.position;
-      if (state.string_state == StringState::kOnString)
-        episode_.pull = options_.gravity * Vector3<double>::UnitZ();
+      episode_.pull = first_pull(state, options_.gravity);
     }
     Eigen::VectorXf seen(static_cast<Eigen::Index>(kObservationSize));
     observe(episode_, options_.limits.centre, false, seen.data());
@@ -60,21 +62,6 @@ class LiveAgent {
   }
 
  private:
-  /// What happened since it was last shown.
-  void remember(const State<double>& before) {
-    episode_.pull = (episode_.state.velocity - before.velocity) / agent_.period +
-                    options_.gravity * Vector3<double>::UnitZ();
-    task_.judge({.before = before,
-                 .after = episode_.state,
-                 .hands = episode_.hands,
-                 .centre = options_.limits.centre,
-                 .rest = episode_.rest,
-                 .gravity = options_.gravity,
-                 .period = agent_.period,
-                 .goal = episode_.goal},
-                episode_.memory);
-  }
-
   Agent agent_;
   LiveOptions options_;
   const Task& task_;
