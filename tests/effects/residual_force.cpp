@@ -54,7 +54,7 @@ Instant random_instant(Random& random) {
 /// As the mirror shows it: what pushes to the right, and across by the slip, is turned round.
 ResidualLaw mirrored(ResidualLaw law) {
   for (ResidualPart* part : {&law.on_string, &law.off_string}) {
-    for (const std::size_t odd : {kResidualBegins[0], kResidualBegins[2] - 1}) part->weights[odd] *= -1.0;
+    for (const std::size_t odd : {residual_begin(0), residual_begin(2) - 1}) part->weights[odd] *= -1.0;
     for (const std::size_t i : {0, 3, 5, 7}) {
       std::swap(part->low[i], part->high[i]);
       part->low[i] *= -1.0;

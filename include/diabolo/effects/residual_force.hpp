@@ -67,7 +67,7 @@ struct ResidualForce : NeutralEffect<Scalar> {
     Vector3<Scalar> push = Vector3<Scalar>::Constant(Scalar(0));
     for (std::size_t k = 0; k < scene.axes.size(); ++k) {
       std::array<Scalar, 2> sums{Scalar(0), Scalar(0)};  // two, since each sum waits for the one before
-      for (std::size_t i = kResidualBegins[k]; i < kResidualBegins[k + 1]; ++i)
+      for (std::size_t i = residual_begin(k); i < residual_begin(k + 1); ++i)
         sums[i % 2] += scene.terms[i] * Scalar(part.weights[i]);
       push = push + scene.axes[k] * Scalar(sums[0] + sums[1]);
     }

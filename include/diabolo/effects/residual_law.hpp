@@ -13,9 +13,10 @@
 
 namespace diabolo {
 
-/// Where the terms of each direction of a residual law begin, right, forward, up; and where the last end.
-inline constexpr std::array<std::size_t, 4> kResidualBegins{0, 10, 18, 25};
-inline constexpr std::size_t kResidualTerms = kResidualBegins.back();
+/// Where the terms of direction `k` of a residual law begin: right, forward, up; and, for 3, where the last
+/// end.
+constexpr std::size_t residual_begin(std::size_t k) { return std::array<std::size_t, 4>{0, 10, 18, 25}[k]; }
+inline constexpr std::size_t kResidualTerms = residual_begin(3);
 inline constexpr std::size_t kResidualInputs = 8;
 
 /// A residual law where the diabolo is on the string, or off it: the weights of ResidualScene::terms [m/s^2]

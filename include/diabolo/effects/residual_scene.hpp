@@ -18,7 +18,7 @@ namespace diabolo {
 template <class Scalar>
 struct ResidualScene {
   std::array<Vector3<Scalar>, 3> axes;  ///< right, forward, up: unit vectors
-  /// By direction, see kResidualBegins. Of each: 1, velocity, velocity times speed, heading, heading times
+  /// By direction, see residual_begin. Of each: 1, velocity, velocity times speed, heading, heading times
   /// pull, mean velocity of the tips; right and forward also place and slip times pull; right slip and spin
   /// times rise; up spin times drift to the right. All of a usual size of one.
   std::array<Scalar, kResidualTerms> terms;
@@ -86,7 +86,7 @@ template <class Scalar>
                spin = state.spin * Scalar(1.0 / kUsualSpin),
                slipping = soft_sign(slip(state, tips, parameters), kSlow);
   for (std::size_t k = 0; k < 3; ++k) {
-    Scalar* const terms = &scene.terms[kResidualBegins[k]];
+    Scalar* const terms = &scene.terms[residual_begin(k)];
     terms[0] = Scalar(1);
     terms[1] = v[k];
     terms[2] = v[k] * speed;
