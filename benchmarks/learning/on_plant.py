@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Agents and the player, thrown on the independent plant: who catches.
 
-Each plant has numbers of its own (benchmarks.proof.player), and a goal: a height and a place. An agent looks
+Each plant has numbers of its own, and a goal: a height and a place. An agent looks
 50 times a second and moves the hands of the plant; the player plans once, on a model, and its plan is played
-as it is. Both keep to the same limits of the hands, and to the same box.
+as it is. Both keep to the same limits of the hands, and to the same box. The plants are those of
+benchmarks.proof.player, or all near a usual one (benchmarks.learning.models is made for it).
 """
 
 from __future__ import annotations
@@ -56,6 +57,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--height", type=float, metavar="H", help="of all throws [m]; default: drawn, 0.3 to 0.8"
     )
+    parser.add_argument(
+        "--around",
+        type=float,
+        metavar="SHARE",
+        help="each number of a plant is within this share of the usual plant's; default: far apart",
+    )
     parser.add_argument("--seed", type=int, default=1, metavar="N")
     parser.add_argument("--json", type=Path, metavar="FILE", help="each throw, to write")
     program.add_option(parser)
@@ -67,6 +74,8 @@ def run(given: argparse.Namespace) -> int:
         raise ValueError(
             f"--plants {given.plants}, --height {given.height}; expected 1 or more, and 0.3 to 0.8 m"
         )
+    if given.around is not None and not 0.0 <= given.around <= 0.5:
+        raise ValueError(f"--around {given.around}; expected 0 to 0.5")
     program.check(given.plant)
     players: dict[str, Any] = {"shipped agent": shipped_agent(TASK)}
     players |= {str(path): Agent.load(str(path)) for path in given.agent}
@@ -74,7 +83,8 @@ def run(given: argparse.Namespace) -> int:
     wanted: list[tuple[float, float]] = []
     for number in range(given.plants):
         rng = np.random.default_rng([given.seed, number])
-        plant, spin = draw(given.plant, rng), float(rng.uniform(60.0, 120.0))
+        plant = draw(given.plant, rng) if given.around is None else near(given.plant, given.around, rng)
+        spin = float(rng.uniform(60.0, 120.0))
         height = given.height or float(rng.uniform(0.3, 0.8))
         goal = (height, float(rng.uniform(-0.3, 0.3)))
         wanted.append(goal)
@@ -89,6 +99,15 @@ def run(given: argparse.Namespace) -> int:
         rows = {name: [vars(one) for one in throws] for name, throws in found.items()}
         given.json.write_text(json.dumps({"goals": wanted, "throws": rows}, indent=1), encoding="utf-8")
     return 0
+
+
+def near(file: Path, share: float, rng: np.random.Generator) -> Plant:
+    """A plant within a share of the usual one; its string, which one can measure, is as long."""
+    varied = ("friction", "bending_stiffness", "stiffness", "drag", "magnus")
+    usual = Plant(file, seed=int(rng.integers(1, 1000))).facts()
+    return Plant(
+        file, **usual | {name: usual[name] * rng.uniform(1.0 - share, 1.0 + share) for name in varied}
+    )
 
 
 MODELS = {

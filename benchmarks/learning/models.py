@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""What an agent may be trained on, for a plant: the model that a diagnosis found, models that it cannot
+tell from that one, and models of all that may be.
+
+OUT gets three folders of model files: `point` with one, `posterior` and `wide` with 64 each. The plant plays
+30 s, filmed, and is diagnosed. `wide` knows the string's length alone, within a centimetre.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import diabolo
+import numpy as np
+from diabolo import Model
+
+from .. import command
+from ..proof import plant as program
+from ..proof.player.plant import Plant
+
+EXAMPLE = """\
+  make plant && python -m benchmarks.learning.models OUT
+  diabolo train ThrowAndCatch --model OUT/posterior/*.json --steps 9000000 --out posterior
+  python -m benchmarks.learning.on_plant --around 0.1 --agent posterior/agent.json"""
+COUNT = 64
+LENGTH = 0.01  # to which a string is measured by hand [m]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = command.make_parser("benchmarks.learning.models", __doc__, EXAMPLE)
+    parser.add_argument("out", metavar="OUT", type=Path, help="folder to write; a new one")
+    parser.add_argument("--seed", type=int, default=1, metavar="N")
+    program.add_option(parser)
+    return command.run(parser, run, arguments)
+
+
+def run(given: argparse.Namespace) -> int:
+    program.check(given.plant)
+    plant = Plant(given.plant)
+    takes = plant.practice()
+    found = diabolo.diagnose(takes, draws=COUNT)
+    print(found.sentence)
+    assert found.models is not None
+    rng = np.random.default_rng(given.seed)
+    models = {
+        "point": [diabolo.model_for(found.model, takes[0])],
+        "posterior": [diabolo.model_for(one, takes[0]) for one in found.models],
+        "wide": [wide(plant.length, rng) for _ in range(COUNT)],
+    }
+    for name, ones in models.items():
+        (given.out / name).mkdir(parents=True)
+        for number, model in enumerate(ones):
+            (given.out / name / f"{number:02d}.json").write_text(model.to_json(), encoding="utf-8")
+        print(f"{given.out / name}: {len(ones)}")
+    return 0
+
+
+def wide(length: float, rng: np.random.Generator) -> Model:
+    """Each number anywhere that a diabolo, a string and sticks may have it."""
+    own = length + rng.uniform(-LENGTH, LENGTH)
+    return Model(
+        diabolo.Parameters(string_length=own, spin_coupling=0.0),
+        name="wide",
+        string_friction=diabolo.StringFriction(coefficient=rng.uniform(0.05, 0.5), spin_gain=3.4),
+        string_elasticity=diabolo.StringElasticity(compliance=rng.uniform(0.0, 0.003), damping=10.0),
+        stick_flex=diabolo.StickFlex(compliance=rng.uniform(0.0, 0.006), damping=3.0),
+        air=diabolo.Air(quadratic_drag=rng.uniform(0.0, 0.08)),
+        magnus_lift=diabolo.MagnusLift(coefficient=rng.uniform(0.0, 0.002)),
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
