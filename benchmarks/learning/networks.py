@@ -73,11 +73,12 @@ class Network(nn.Module):
 
 
 class PaperNetwork:
-    """The paper's recipe: the next state itself, trained row by row."""
+    """The paper's recipe: the next state itself, trained row by row; `steps` of Adam in place of EPOCHS."""
 
     name = "neural net, rebuilt"
+    EPOCHS = 200
 
-    def __init__(self, tracks: Sequence[Track], seed: int, epochs: int = 200) -> None:
+    def __init__(self, tracks: Sequence[Track], seed: int, steps: int | None = None) -> None:
         torch.manual_seed(seed)
         states, tips = sequences(tracks, 1, 1)
         seen, wanted = inputs(states[:, 0], tips[:, 0], tips[:, 1]), self._relative(states[:, 1], tips[:, 0])
@@ -88,7 +89,7 @@ class PaperNetwork:
         def loss(batch: Tensor) -> Tensor:
             return (((self.network(seen[batch]) - wanted[batch]) / scale) ** 2).mean()
 
-        _descend(self.network, loss, len(seen), 256, epochs)
+        _descend(self.network, loss, len(seen), 256, steps or self.EPOCHS * (len(seen) // 256))
 
     @staticmethod
     def _relative(state: Tensor, tips: Tensor) -> Tensor:
@@ -104,9 +105,9 @@ class StrongNetwork:
     and the mean of several networks."""
 
     name = "neural net, strong"
-    UNROLLED, MEMBERS, TURNS = 24, 3, 2
+    UNROLLED, MEMBERS, TURNS, EPOCHS = 24, 3, 2, 6
 
-    def __init__(self, tracks: Sequence[Track], seed: int, epochs: int = 6) -> None:
+    def __init__(self, tracks: Sequence[Track], seed: int, steps: int | None = None) -> None:
         torch.manual_seed(seed)
         dt = tracks[0].dt
         states, tips = self._copies(*sequences(tracks, self.UNROLLED, 3))
@@ -127,7 +128,7 @@ class StrongNetwork:
                     )
                 return total / self.UNROLLED
 
-            _descend(network, loss, len(states), 512, epochs)
+            _descend(network, loss, len(states), 512, steps or self.EPOCHS * (len(states) // 512))
             self.networks.append(network)
 
     @staticmethod
@@ -164,10 +165,9 @@ class StrongNetwork:
         return torch.stack(each).mean(0)
 
 
-def _descend(network: Network, loss, count: int, size: int, epochs: int) -> None:  # type: ignore[no-untyped-def]
+def _descend(network: Network, loss, count: int, size: int, steps: int) -> None:  # type: ignore[no-untyped-def]
     """By Adam, with a rate that falls to nothing."""
     optimiser = torch.optim.Adam(network.parameters(), lr=1e-3)
-    steps = epochs * max(1, count // size)
     schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimiser, steps)
     for _ in range(steps):
         optimiser.zero_grad()
