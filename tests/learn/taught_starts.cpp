@@ -67,8 +67,21 @@ TEST_CASE("whoever begins in flight and keeps the hands where they are sees the 
   }
 }
 
+TEST_CASE("starts of strings of several lengths are for all of them") {
+  std::vector<Model> lent(2, consistent_model());
+  std::vector<FullPredictor<double>> predictors;
+  for (const double length : {1.45, 1.3}) {
+    Model& model = lent[predictors.size()];
+    model.parameters.string_length = length;
+    predictors.emplace_back(model.parameters, model.effects);
+  }
+  const std::vector<EpisodeStart> starts = taught_starts("ThrowAndCatch", predictors, {.plays = 4});
+  const ArenaOptions options{.task = "ThrowAndCatch", .starts = starts, .start_share = 1.0};
+  CHECK_NOTHROW(Arena(options, lent, best_batch_kernel()));
+}
+
 TEST_CASE("a play that is not caught, and what nobody teaches, give no starts") {
-  CHECK(starts_along(plan_action({.action = "swing"}, models()), {}, 0.02).empty());
+  CHECK(starts_along(plan_action({.action = "swing"}, models()), {}, 0.02, 2.0).empty());
   CHECK_THROWS_WITH(taught_starts("Hold", models(), {}),
                     Contains("task: found \"Hold\"") && Contains("Throw, ThrowAndCatch"));
   CHECK_THROWS_WITH(taught_starts("Throw", models(), {.plays = 0}), Contains("plays: 0; expected 1"));

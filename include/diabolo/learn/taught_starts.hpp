@@ -62,10 +62,11 @@ inline TipLimits tip_limits(const HandLimits& limits, const TipColumn<double>& h
 }
 
 /// Moments of a planned play, `every` seconds [s] and until its flight is caught, moved to the middle of the
-/// hands' box. Left out are those in which the hands are not within their limits. The goal of each is what
-/// the play reaches: its apex, and where it is caught. None where it is not caught.
+/// hands' box. Left out are those in which the hands are not within their limits, or farther apart than
+/// `farthest` [m]. The goal of each is what the play reaches: its apex, and where it is caught. None where it
+/// is not caught.
 inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const HandLimits& limits,
-                                              double every) {
+                                              double every, double farthest) {
   const std::vector<PlayInstant<double>>& instants = planned.play.instants;
   const auto flies = [](const PlayInstant<double>& instant) {
     return instant.state.string_state == StringState::kFlying;
@@ -91,12 +92,13 @@ inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const 
                        {{tips.left + shift, tips.right + shift}, {tips.left_velocity, tips.right_velocity}},
                        goal};
     start.state.position += shift;
-    if (limits.allow(start.hands)) starts.push_back(start);
+    if (limits.allow(start.hands) && (tips.left - tips.right).norm() <= farthest) starts.push_back(start);
   }
   return starts;
 }
 
-/// Starts for episodes of a task along plays with goals of its ranges, each planned with one of `models`.
+/// Starts for episodes of a task along plays with goals of its ranges, each planned with one of `models`. The
+/// hands keep to the shortest of their strings.
 /// Throws std::invalid_argument about bad input, and Cancelled.
 template <template <class> class... Effects>
 std::vector<EpisodeStart> taught_starts(std::string_view task,
@@ -111,6 +113,9 @@ std::vector<EpisodeStart> taught_starts(std::string_view task,
     throw std::invalid_argument("plays: " + std::to_string(options.plays) + "; expected 1 to " +
                                 std::to_string(LessonOptions::kMostPlays));
   wanted.search.cancelled = options.cancelled;
+  double farthest = std::numeric_limits<double>::infinity();
+  for (const auto& model : models)
+    farthest = std::min(farthest, model.parameters().string_length - options.limits.string_margin);
   std::vector<EpisodeStart> starts;
   for (int play = 0; play < options.plays; ++play) {
     Draw draw(options.seed, static_cast<std::uint64_t>(play));
@@ -120,7 +125,8 @@ std::vector<EpisodeStart> taught_starts(std::string_view task,
     const std::vector model{models[draw.index(models.size())]};
     const double length = model.front().parameters().string_length;
     wanted.limits = tip_limits(options.limits, home_pose(wanted.figure(), length));
-    const std::vector<EpisodeStart> along = starts_along(plan_action(wanted, model), options.limits, kEvery);
+    const std::vector<EpisodeStart> along =
+        starts_along(plan_action(wanted, model), options.limits, kEvery, farthest);
     starts.insert(starts.end(), along.begin(), along.end());
   }
   if (starts.empty())
