@@ -38,12 +38,18 @@ SHORTEST = 0.1  # a flight [s]
 MODES = {"ON_STRING": "on_string", "LOOSE": "loose", "FLYING": "flying"}
 
 
+Row = tuple[float, str, NDArray[np.float64]]
+"""Time [s], mode, and place from the hands' box's centre [m]."""
+
+
 @dataclass(frozen=True)
 class Thrown:
-    """What became of a throw: whether it was caught and kept, its apex above the hands' box's centre, and
-    where it was caught, from that centre to the left [m]."""
+    """What became of a throw: whether it was caught and not lost for half a second, as the task has it, and
+    whether it was on the string then; its apex above the hands' box's centre, and where it was caught, from
+    that centre to the left [m]."""
 
     caught: bool
+    calm: bool
     apex: float
     place: float
 
@@ -122,7 +128,7 @@ def tried(throw: Callable[..., Thrown], *given: Any) -> Thrown:
     try:
         return throw(*given)
     except program.FailedError:
-        return Thrown(False, float("nan"), float("nan"))
+        return Thrown(False, False, float("nan"), float("nan"))
 
 
 def thrown_by_agent(plant: Plant, agent: Agent, goal: tuple[float, float], spin: float) -> Thrown:
@@ -132,7 +138,7 @@ def thrown_by_agent(plant: Plant, agent: Agent, goal: tuple[float, float], spin:
     left, right = limits.centre + aside, limits.centre - aside
     hands = LiveAgent(agent, left, right, list(goal), string_length=plant.length)
     speeds = np.zeros(6)
-    rows = []
+    rows: list[Row] = []
     with plant.live(left, right, spin) as play:
         for _ in range(round(SECONDS / agent.period)):
             moment = play.moment
@@ -162,36 +168,53 @@ def thrown_by_player(plant: Plant, model: Any, goal: tuple[float, float], spin: 
     return judged(rows)
 
 
-def judged(rows: Sequence[tuple[float, str, NDArray[np.float64]]]) -> Thrown:
-    """The first flight that counts as one, and whether it was kept on the string half a second later."""
-    begun, apex = None, -np.inf
-    for number, (time, mode, place) in enumerate(rows):
+def judged(rows: Sequence[Row]) -> Thrown:
+    """The first flight, and what became of it in the half second after its catch."""
+    flight = flight_of(rows)
+    if not flight:
+        return Thrown(False, False, float("nan"), float("nan"))
+    begun, end = flight
+    time, _, place = rows[end]
+    after = [later for when, later, _ in rows[end:] if when <= time + KEPT]
+    lasts = rows[-1][0] >= time + KEPT
+    caught = bool("MISSED" not in after and lasts)
+    apex = max(height for _, _, (_, _, height) in rows[begun:end])
+    return Thrown(caught, caught and after[-1] != "FLYING", float(apex), float(place[1]))
+
+
+def flight_of(rows: Sequence[Row]) -> tuple[int, int] | None:
+    """The rows with which the first flight that counts as one begins and is over."""
+    begun = None
+    for number, (time, mode, _) in enumerate(rows):
         if mode == "FLYING":
-            begun = time if begun is None else begun
-            apex = max(apex, place[2])
-        elif begun is not None and time - begun < SHORTEST:
-            begun, apex = None, -np.inf
+            begun = number if begun is None else begun
+        elif begun is not None and time - rows[begun][0] < SHORTEST:
+            begun = None
         elif begun is not None:
-            after = [later for when, later, _ in rows[number:] if when <= time + KEPT]
-            lasts = rows[-1][0] >= time + KEPT
-            caught = mode != "MISSED" and "MISSED" not in after and after[-1] != "FLYING" and lasts
-            return Thrown(bool(caught), float(apex), float(place[1]))
-    return Thrown(False, float("nan"), float("nan"))
+            return begun, number
+    return None
 
 
 def print_table(found: dict[str, list[Thrown]], wanted: NDArray[np.float64]) -> None:
-    print("| who | caught | apex off, median | within 10 % | caught beside the place, median |")
-    print("|---|---|---|---|---|")
+    print(
+        "| who | caught | on the string 0.5 s later | apex off, median | within 10 % | "
+        "caught beside the place, median |"
+    )
+    print("|---|---|---|---|---|---|")
     for name, throws in found.items():
         caught = np.array([one.caught for one in throws])
         apex = np.abs(np.array([one.apex for one in throws]) - wanted[:, 0])
         beside = np.abs(np.array([one.place for one in throws]) - wanted[:, 1])
-        low, high = interval(int(caught.sum()), len(caught))
-        cells = [f"{caught.sum()} of {len(caught)} ({low:.0%} to {high:.0%})"]
+        cells = [share([one.caught for one in throws]), share([one.calm for one in throws])]
         if caught.any():
             near = np.count_nonzero(apex[caught] < 0.1 * wanted[caught, 0])
             cells += [f"{np.median(apex[caught]):.2f} m", f"{near}", f"{np.median(beside[caught]):.2f} m"]
         print(f"| {name} | " + " | ".join(cells) + " |")
+
+
+def share(hits: Sequence[bool]) -> str:
+    low, high = interval(sum(hits), len(hits))
+    return f"{sum(hits)} of {len(hits)} ({low:.0%} to {high:.0%})"
 
 
 def interval(hits: int, count: int) -> tuple[float, float]:
