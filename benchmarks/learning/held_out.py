@@ -18,12 +18,15 @@ RATE = 120.0
 DIVERGED = 1e3  # what is farther off counts as this [m]
 
 
-def read(path: Path) -> diabolo.Recording:
-    take = diabolo.load_recording(path)
+def load_at_rate(path: Path) -> diabolo.Recording:
+    return at_rate(diabolo.load_recording(path))
+
+
+def at_rate(take: diabolo.Recording) -> diabolo.Recording:
     return take if abs(take.rate - RATE) < 1.0 else take.resample(RATE)
 
 
-def track(take: diabolo.Recording) -> Track:
+def track_of(take: diabolo.Recording) -> Track:
     """Velocities from the rows beside, spins from the mean of the two around."""
     place, spin = np.asarray(take.diabolo), np.asarray(take.spin())
     velocity, at = np.full_like(place, np.nan), np.full(len(place), np.nan)
@@ -32,7 +35,7 @@ def track(take: diabolo.Recording) -> Track:
     return Track(np.column_stack([place, velocity, at]), np.hstack([take.left, take.right]), 1.0 / RATE)
 
 
-def held(tips: NDArray[np.float64]) -> NDArray[np.float64]:
+def with_last_seen(tips: NDArray[np.float64]) -> NDArray[np.float64]:
     """Tips with what is not seen as it was last."""
     held = tips.copy()
     for i in range(1, len(held)):
@@ -41,7 +44,7 @@ def held(tips: NDArray[np.float64]) -> NDArray[np.float64]:
     return held
 
 
-def from_many_starts(
+def horizon_errors(
     take: diabolo.Recording,
     networks: Sequence[PaperNetwork | StrongNetwork],
     models: Mapping[str, diabolo.Model | str],
@@ -49,7 +52,7 @@ def from_many_starts(
 ) -> dict[str, NDArray[np.float64]]:
     """Distances after each horizon, (starts, horizons), NaN where nothing is seen."""
     rows = [round(horizon * RATE) for horizon in horizons]
-    true, tips = np.asarray(take.diabolo), held(np.hstack([take.left, take.right]))
+    true, tips = np.asarray(take.diabolo), with_last_seen(np.hstack([take.left, take.right]))
     found: dict[str, list[NDArray[np.float64]]] = {name: [] for name in (*models, "at rest")}
     starts, windows, wanted = [], [], []
     for i in range(0, len(true) - rows[0], round(EVERY * RATE)):
@@ -68,18 +71,20 @@ def from_many_starts(
         truth = np.where((ends < len(true))[:, None], true[inside], np.nan)
         for name, states in simulated.items():
             found[name].append(distance(states[inside, :3], truth))
-        found["at rest"].append(distance(lowest(tips[inside]), truth))
+        found["at rest"].append(distance(resting_place(tips[inside]), truth))
         path = tips[i : i + rows[-1] + 1]
         windows.append(np.vstack([path, np.repeat(path[-1:], rows[-1] + 1 - len(path), 0)]))
         starts.append(start)
         wanted.append(truth)
+    if not starts:
+        return {}
     for network in networks:
         places = predicted(network, np.array(starts), np.array(windows), 1.0 / RATE)
         found[network.name] = [distance(p[rows], t) for p, t in zip(places, wanted, strict=True)]
     return {name: np.array(values) for name, values in found.items()}
 
 
-def lowest(tips: NDArray[np.float64], length: float = 1.45) -> NDArray[np.float64]:
+def resting_place(tips: NDArray[np.float64], length: float = 1.45) -> NDArray[np.float64]:
     """Where a diabolo rests on a string of that length."""
     left, right = tips[:, :3], tips[:, 3:]
     sag = 0.5 * np.sqrt(np.maximum(0.0, length**2 - np.sum((left - right) ** 2, 1)))
@@ -98,7 +103,9 @@ def print_horizons(
     horizons: Sequence[float] = HORIZONS,
     shown: Sequence[float] = HORIZONS,
 ) -> None:
-    print(f"\nMean (median) distance from starts each {EVERY:g} s on whole takes left out [m]:\n")
+    print(f"\nMean (median) distance from starts each {EVERY:g} s of what none learned from [m]:\n")
+    if not errors:
+        raise ValueError("no start was found in any take; expected takes in which the diabolo is seen")
     names = list(errors)
     print("| after | starts | " + " | ".join(names) + " |")
     print("|---|---|" + "---|" * len(names))

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""What an agent may be trained on, for a plant: the model that a diagnosis found, models that it cannot
-tell from that one, and models of all that may be.
+"""What an agent may be trained on, for a plant: the model that a diagnosis found, models that its recordings
+cannot distinguish from that one, and models drawn from a wide range.
 
 OUT gets three folders of model files: `point` with one, `posterior` and `wide` with 64 each. The plant plays
-30 s, filmed, and is diagnosed. `wide` knows the string's length alone.
+30 s, filmed, and is diagnosed. `wide` knows the string's length, the
+diabolo's inertia and what damps the string and the sticks.
 """
 
 from __future__ import annotations
@@ -24,25 +25,28 @@ from ..proof.player.plant import Plant
 EXAMPLE = """\
   make plant && python -m benchmarks.learning.models OUT
   diabolo train ThrowAndCatch --model OUT/posterior/*.json --steps 9000000 --out posterior
-  python -m benchmarks.learning.on_plant --around 0.1 --agent posterior/agent.json"""
+  python -m benchmarks.learning.on_plant --around 0.2 --agent posterior/agent.json"""
 COUNT = 64
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = command.make_parser("benchmarks.learning.models", __doc__, EXAMPLE)
     parser.add_argument("out", metavar="OUT", type=Path, help="folder to write; a new one")
-    parser.add_argument("--seed", type=int, default=1, metavar="N")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the wide range; default: 1")
     program.add_option(parser)
     return command.run(parser, run, arguments)
 
 
 def run(given: argparse.Namespace) -> int:
     program.check(given.plant)
+    if given.out.exists():
+        raise ValueError(f"{given.out}: is there; expected a new folder")
     plant = Plant(given.plant)
     takes = plant.practice()
     found = diabolo.diagnose(takes, draws=COUNT)
+    if found.headline == "INSUFFICIENT_DATA":
+        raise ValueError(found.sentence)
     print(found.sentence)
-    assert found.models is not None
     rng = np.random.default_rng(given.seed)
     models = {
         "point": [diabolo.model_for(found.model, takes[0])],

@@ -89,7 +89,7 @@ class PaperNetwork:
         def loss(batch: Tensor) -> Tensor:
             return (((self.network(seen[batch]) - wanted[batch]) / scale) ** 2).mean()
 
-        _descend(self.network, loss, len(seen), 256, steps or self.EPOCHS * (len(seen) // 256))
+        _descend(self.network, loss, len(seen), 256, self.EPOCHS, steps)
 
     @staticmethod
     def _relative(state: Tensor, tips: Tensor) -> Tensor:
@@ -128,7 +128,7 @@ class StrongNetwork:
                     )
                 return total / self.UNROLLED
 
-            _descend(network, loss, len(states), 512, steps or self.EPOCHS * (len(states) // 512))
+            _descend(network, loss, len(states), 512, self.EPOCHS, steps)
             self.networks.append(network)
 
     @staticmethod
@@ -165,8 +165,10 @@ class StrongNetwork:
         return torch.stack(each).mean(0)
 
 
-def _descend(network: Network, loss, count: int, size: int, steps: int) -> None:  # type: ignore[no-untyped-def]
+def _descend(network: Network, loss, count: int, size: int, epochs: int, steps: int | None) -> None:  # type: ignore[no-untyped-def]
     """By Adam, with a rate that falls to nothing."""
+    if steps is None:
+        steps = epochs * max(1, count // size)
     optimiser = torch.optim.Adam(network.parameters(), lr=1e-3)
     schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimiser, steps)
     for _ in range(steps):

@@ -4,7 +4,7 @@
 Each plant has numbers of its own, and a goal: a height and a place. An agent looks
 50 times a second and moves the hands of the plant; the player plans once, on a model, and its plan is played
 as it is. Both keep to the same limits of the hands, and to the same box. The plants are those of
-benchmarks.proof.player, or all near a usual one (benchmarks.learning.models is made for it).
+benchmarks.proof.player, or all near its usual one, on whose play benchmarks.learning.models is based.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ Row = tuple[float, str, NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class Thrown:
-    """What became of a throw: whether it was caught and not lost for half a second, as the task has it, and
-    whether it was on the string then; its apex above the hands' box's centre, and where it was caught, from
+    """What became of a throw: whether it was caught and not lost for half a second, and
+    whether it did not fly then; its apex above the hands' box's centre, and where it was caught, from
     that centre to the left [m]."""
 
     caught: bool
-    calm: bool
+    not_flying: bool
     apex: float
     place: float
 
@@ -67,7 +67,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--around",
         type=float,
         metavar="SHARE",
-        help="each number of a plant is within this share of the usual plant's; default: far apart",
+        help="friction, stiffness of sticks and string, drag and lift are within this share of the usual "
+        "plant's; default: far apart",
     )
     parser.add_argument("--seed", type=int, default=1, metavar="N")
     parser.add_argument("--json", type=Path, metavar="FILE", help="each throw, to write")
@@ -89,7 +90,7 @@ def run(given: argparse.Namespace) -> int:
     wanted: list[tuple[float, float]] = []
     for number in range(given.plants):
         rng = np.random.default_rng([given.seed, number])
-        plant = draw(given.plant, rng) if given.around is None else near(given.plant, given.around, rng)
+        plant = draw(given.plant, rng) if given.around is None else plant_near(given.plant, given.around, rng)
         spin = float(rng.uniform(60.0, 120.0))
         height = given.height or float(rng.uniform(0.3, 0.8))
         goal = (height, float(rng.uniform(-0.3, 0.3)))
@@ -107,7 +108,7 @@ def run(given: argparse.Namespace) -> int:
     return 0
 
 
-def near(file: Path, share: float, rng: np.random.Generator) -> Plant:
+def plant_near(file: Path, share: float, rng: np.random.Generator) -> Plant:
     """A plant within a share of the usual one; its string, which one can measure, is as long."""
     varied = ("friction", "bending_stiffness", "stiffness", "drag", "magnus")
     usual = Plant(file, seed=int(rng.integers(1, 1000))).facts()
@@ -197,7 +198,7 @@ def flight_of(rows: Sequence[Row]) -> tuple[int, int] | None:
 
 def print_table(found: dict[str, list[Thrown]], wanted: NDArray[np.float64]) -> None:
     print(
-        "| who | caught | on the string 0.5 s later | apex off, median | within 10 % | "
+        "| who | caught | not flying 0.5 s later | apex off, median | within 10 % | "
         "caught beside the place, median |"
     )
     print("|---|---|---|---|---|---|")
@@ -205,14 +206,14 @@ def print_table(found: dict[str, list[Thrown]], wanted: NDArray[np.float64]) -> 
         caught = np.array([one.caught for one in throws])
         apex = np.abs(np.array([one.apex for one in throws]) - wanted[:, 0])
         beside = np.abs(np.array([one.place for one in throws]) - wanted[:, 1])
-        cells = [share([one.caught for one in throws]), share([one.calm for one in throws])]
+        cells = [share_cell([one.caught for one in throws]), share_cell([one.not_flying for one in throws])]
         if caught.any():
             near = np.count_nonzero(apex[caught] < 0.1 * wanted[caught, 0])
             cells += [f"{np.median(apex[caught]):.2f} m", f"{near}", f"{np.median(beside[caught]):.2f} m"]
         print(f"| {name} | " + " | ".join(cells) + " |")
 
 
-def share(hits: Sequence[bool]) -> str:
+def share_cell(hits: Sequence[bool]) -> str:
     low, high = interval(sum(hits), len(hits))
     return f"{sum(hits)} of {len(hits)} ({low:.0%} to {high:.0%})"
 

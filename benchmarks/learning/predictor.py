@@ -21,7 +21,7 @@ import torch
 from numpy.typing import NDArray
 
 from .. import command
-from .held_out import RATE, distance, from_many_starts, held, print_horizons, read, track
+from .held_out import RATE, distance, horizon_errors, load_at_rate, print_horizons, track_of, with_last_seen
 from .networks import PaperNetwork, StrongNetwork, Track, predicted
 
 EXAMPLE = "  python -m benchmarks.learning.predictor FOLDER      # the authors' recordings"
@@ -43,18 +43,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: argparse.Namespace) -> int:
     torch.set_num_threads(1)
-    takes = {path.stem: read(path) for path in sorted(_paths(arguments.folder))}
+    takes = {path.stem: load_at_rate(path) for path in sorted(_paths(arguments.folder))}
     table: dict[str, list[float]] = {}
     errors: dict[str, list[NDArray[np.float64]]] = {}
     for name, take in takes.items():
         if "free" in name or "trials" in name:
             continue
         begin = time.monotonic()
-        tracks = [_without(track(other), take) for key, other in takes.items() if key != name]
+        tracks = [_without(track_of(other), take) for key, other in takes.items() if key != name]
         networks = [kind(tracks, arguments.seed) for kind in (PaperNetwork, StrongNetwork)]
         if name in TABLE:
             table[name] = _excerpt(take, TABLE[name][0], networks)
-        for label, values in from_many_starts(take, networks, {"consistent": "consistent"}).items():
+        for label, values in horizon_errors(take, networks, {"consistent": "consistent"}).items():
             errors.setdefault(label, []).append(values)
         print(f"{name}: {time.monotonic() - begin:.0f} s", file=sys.stderr)
     _print_table(table)
@@ -82,7 +82,7 @@ def _excerpt(take: diabolo.Recording, last: int, networks: Sequence[Any]) -> lis
     """Mean distances over the paper's excerpt: of the published rules, and of each network."""
     part = take.cut(0, last)
     published = diabolo.predict(part, "published", row=0, start="published")
-    true, tips = np.asarray(part.diabolo), held(np.hstack([part.left, part.right]))
+    true, tips = np.asarray(part.diabolo), with_last_seen(np.hstack([part.left, part.right]))
     start = published.states[:1]
     start = np.where(np.isfinite(start), start, 0.0)
     paths = [published.states[:, :3]]

@@ -2,7 +2,8 @@
 """How much play a neural predictor needs, and a diagnosis: both learn from the independent plant's play.
 
 The networks of benchmarks.learning.predictor learn from 1, 3, ... minutes, with equally many steps of the
-optimiser; a diagnosis takes half a minute. All predict another minute of the plant's play.
+optimiser; a diagnosis takes half a minute. All predict another minute of the plant's play. Each half a minute
+has the same figures, never moved alike: more play is not more variety, which favours the networks.
 """
 
 from __future__ import annotations
@@ -17,12 +18,13 @@ from pathlib import Path
 import diabolo
 import numpy as np
 import torch
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from .. import command
 from ..proof import plant as program
 from ..proof.player.plant import PRACTICE, Plant
-from .held_out import RATE, from_many_starts, print_horizons, track
+from .held_out import at_rate, horizon_errors, print_horizons, track_of
 from .networks import PaperNetwork, StrongNetwork, Track
 
 EXAMPLE = "  make plant && python -m benchmarks.learning.scaling --png scaling.png"
@@ -36,7 +38,7 @@ HELD_OUT, DIAGNOSED = (501, 502), 500  # seeds of plays that no network learns f
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = command.make_parser("benchmarks.learning.scaling", __doc__, EXAMPLE)
     parser.add_argument(
-        "--minutes", type=float, nargs="+", default=MINUTES, metavar="N", help="default: 1 3 10 100"
+        "--minutes", type=int, nargs="+", default=MINUTES, metavar="N", help="default: 1 3 10 100"
     )
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the networks; default: 1")
     parser.add_argument("--png", type=Path, metavar="FILE", help="error against time, to draw")
@@ -45,21 +47,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def run(given: argparse.Namespace) -> int:
-    if not all(0.5 <= minutes <= 200.0 for minutes in given.minutes):
-        raise ValueError(f"--minutes {given.minutes}; expected 0.5 to 200")
+    minutes_given = sorted(set(given.minutes))
+    if not 1 <= minutes_given[0] <= minutes_given[-1] <= 200:
+        raise ValueError(f"--minutes {given.minutes}; expected 1 to 200")
+    if given.png and not (given.png.suffix == ".png" and given.png.parent.is_dir()):
+        raise ValueError(f"--png {given.png}; expected a file NAME.png in a folder that is there")
     program.check(given.plant)
     torch.set_num_threads(1)
-    plays = [round(60.0 * minutes / PRACTICE) for minutes in given.minutes]
+    plays = [round(60.0 * minutes / PRACTICE) for minutes in minutes_given]
     tracks = played(given.plant, range(1, max(plays) + 1))
     takes = Plant(given.plant, seed=DIAGNOSED).practice()
     found = diabolo.diagnose(takes)
+    if found.headline == "INSUFFICIENT_DATA":
+        raise ValueError(found.sentence)
     print(f"diagnosed, {PRACTICE:g} s: {found.sentence}")
     models: dict[str, diabolo.Model | str] = {
         "consistent": "consistent",
         "diagnosed": diabolo.model_for(found.model, takes[0]),
     }
     networks: list[PaperNetwork | StrongNetwork] = []
-    for count, minutes in zip(plays, given.minutes, strict=True):
+    for count, minutes in zip(plays, minutes_given, strict=True):
         for kind, steps in STEPS.items():
             begin = time.monotonic()
             networks.append(kind([one for each in tracks[:count] for one in each], given.seed, steps))
@@ -68,11 +75,11 @@ def run(given: argparse.Namespace) -> int:
     errors: dict[str, list[NDArray[np.float64]]] = {}
     for seed in HELD_OUT:
         for take in Plant(given.plant, seed=seed).practice():
-            for name, values in from_many_starts(at_rate(take), networks, models, FINE).items():
+            for name, values in horizon_errors(at_rate(take), networks, models, FINE).items():
                 errors.setdefault(name, []).append(values)
     print_horizons(errors, FINE)
     if given.png:
-        draw(errors, given.png)
+        draw_figure(errors, given.png)
     return 0
 
 
@@ -80,7 +87,7 @@ def played(file: Path, seeds: Sequence[int]) -> list[list[Track]]:
     """The plant's own play, filmed, for each seed."""
 
     def one(seed: int) -> list[Track]:
-        return [track(at_rate(take)) for take in Plant(file, seed=seed).practice()]
+        return [track_of(at_rate(take)) for take in Plant(file, seed=seed).practice()]
 
     with ThreadPoolExecutor() as pool:
         found = []
@@ -91,14 +98,8 @@ def played(file: Path, seeds: Sequence[int]) -> list[list[Track]]:
     return found
 
 
-def at_rate(take: diabolo.Recording) -> diabolo.Recording:
-    return take if abs(take.rate - RATE) < 1.0 else take.resample(RATE)
-
-
-def draw(errors: dict[str, list[NDArray[np.float64]]], path: Path) -> None:
+def draw_figure(errors: dict[str, list[NDArray[np.float64]]], path: Path) -> None:
     """Median errors against time."""
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=(7.0, 4.2), layout="constrained")
     axes = figure.subplots()
     looks = {"neural net, rebuilt": "tab:red", "neural net, strong": "tab:blue"}

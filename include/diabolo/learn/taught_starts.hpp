@@ -62,7 +62,7 @@ inline TipLimits tip_limits(const HandLimits& limits, const TipColumn<double>& h
 }
 
 /// Moments of a planned play, `every` seconds [s] and until its flight is caught, moved to the middle of the
-/// hands' box. Left out are those in which the hands are not within their limits, or farther apart than
+/// hands' box. Skips moments in which the hands are not within their limits, or farther apart than
 /// `farthest` [m]. The goal of each is what the play reaches: its apex, and where it is caught. None where it
 /// is not caught.
 inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const HandLimits& limits,
