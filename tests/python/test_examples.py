@@ -21,7 +21,7 @@ def run(example: Path, folder: Path, **environment: str) -> str:
         env={**os.environ, "MPLBACKEND": "Agg", **environment},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=240,
     )
     assert (done.returncode, done.stderr) == (0, "")
     return done.stdout
