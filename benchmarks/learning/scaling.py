@@ -100,7 +100,7 @@ def played(file: Path, seeds: Sequence[int]) -> list[list[Track]]:
 
 def draw_figure(errors: dict[str, list[NDArray[np.float64]]], path: Path) -> None:
     """Median errors against time."""
-    figure = Figure(figsize=(7.0, 4.2), layout="constrained")
+    figure = Figure(figsize=(8.6, 4.2), layout="constrained")
     axes = figure.subplots()
     looks = {"neural net, rebuilt": "tab:red", "neural net, strong": "tab:blue"}
     for name, values in errors.items():
@@ -114,7 +114,7 @@ def draw_figure(errors: dict[str, list[NDArray[np.float64]]], path: Path) -> Non
         )
     axes.set(xlabel="time from the start [s]", ylabel="median error [mm]", xlim=(0.0, FINE[-1]))
     axes.grid(visible=True, which="both", alpha=0.2)
-    axes.legend(fontsize=8, ncols=2)
+    figure.legend(fontsize=8, loc="outside right center")
     figure.savefig(path, dpi=110)
 
 
