@@ -3,8 +3,8 @@
 cannot distinguish from that one, and models drawn from a wide range.
 
 OUT gets three folders of model files: `point` with one, `posterior` and `wide` with 64 each. The plant plays
-30 s, filmed, and is diagnosed. `wide` knows the string's length, the
-diabolo's inertia and what damps the string and the sticks.
+30 s, filmed, and is diagnosed. `wide` knows the string's length, the diabolo's inertia and what damps the
+string and the sticks.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Agents and the player, thrown on the independent plant: who catches.
 
-Each plant has numbers of its own, and a goal: a height and a place. An agent looks
-50 times a second and moves the hands of the plant; the player plans once, on a model, and its plan is played
-as it is. Both keep to the same limits of the hands, and to the same box. The plants are those of
-benchmarks.proof.player, or all near its usual one, on whose play benchmarks.learning.models is based.
+Each plant has numbers of its own, and a goal: a height and a place. An agent looks 50 times a second and
+moves the hands of the plant; the player plans once, on a model, and its plan is played as it is. Both keep
+to the same limits of the hands, and to the same box. The plants are those of benchmarks.proof.player, or all
+near its usual one, on whose play benchmarks.learning.models is based.
 """
 
 from __future__ import annotations
@@ -208,8 +208,8 @@ def print_table(found: dict[str, list[Thrown]], wanted: NDArray[np.float64]) -> 
         beside = np.abs(np.array([one.place for one in throws]) - wanted[:, 1])
         cells = [share_cell([one.caught for one in throws]), share_cell([one.not_flying for one in throws])]
         if caught.any():
-            near = np.count_nonzero(apex[caught] < 0.1 * wanted[caught, 0])
-            cells += [f"{np.median(apex[caught]):.2f} m", f"{near}", f"{np.median(beside[caught]):.2f} m"]
+            near = share_cell(list(caught & (apex < 0.1 * wanted[:, 0])))
+            cells += [f"{np.median(apex[caught]):.2f} m", near, f"{np.median(beside[caught]):.2f} m"]
         print(f"| {name} | " + " | ".join(cells) + " |")
 
 
