@@ -2,7 +2,8 @@
 """What an agent may be trained on, for a plant: the model that a diagnosis found, models that its recordings
 cannot distinguish from that one, and models drawn from a wide range.
 
-OUT gets three folders of model files: `point` with one, `posterior` and `wide` with 64 each. The plant plays
+OUT gets folders of model files: `point` with one, `posterior` and `wide` with 64 each, and `sealed` with the
+first sixteen of the posterior, which the package has for the difficulty of that name. The plant plays
 30 s, filmed, and is diagnosed. `wide` knows the string's length, the diabolo's inertia and what damps the
 string and the sticks.
 """
@@ -10,9 +11,11 @@ string and the sticks.
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import diabolo
 import numpy as np
@@ -26,7 +29,7 @@ EXAMPLE = """\
   make plant && python -m benchmarks.learning.models OUT
   diabolo train ThrowAndCatch --model OUT/posterior/*.json --steps 9000000 --out posterior
   python -m benchmarks.learning.on_plant --around 0.2 --agent posterior/agent.json"""
-COUNT = 64
+COUNT, SEALED = 64, 16
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -58,7 +61,23 @@ def run(given: argparse.Namespace) -> int:
         for number, model in enumerate(ones):
             (given.out / name / f"{number:02d}.json").write_text(model.to_json(), encoding="utf-8")
         print(f"{given.out / name}: {len(ones)}")
+    (given.out / "sealed").mkdir()
+    for path in sorted((given.out / "posterior").iterdir())[:SEALED]:
+        text = sealed(json.loads(path.read_text(encoding="utf-8")), f"sealed {path.stem}")
+        (given.out / "sealed" / path.name).write_text(text, encoding="utf-8")
     return 0
+
+
+def sealed(model: dict[str, Any], name: str) -> str:
+    """A model file without what it takes from recordings, in six digits."""
+    kept = {key: value for key, value in model.items() if key != "from_recording"} | {"name": name}
+    return json.dumps(rounded(kept), indent=1) + "\n"
+
+
+def rounded(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: rounded(one) for key, one in value.items()}
+    return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
 def wide(length: float, rng: np.random.Generator) -> Model:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Agents and the player, thrown on the independent plant: who catches.
 
-Each plant has numbers of its own, and a goal: a height and a place. An agent looks 50 times a second and
-moves the hands of the plant; the player plans once, on a model, and its plan is played as it is. Both keep
-to the same limits of the hands, and to the same box. The plants are those of benchmarks.proof.player, or all
-near its usual one, on whose play benchmarks.learning.models is based.
+Each plant has numbers of its own, and a goal: a height and a place. An agent looks 50 times a second, at
+the true state or by a camera, and moves the hands of the plant; the player plans once, on a model, and its
+plan is played as it is. Both keep to the same limits of the hands, and to the same box. The plants are those
+of benchmarks.proof.player, or all near its usual one, on whose play benchmarks.learning.models is based.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from typing import Any
 
 import diabolo
 import numpy as np
-from diabolo.envs import Agent, HandLimits, LiveAgent, shipped_agent
+from diabolo.envs import Agent, Camera, HandLimits, LiveAgent, shipped_agent
 from numpy.typing import NDArray
 
 from .. import command
@@ -70,6 +70,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         help="friction, stiffness of sticks and string, drag and lift are within this share of the usual "
         "plant's; default: far apart",
     )
+    parser.add_argument(
+        "--camera", action="store_true", help="agents see what a camera sees: noise, dropouts, delay"
+    )
     parser.add_argument("--seed", type=int, default=1, metavar="N")
     parser.add_argument("--json", type=Path, metavar="FILE", help="each throw, to write")
     program.add_option(parser)
@@ -95,8 +98,9 @@ def run(given: argparse.Namespace) -> int:
         height = given.height or float(rng.uniform(0.3, 0.8))
         goal = (height, float(rng.uniform(-0.3, 0.3)))
         wanted.append(goal)
+        camera = Camera() if given.camera else None
         for name, agent in players.items():
-            found[name].append(tried(thrown_by_agent, plant, agent, goal, spin))
+            found[name].append(tried(thrown_by_agent, plant, agent, goal, spin, camera, number))
         for name in MODELS:
             found[name].append(tried(thrown_by_player, plant, MODELS[name](plant), goal, spin))
         print(f"\rplant {number + 1} of {given.plants}", end="", file=sys.stderr, flush=True)
@@ -132,12 +136,14 @@ def tried(throw: Callable[..., Thrown], *given: Any) -> Thrown:
         return Thrown(False, False, float("nan"), float("nan"))
 
 
-def thrown_by_agent(plant: Plant, agent: Agent, goal: tuple[float, float], spin: float) -> Thrown:
+def thrown_by_agent(
+    plant: Plant, agent: Agent, goal: tuple[float, float], spin: float, camera: Camera | None, seed: int
+) -> Thrown:
     """An agent's hands on the plant, for an episode."""
     limits = HandLimits()
     aside = np.array([0.0, 0.288, 0.0])  # where an episode begins
     left, right = limits.centre + aside, limits.centre - aside
-    hands = LiveAgent(agent, left, right, list(goal), string_length=plant.length)
+    hands = LiveAgent(agent, left, right, list(goal), string_length=plant.length, camera=camera, seed=seed)
     speeds = np.zeros(6)
     rows: list[Row] = []
     with plant.live(left, right, spin) as play:

@@ -112,19 +112,25 @@ py::dict outcome(const Arena& arena, std::size_t i) {
                   "apex"_a = episode.memory.apex, "goal"_a = goal, "model"_a = episode.model);
 }
 
+constexpr int kMostCounted = 1000;  // stages and flights of an episode's start
+
 EpisodeStart make_start(const State<double>& state, const Vector3<double>& left, const Vector3<double>& right,
                         const Vector3<double>& left_velocity, const Vector3<double>& right_velocity,
-                        const std::optional<std::vector<double>>& goal) {
-  EpisodeStart start{state, {{left, right}, {left_velocity, right_velocity}}, {}};
+                        const std::optional<std::vector<double>>& goal, int stage, int flights) {
+  for (const auto& [name, number] : {std::pair("stage", stage), std::pair("flights", flights)})
+    if (number < 0 || number > kMostCounted)
+      throw std::invalid_argument(std::string(name) + ": " + std::to_string(number) + "; expected 0 to " +
+                                  std::to_string(kMostCounted));
+  EpisodeStart start{state, {{left, right}, {left_velocity, right_velocity}}, {}, stage, flights};
   if (goal) start.goal = goal_of(*goal, 1, kMostGoalNumbers);
   return start;
 }
 
 LiveAgent make_live(const Agent& agent, const Vector3<double>& left, const Vector3<double>& right,
                     const std::vector<double>& goal, const HandLimits& limits, double string_length,
-                    double gravity) {
+                    double gravity, const std::optional<Camera>& camera, std::uint64_t seed) {
   const std::size_t size = goal_size(*task_named(agent.task).info);
-  const LiveOptions options{goal_of(goal, size, size), limits, string_length, gravity};
+  const LiveOptions options{goal_of(goal, size, size), limits, string_length, gravity, camera, seed};
   return {agent, Hands{{left, right}, {Vector3<double>::Zero(), Vector3<double>::Zero()}}, options};
 }
 
@@ -248,17 +254,21 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
   py::class_<EpisodeStart>(
       module, "EpisodeStart",
       "What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: "
-      "the diabolo's state, the tips' places [m] and velocities [m/s], and the goal; None: it is drawn.")
+      "the diabolo's state, the tips' places [m] and velocities [m/s], the goal (None: it is drawn), the "
+      "stage "
+      "of a task that has several, and how many flights were caught.")
       .def(py::init(&make_start), "state"_a, "left"_a, "right"_a, "left_velocity"_a = none,
-           "right_velocity"_a = none, "goal"_a = py::none())
+           "right_velocity"_a = none, "goal"_a = py::none(), "stage"_a = 0, "flights"_a = 0)
       .def(py::pickle(
           [](const EpisodeStart& s) {
-            return py::make_tuple(s.state, s.hands.position, s.hands.velocity, s.goal);
+            return py::make_tuple(s.state, s.hands.position, s.hands.velocity, s.goal, s.stage, s.flights);
           },
           [](const py::tuple& t) {
             return EpisodeStart{t[0].cast<State<double>>(),
                                 {t[1].cast<Hands::Pair>(), t[2].cast<Hands::Pair>()},
-                                t[3].cast<std::optional<Goal>>()};
+                                t[3].cast<std::optional<Goal>>(),
+                                t[4].cast<int>(),
+                                t[5].cast<int>()};
           }));
   py::class_<Arena>(module, "Arena",
                     "Environments side by side, in the compiled core: what diabolo.envs is made of. Its "
@@ -320,10 +330,11 @@ weights of the shape (outputs, inputs), with tanh between them. Outputs are cut 
                         R"(An agent at the sticks of a robot or of somebody else's simulator.
 
 left and right [m]: where the tips are at first, at rest; goal: as many numbers as the task has; string_length [m];
-gravity [m/s^2]. Raises ValueError where the tips are not within the limits.)")
+gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed. Raises
+ValueError where the tips are not within the limits.)")
       .def(py::init(&make_live), "agent"_a, "left"_a, "right"_a, "goal"_a = std::vector<double>(),
            py::arg_v("limits", usual, "HandLimits()"), "string_length"_a = live.string_length,
-           "gravity"_a = live.gravity)
+           "gravity"_a = live.gravity, "camera"_a = py::none(), "seed"_a = 0)
       .def_property_readonly("agent", &LiveAgent::agent)
       .def(
           "act",

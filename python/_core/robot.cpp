@@ -3,12 +3,14 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "diabolo/diagnose/smooth_tips.hpp"
+#include "diabolo/learn/arm_hands.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/robot/arm/build_seed_grid.hpp"
 #include "diabolo/robot/arm/inverse_near.hpp"
@@ -379,6 +381,21 @@ what must stay between the arms [m]. Called with a TipPath, it returns a list of
            "left"_a, "right"_a, "speed"_a = limits.speed[0], "acceleration"_a = limits.acceleration[0],
            "jerk"_a = limits.jerk[0], "least_clearance"_a = 0.10, "share"_a = 0.97)
       .def("__call__", &RobotLimits::operator(), "path"_a, Unlocked());
+
+  module.def(
+      "arm_hand_limits",
+      [](const StickMap& left, const StickMap& right, double speed, double acceleration,
+         const std::optional<HandLimits>& room) {
+        const py::gil_scoped_release unlocked;
+        return arm_hand_limits(left, right, JointLimits::uniform(speed, acceleration),
+                               room.value_or(arm_room()));
+      },
+      "left"_a, "right"_a, "speed"_a = limits.speed[0], "acceleration"_a = limits.acceleration[0],
+      "room"_a = py::none(),
+      R"(HandLimits of an agent under which no joint of two arms, each a StickMap, exceeds `speed` [rad/s] or
+`acceleration` [rad/s^2], wherever in its part of a box a tip is. The box is that of `room`, HandLimits whose speed and acceleration do not
+count; None is one in front of the paper's arms. Jerk is not limited. Raises ValueError where an arm does not
+reach its part.)");
 
   module.def("keep_limits", &limit, "joints"_a, "speed"_a = limits.speed[0],
              "acceleration"_a = limits.acceleration[0], "jerk"_a = limits.jerk[0],

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_text', 'recorded_plan', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
@@ -3104,11 +3104,11 @@ class Camera:
         ...
 class EpisodeStart:
     """
-    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], and the goal; None: it is drawn.
+    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], the goal (None: it is drawn), the stage of a task that has several, and how many flights were caught.
     """
-    def __getstate__(self) -> tuple[State, typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[float], "FixedSize(2)"] | None]:
+    def __getstate__(self) -> tuple[State, typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[float], "FixedSize(2)"] | None, int, int]:
         ...
-    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None) -> None:
+    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, stage: typing.SupportsInt | typing.SupportsIndex = 0, flights: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
         ...
     def __setstate__(self, arg0: tuple) -> None:
         ...
@@ -3209,9 +3209,10 @@ class LiveAgent:
     An agent at the sticks of a robot or of somebody else's simulator.
     
     left and right [m]: where the tips are at first, at rest; goal: as many numbers as the task has; string_length [m];
-    gravity [m/s^2]. Raises ValueError where the tips are not within the limits.
+    gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed. Raises
+    ValueError where the tips are not within the limits.
     """
-    def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], limits: HandLimits = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.45, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> None:
+    def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], limits: HandLimits = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.45, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, camera: Camera | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
         ...
     def act(self, state: State) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
         """
@@ -3820,6 +3821,13 @@ class RobotLimits:
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """
     The figure of that name from a pose of the tips and a state of the diabolo.
+    """
+def arm_hand_limits(left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, room: HandLimits | None = None) -> HandLimits:
+    """
+    HandLimits of an agent under which no joint of two arms, each a StickMap, exceeds `speed` [rad/s] or
+    `acceleration` [rad/s^2], wherever in its part of a box a tip is. The box is that of `room`, HandLimits whose speed and acceleration do not
+    count; None is one in front of the paper's arms. Jerk is not limited. Raises ValueError where an arm does not
+    reach its part.
     """
 def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,9 +15,9 @@ import torch
 from stable_baselines3 import PPO
 from stable_baselines3.common.callbacks import BaseCallback
 
-from ._core import Agent
+from ._core import Agent, EpisodeStart, HandLimits
 from .envs.sb3 import DiaboloVecEnv
-from .envs.spaces import AnyModels
+from .envs.spaces import AnyModels, models_of, ur5e_limits
 from .envs.teaching import taught_starts
 
 PPO_OPTIONS: dict[str, Any] = {
@@ -28,6 +28,7 @@ PPO_OPTIONS: dict[str, Any] = {
     "policy_kwargs": {"net_arch": [64, 64], "log_std_init": -0.5},
 }
 """Of PPO (Schulman et al., arXiv:1707.06347), for some hundred environments."""
+SURE = -1.5  # log of the spread of actions where a training begins with an agent, not with nothing
 RECENT = 200  # episodes that the progress looks at
 
 
@@ -46,6 +47,10 @@ class Settings:
     """Digests of what is played with, in place of the usual model."""
     taught: float = 0.0
     """Share of the episodes that begin in the middle of a play of the player's (envs.taught_starts)."""
+    limits: str = "player"
+    """Of the hands: a player's, or "ur5e"."""
+    teacher: str = ""
+    """Digest of the agent that it begins with."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,8 @@ class Progress:
 class Trainer:
     """A learner on many environments. model: what is played with; of several, each episode draws one.
 
+    teacher: an agent whose network it begins with, trained for this task or for another one, on another
+        diabolo or string.
     checkpoint, begun: a file of save(), and how far that was, to go on from.
     Torch keeps to one thread from here on: more wait for each other beside those of the environments.
     """
@@ -72,24 +79,30 @@ class Trainer:
         settings: Settings,
         model: AnyModels = None,
         *,
+        teacher: Agent | None = None,
         checkpoint: Path | None = None,
         begun: Progress | None = None,
     ) -> None:
         torch.set_num_threads(1)
         self.settings, self.begun = settings, begun or Progress()
-        starts = taught_starts(settings.task, model, seed=settings.seed) if settings.taught else ()
+        models = models_of(model, settings.difficulty)
+        limits = ur5e_limits() if settings.limits == "ur5e" else HandLimits()
+        starts: Sequence[EpisodeStart] = ()
+        if settings.taught:
+            starts = taught_starts(settings.task, models, seed=settings.seed, limits=limits)
         env = DiaboloVecEnv(
             settings.envs,
             settings.task,
             model,
             period=settings.period,
             steps=settings.steps,
+            limits=limits,
             difficulty=settings.difficulty,
             starts=starts,
             start_share=settings.taught,
         )
         if checkpoint is None:
-            self.learner = PPO("MlpPolicy", env, seed=settings.seed, device="cpu", **PPO_OPTIONS)
+            self.learner = _new_learner(env, settings.seed, teacher)
         else:
             self.learner = _loaded(checkpoint, env)
             env.seed(settings.seed + self.begun.steps)  # episodes that it has not seen
@@ -127,14 +140,30 @@ class Trainer:
 
     def agent(self) -> Agent:
         """The network that acts, by itself."""
-        hidden = [
-            one for one in self.learner.policy.mlp_extractor.policy_net if isinstance(one, torch.nn.Linear)
-        ]
-        layers = [
-            (one.weight.detach().numpy(), one.bias.detach().numpy())
-            for one in (*hidden, self.learner.policy.action_net)
-        ]
+        layers = [(one.weight.detach().numpy(), one.bias.detach().numpy()) for one in _acting(self.learner)]
         return Agent(self.settings.task, self.settings.period, self.settings.steps, layers)
+
+
+def _new_learner(env: DiaboloVecEnv, seed: int, teacher: Agent | None) -> PPO:
+    """One that knows nothing, or what its teacher knows."""
+    if teacher is None:
+        return PPO("MlpPolicy", env, seed=seed, device="cpu", **PPO_OPTIONS)
+    usual = PPO_OPTIONS["policy_kwargs"]
+    sizes = {"pi": [len(bias) for _, bias in teacher.layers[:-1]], "vf": usual["net_arch"]}
+    own = {"policy_kwargs": {"net_arch": sizes, "log_std_init": SURE}}
+    learner = PPO("MlpPolicy", env, seed=seed, device="cpu", **PPO_OPTIONS | own)
+    with torch.no_grad():
+        for layer, (weights, bias) in zip(_acting(learner), teacher.layers, strict=True):
+            layer.weight.copy_(torch.from_numpy(weights))
+            layer.bias.copy_(torch.from_numpy(bias))
+    return learner
+
+
+def _acting(learner: PPO) -> list[torch.nn.Linear]:
+    """The layers of the network that acts, in their order."""
+    policy = learner.policy
+    hidden = [one for one in policy.mlp_extractor.policy_net if isinstance(one, torch.nn.Linear)]
+    return [*hidden, policy.action_net]
 
 
 def _loaded(checkpoint: Path, env: DiaboloVecEnv) -> PPO:

@@ -103,6 +103,19 @@ def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path) -> None:
     assert steps == sorted(set(steps))
 
 
+def test_a_training_may_begin_with_what_an_agent_knows(trained: Path, tmp_path: Path) -> None:
+    from diabolo.envs import Agent
+
+    teacher, folder = trained / "agent.json", tmp_path / "longer"
+    diabolo("train", "SpinUp", "--out", folder, "--teacher", teacher, "--steps", 16384, "--limits", "ur5e")
+    first, second = (Agent.load(path).layers for path in (teacher, folder / "agent.json"))
+    apart = [np.abs(one[0] - other[0]).max() for one, other in zip(first, second, strict=True)]
+    assert 0.0 < max(apart) < 0.3
+    again = ("train", "SpinUp", "--out", folder, "--resume", "--steps", 4096, "--limits", "ur5e")
+    assert "teacher" in diabolo(*again, status=2).stderr
+    diabolo(*again, "--teacher", teacher)
+
+
 def test_many_environments_are_what_stable_baselines_expects() -> None:
     from diabolo.envs import DiaboloEnv
     from diabolo.envs.sb3 import DiaboloVecEnv

@@ -20,17 +20,26 @@ Agent agent_of(Random& random, const std::string& task) {
 
 }  // namespace
 
-TEST_CASE("a live agent does what it does in an arena") {
+TEST_CASE("a live agent does what it does in an arena, by a camera too") {
   Random random(2411);
-  for (const std::string task : {"Hop", "ThrowAndCatch", "Routine", "SpinUp"}) {
+  const Camera late{.noise = 0.0, .spin_noise = 0.0, .dropouts = 0.0, .least_delay = 2, .most_delay = 2};
+  const std::optional<Camera> none;
+  for (const auto& [task, camera] : {std::pair<std::string, std::optional<Camera>>("Hop", none),
+                                     {"ThrowAndCatch", none},
+                                     {"Routine", none},
+                                     {"SpinUp", none},
+                                     {"ThrowAndCatch", late}}) {
     const Agent agent = agent_of(random, task);
-    const ArenaOptions options{
-        .task = task, .period = agent.period, .steps = agent.steps, .autoreset = Autoreset::kDisabled};
+    const ArenaOptions options{.task = task,
+                               .period = agent.period,
+                               .steps = agent.steps,
+                               .autoreset = Autoreset::kDisabled,
+                               .camera = camera};
     Arena arena(options, {consistent_model()}, best_batch_kernel());
     arena.seed(0, 7);
     arena.reset(0);
     const Episode& episode = arena.episode(0);
-    LiveAgent live(agent, episode.hands, {.goal = episode.goal});
+    LiveAgent live(agent, episode.hands, {.goal = episode.goal, .camera = camera});
     int periods = 0;
     for (; periods < 150 && !episode.over; ++periods) {
       const Eigen::Map<const Eigen::VectorXf> seen(arena.observations.data(),

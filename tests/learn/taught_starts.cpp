@@ -80,8 +80,40 @@ TEST_CASE("starts of strings of several lengths are for all of them") {
   CHECK_NOTHROW(Arena(options, lent, best_batch_kernel()));
 }
 
+TEST_CASE("whoever begins in flight on its way to the right comes down at the goal, and is rewarded") {
+  std::vector<EpisodeStart> starts = taught_starts("Pass", models(), {.plays = 12});
+  std::erase_if(starts, [](const EpisodeStart& start) {
+    return start.state.string_state != StringState::kFlying || start.state.velocity.z() < 1.0;
+  });
+  REQUIRE(!starts.empty());
+  for (const EpisodeStart& start : starts) {
+    CHECK((*start.goal)[0] < -0.5);
+    const ArenaOptions options{
+        .task = "Pass", .autoreset = Autoreset::kDisabled, .starts = {start}, .start_share = 1.0};
+    Arena arena(options, {consistent_model()}, best_batch_kernel());
+    arena.reset(0);
+    const std::vector<float> still(6, 0.0F);
+    while (!arena.episode(0).over) arena.step(still.data());
+    CHECK(arena.episode(0).worth > 1.8);
+  }
+}
+
+TEST_CASE("a routine's lesson begins with the throw, with the spin of its goal, of which it loses some") {
+  const std::vector<EpisodeStart> starts = taught_starts("Routine", models(), {.plays = 3});
+  CHECK(starts.front().state.spin == starts.front().goal->front());
+  for (const EpisodeStart& start : starts) {
+    const ArenaOptions options{.task = "Routine", .starts = {start}, .start_share = 1.0};
+    Arena arena(options, {consistent_model()}, best_batch_kernel());
+    arena.reset(0);
+    CHECK(arena.episode(0).memory.stage == 1);
+    CHECK(arena.episode(0).state.spin <= arena.episode(0).goal[0]);
+    CHECK(arena.episode(0).state.spin > 0.8 * arena.episode(0).goal[0]);
+    CHECK(arena.episode(0).goal[1] >= start.state.position.z() - HandLimits().centre.z());
+  }
+}
+
 TEST_CASE("a play that is not caught, and what nobody teaches, give no starts") {
-  CHECK(starts_along(plan_action({.action = "swing"}, models()), {}, 0.02, 2.0).empty());
+  CHECK(starts_along(plan_action({.action = "swing"}, models()), kLessons.front(), {}, 0.02, 2.0).empty());
   CHECK_THROWS_WITH(taught_starts("Hold", models(), {}),
                     Contains("task: found \"Hold\"") && Contains("Throw, ThrowAndCatch"));
   CHECK_THROWS_WITH(taught_starts("Throw", models(), {.plays = 0}), Contains("plays: 0; expected 1"));

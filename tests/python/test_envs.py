@@ -26,6 +26,7 @@ from diabolo.envs import (  # noqa: E402
     shipped_agent,
     task_infos,
     taught_starts,
+    ur5e_limits,
 )
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
@@ -253,7 +254,11 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (lambda: DiaboloEnv(steps=0), "steps: 0; expected 1 to 1000"),
         (lambda: DiaboloEnv(render_mode="human"), "render_mode: 'human'; expected 'rgb_array' or None"),
         (lambda: DiaboloVectorEnv(2, render_mode="rgb_array"), "render_mode: 'rgb_array'; expected None"),
-        (lambda: DiaboloEnv(difficulty="hard"), "difficulty: 'hard'; expected 'easy', 'real' or a Camera"),
+        (lambda: DiaboloEnv(difficulty="hard"), "difficulty: 'hard'; expected 'easy', 'real', 'sealed' or a Camera"),
+        (
+            lambda: DiaboloEnv(model=Parameters(), difficulty="sealed"),
+            "model: given, beside the difficulty 'sealed', which has its own; expected None",
+        ),
         (lambda: Camera(noise=-1.0), "camera, noise: -1; expected 0 to 0.1"),
         (
             lambda: Camera(least_delay=3, most_delay=2),
@@ -263,6 +268,10 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (
             lambda: EpisodeStart(State([0, 0, 1]), [0, 1, 2], [0, 0, 0], goal=[1, 2, 3]),
             "goal: 3 numbers; expected at most 2",
+        ),
+        (
+            lambda: EpisodeStart(State([0, 0, 1]), [0, 1, 2], [0, 0, 0], stage=-1),
+            "stage: -1; expected 0 to 1000",
         ),
         (
             lambda: DiaboloEnv(starts=[EpisodeStart(State([0, 0, 1]), [0, 9, 1], [0, -0.3, 1])]),
@@ -331,11 +340,40 @@ def test_nothing_is_played_before_its_reset_and_what_is_far_off_stays_within_bou
 
 
 def test_what_an_environment_is_made_of_can_be_copied() -> None:
-    start = EpisodeStart(State([0, 0, 0.6]), [0, 0.3, 1.25], [0, -0.3, 1.25], goal=[0.1, 0.2])
+    start = EpisodeStart(State([0, 0, 0.6]), [0, 0.3, 1.25], [0, -0.3, 1.25], goal=[0.1, 0.2], stage=2)
     for one in (Camera(noise=2e-3), HandLimits(speed=1.0), start):
         copied = pickle.loads(pickle.dumps(one))
         assert pickle.dumps(copied) == pickle.dumps(one)
     assert gymnasium.make("Diabolo/Hold-v0", difficulty=Camera(), starts=[start]).spec is not None
+
+
+def test_sealed_episodes_are_of_models_that_a_diagnosis_leaves_open() -> None:
+    env = DiaboloVectorEnv(64, "ThrowAndCatch", difficulty="sealed", threads=1)
+    seen, _ = env.reset(seed=3)
+    assert len(np.unique(env.outcomes()["model"])) > 8
+    plain, _ = DiaboloVectorEnv(64, "ThrowAndCatch", difficulty="real").reset(seed=3)
+    assert np.abs(seen - plain).max() > 1e-3
+
+
+def test_hands_of_two_arms_are_slower_than_a_players() -> None:
+    arms = ur5e_limits()
+    assert 0.3 < arms.speed < 0.6 and 0.8 < arms.acceleration < 3.0
+    env = DiaboloVectorEnv(32, "SpinUp", limits=arms)
+    env.reset(seed=5)
+    random, forth = np.random.default_rng(24), np.ones((32, 6), np.float32)
+    for _ in range(500):
+        forth[random.random(32) < 0.05] *= -1.0
+        before = np.array([env.pose(i)[1:] for i in range(32)])
+        env.step(forth)
+        moved = np.array([env.pose(i)[1:] for i in range(32)]) - before
+        assert np.abs(moved).max() <= arms.speed * 0.01 + 1e-9
+
+
+def test_a_start_may_lie_in_a_later_stage() -> None:
+    start = taught_starts("Routine", plays=1)[0]
+    env = DiaboloEnv("Routine", starts=[start], start_share=1.0)
+    seen, _ = env.reset(seed=1)
+    assert seen[-1] == 1.0
 
 
 def test_bad_actions_are_refused_before_anything_moves() -> None:

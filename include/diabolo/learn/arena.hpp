@@ -157,6 +157,8 @@ class Arena {
       episode.hands = start.hands;
       episode.rest = state.position;
       if (start.goal) episode.goal = *start.goal;
+      episode.memory.stage = start.stage;
+      episode.memory.flights = start.flights;
     }
     episode.draw = draw;
     set_state(episode, state);

@@ -38,6 +38,7 @@ struct EpisodeStart {
   State<double> state;
   Hands hands;
   std::optional<Goal> goal{};  ///< none: it is drawn
+  int stage = 0, flights = 0;  ///< see Memory
 };
 
 /// What the string does to the diabolo where an episode begins: it carries what hangs on it [m/s^2].

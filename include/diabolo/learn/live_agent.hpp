@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,6 +19,8 @@ struct LiveOptions {
   HandLimits limits{};
   double string_length = 1.45;        ///< [m]
   double gravity = kStandardGravity;  ///< [m/s^2]
+  std::optional<Camera> camera{};     ///< none: an agent sees what it is shown, not what a camera makes of it
+  std::uint64_t seed = 0;             ///< of the camera's noise, dropouts and delay
 };
 
 /// An agent at the sticks of a robot or of somebody else's simulator. Once a period it is shown the diabolo
@@ -27,12 +31,14 @@ class LiveAgent {
   LiveAgent(Agent agent, const Hands& hands, const LiveOptions& options)
       : agent_(std::move(agent)), options_(options), task_(task_named(agent_.task)) {
     options_.limits.validate();
+    if (options_.camera) options_.camera->validate();
     options_.limits.expect_within(hands, "hands");
     if (!((hands.position[0] - hands.position[1]).norm() <= options.string_length))
       throw std::invalid_argument("hands: farther apart than the string is long, " +
                                   shown(options.string_length) + " m");
     episode_.hands = hands;
     episode_.goal = options.goal;
+    episode_.draw = Draw(options.seed, 0);
   }
 
   const Agent& agent() const { return agent_; }
@@ -50,12 +56,14 @@ class LiveAgent {
       episode_.pull = mean_pull(episode_, before, options_.gravity, agent_.period);
       task_.judge(moment_of(episode_, before, options_.limits.centre, options_.gravity, agent_.period),
                   episode_.memory);
+      if (options_.camera) episode_.sight.look(*options_.camera, state, agent_.period, episode_.draw);
     } else {
       episode_.rest = state.position;
       episode_.pull = first_pull(state, options_.gravity);
+      if (options_.camera) episode_.sight = Sight(*options_.camera, state, episode_.draw);
     }
     Eigen::VectorXf seen(static_cast<Eigen::Index>(kObservationSize));
-    observe(episode_, options_.limits.centre, false, seen.data());
+    observe(episode_, options_.limits.centre, options_.camera.has_value(), seen.data());
     const Eigen::MatrixXf action = agent_.policy.act(seen);
     move_hands(episode_.hands, action.data(), options_.limits, options_.string_length, agent_.period);
     return episode_.hands;

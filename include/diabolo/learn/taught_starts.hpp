@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,13 +22,19 @@ namespace diabolo {
 // which the player has planned (Salimans and Chen 2018, "Learning Montezuma's Revenge from a single
 // demonstration").
 
-/// A task, and the player's action that does what it wants.
+/// A task, and the player's action that does what it wants: which number of the goal is what the action aims
+/// at, if any, and in which part of the task it begins.
 struct Lesson {
   std::string_view task, action;
+  std::optional<std::size_t> spin{}, height{}, sideways{};
+  int stage = 0, flights = 0;
 };
 
-inline constexpr std::array kLessons{Lesson{"Throw", kThrowAndCatch},
-                                     Lesson{"ThrowAndCatch", kThrowAndCatch}};
+inline constexpr std::array kLessons{
+    Lesson{.task = "Throw", .action = kThrowAndCatch, .height = 0},
+    Lesson{.task = "ThrowAndCatch", .action = kThrowAndCatch, .height = 0, .sideways = 1},
+    Lesson{.task = "Pass", .action = "side_throw", .sideways = 0, .flights = 1},
+    Lesson{.task = "Routine", .action = kThrowAndCatch, .spin = 0, .height = 1, .stage = 1}};
 
 /// The lesson for a task. Throws std::invalid_argument where there is none.
 inline const Lesson& lesson_for(std::string_view task) {
@@ -61,36 +68,62 @@ inline TipLimits tip_limits(const HandLimits& limits, const TipColumn<double>& h
           .highest = middle + limits.half};
 }
 
-/// Moments of a planned play, `every` seconds [s] and until its flight is caught, moved to the middle of the
-/// hands' box. Skips moments in which the hands are not within their limits, or farther apart than
-/// `farthest` [m]. The goal of each is what the play reaches: its apex, and where it is caught. None where it
-/// is not caught.
-inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const HandLimits& limits,
-                                              double every, double farthest) {
+/// The flight of a planned play: its instants, from the first one to the catch, or to where it comes down
+/// through the height of the box's centre; its apex and that place, from that centre [m].
+struct LessonFlight {
+  std::size_t end = 0;
+  double apex = 0.0, sideways = 0.0;
+};
+
+/// None where nothing flies, or where it does not end so. `shift` [m] moves the play into the box.
+inline std::optional<LessonFlight> flight_of(const PlannedPlay& planned, const Vector3<double>& shift,
+                                             const Vector3<double>& centre) {
   const std::vector<PlayInstant<double>>& instants = planned.play.instants;
-  const auto flies = [](const PlayInstant<double>& instant) {
-    return instant.state.string_state == StringState::kFlying;
-  };
-  const auto last = std::find_if(instants.rbegin(), instants.rend(), flies);
-  if (last == instants.rend() || last == instants.rbegin()) return {};
-  const auto caught = last.base();
+  const bool ends_in_catch = planned.action == kThrowAndCatch;
+  LessonFlight flight{.apex = -std::numeric_limits<double>::infinity()};
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const State<double>& state = instants[i].state;
+    if (state.string_state != StringState::kFlying) continue;
+    const Vector3<double> place = state.position + shift - centre;
+    if (!ends_in_catch && place.z() < 0.0 && state.velocity.z() < 0.0) break;
+    flight.apex = std::max(flight.apex, place.z());
+    last = i;
+  }
+  if (!last || *last + 1 == instants.size()) return {};
+  flight.end = *last + 1;
+  flight.sideways = (instants[flight.end].state.position + shift - centre).y();
+  return flight;
+}
+
+/// Moments of a planned play, `every` seconds [s] and until its flight is over, moved to the middle of the
+/// hands' box. Skips moments in which the hands are not within their limits, or farther apart than
+/// `farthest` [m]. The goal of each is what the play reaches. None where it is not caught, or does not come
+/// down.
+inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const Lesson& lesson,
+                                              const HandLimits& limits, double every, double farthest) {
+  const std::vector<PlayInstant<double>>& instants = planned.play.instants;
+  if (instants.empty()) return {};
   const Vector3<double> shift =
       limits.centre - 0.5 * (instants.front().tips.left + instants.front().tips.right);
-  Goal goal{-std::numeric_limits<double>::infinity(),
-            caught->state.position.y() + shift.y() - limits.centre.y()};
-  for (auto instant = instants.begin(); instant != caught; ++instant)
-    if (flies(*instant))
-      goal[0] = std::max(goal[0], instant->state.position.z() + shift.z() - limits.centre.z());
+  const std::optional<LessonFlight> flight = flight_of(planned, shift, limits.centre);
+  if (!flight) return {};
+  Goal goal{};
+  if (lesson.spin) goal[*lesson.spin] = instants.front().state.spin;
+  if (lesson.height) goal[*lesson.height] = flight->apex;
+  if (lesson.sideways) goal[*lesson.sideways] = flight->sideways;
 
   std::vector<EpisodeStart> starts;
   double next = instants.front().time;
-  for (auto instant = instants.begin(); instant != caught; ++instant) {
-    if (instant->time < next) continue;
+  for (std::size_t i = 0; i < flight->end; ++i) {
+    if (instants[i].time < next) continue;
     next += every;
-    const Tips<double>& tips = instant->tips;
-    EpisodeStart start{instant->state,
+    const Tips<double>& tips = instants[i].tips;
+    EpisodeStart start{instants[i].state,
                        {{tips.left + shift, tips.right + shift}, {tips.left_velocity, tips.right_velocity}},
-                       goal};
+                       goal,
+                       lesson.stage,
+                       lesson.flights};
     start.state.position += shift;
     if (limits.allow(start.hands) && (tips.left - tips.right).norm() <= farthest) starts.push_back(start);
   }
@@ -106,7 +139,8 @@ std::vector<EpisodeStart> taught_starts(std::string_view task,
                                         const LessonOptions& options) {
   constexpr double kEvery = 0.02;  // [s]
   const TaskInfo& info = *task_named(task).info;
-  ActionRequest wanted{.action = std::string(lesson_for(task).action)};
+  const Lesson& lesson = lesson_for(task);
+  ActionRequest wanted{.action = std::string(lesson.action)};
   options.limits.validate();
   if (models.empty()) throw std::invalid_argument("models: none; expected at least one");
   if (options.plays < 1 || options.plays > LessonOptions::kMostPlays)
@@ -119,14 +153,17 @@ std::vector<EpisodeStart> taught_starts(std::string_view task,
   std::vector<EpisodeStart> starts;
   for (int play = 0; play < options.plays; ++play) {
     Draw draw(options.seed, static_cast<std::uint64_t>(play));
-    wanted.spin = draw.uniform(info.least_spin, info.most_spin);
-    wanted.height = draw.uniform(info.goal[0].low, info.goal[0].high);
-    if (!info.goal[1].name.empty()) wanted.sideways = draw.uniform(info.goal[1].low, info.goal[1].high);
+    const auto drawn = [&](std::size_t number) {
+      return draw.uniform(info.goal[number].low, info.goal[number].high);
+    };
+    wanted.spin = lesson.spin ? drawn(*lesson.spin) : draw.uniform(info.least_spin, info.most_spin);
+    if (lesson.height) wanted.height = drawn(*lesson.height);
+    if (lesson.sideways) wanted.sideways = drawn(*lesson.sideways);
     const std::vector model{models[draw.index(models.size())]};
     const double length = model.front().parameters().string_length;
     wanted.limits = tip_limits(options.limits, home_pose(wanted.figure(), length));
     const std::vector<EpisodeStart> along =
-        starts_along(plan_action(wanted, model), options.limits, kEvery, farthest);
+        starts_along(plan_action(wanted, model), lesson, options.limits, kEvery, farthest);
     starts.insert(starts.end(), along.begin(), along.end());
   }
   if (starts.empty())

@@ -76,9 +76,16 @@ def add_playing(parser: argparse.ArgumentParser, verb: str) -> None:
     )
     parser.add_argument(
         "--difficulty",
-        choices=("easy", "real"),
+        choices=("easy", "real", "sealed"),
         default="easy",
-        help="what the agent sees: the exact state (easy, default), or what a camera would (real)",
+        help="what the agent sees: the exact state (easy, default), or what a camera would (real); sealed: "
+        "that, and models that a diagnosis leaves open, without --model",
+    )
+    parser.add_argument(
+        "--limits",
+        choices=("player", "ur5e"),
+        default="player",
+        help="of the hands: a player's (default), or those of the paper's two UR5e",
     )
 
 

@@ -92,6 +92,7 @@ def run(arguments: argparse.Namespace) -> None:
         "task": arguments.task,
         "model": [read_model(name) for name in arguments.model] if arguments.model else None,
         "difficulty": arguments.difficulty,
+        "limits": envs.ur5e_limits() if arguments.limits == "ur5e" else None,
     }
     poses: list[Pose] = []
     played = player_of(arguments.minari)
@@ -110,6 +111,7 @@ def run(arguments: argparse.Namespace) -> None:
         "agent": arguments.agent,
         "models": arguments.model,
         "difficulty": arguments.difficulty,
+        "limits": arguments.limits,
         "seed": arguments.seed,
         "episodes": {name: values.tolist() for name, values in outcomes.items()},
     }
@@ -150,7 +152,7 @@ def recording_of(
     poses = poses[: round(outcomes["seconds"][0] / agent.period) + 1]
     states = np.array([[*state.position, *state.velocity, state.spin] for state, _, _ in poses])
     lefts, rights = (np.array([pose[side] for pose in poses]) for side in (1, 2))
-    p = models_of(options["model"])[outcomes["model"][0]].parameters
+    p = models_of(options["model"], options["difficulty"])[outcomes["model"][0]].parameters
     properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
     time = agent.period * np.arange(len(poses))
     return played_recording(

@@ -17,6 +17,7 @@ from . import files
 from .arguments import add_command, add_playing, check_task, output_name, progress_steps, read_model
 
 if TYPE_CHECKING:
+    from .._core import Agent, Model
     from ..training import Progress, Settings, Trainer
 
 SCHEMA = "diabolo.training/1"
@@ -35,11 +36,14 @@ def add_parser(commands: Any) -> None:
         text="Train an agent on a task by PPO (pip install '.[learn]').\n\n"
         "What a reward alone does not lead to, such as a throw, the player teaches: most episodes\n"
         "then begin in the middle of plays that it plans first, in some ten seconds.\n\n"
+        "With --teacher it begins with what an agent knows: of another string or diabolo, or of another\n"
+        "task. That takes fewer steps than from nothing.\n\n"
         "DIR gets agent.json, which `diabolo play` runs without the training's libraries; progress.csv;\n"
         "and what --resume goes on from. Its files are whole at any time: they are\n"
         "written every ten seconds, between updates, and Ctrl-C loses what came after.",
         example="  diabolo train SpinUp --out spin_up --seconds 120\n"
         "  diabolo train SpinUp --out spin_up --seconds 120 --resume\n"
+        "  diabolo train SpinUp --out longer --model longer.json --teacher spin_up/agent.json\n"
         "  diabolo play SpinUp --agent spin_up/agent.json",
     )
     parser.add_argument("--out", metavar="DIR", required=True, type=output_name, help="folder to write")
@@ -51,9 +55,10 @@ def add_parser(commands: Any) -> None:
         "--taught",
         type=float,
         metavar="SHARE",
-        help="of the episodes that begin so; default: 0.7 in tasks that the player knows, Throw and "
-        "ThrowAndCatch, else 0",
+        help="of the episodes that begin so; default: 0.7 in tasks that the player knows: Throw, "
+        "ThrowAndCatch, Pass and Routine; else 0",
     )
+    parser.add_argument("--teacher", metavar="FILE", help="an agent's file, whose network it begins with")
     add_playing(parser, "train")
     parser.add_argument("--resume", action="store_true", help="go on with the training in DIR")
 
@@ -61,31 +66,39 @@ def add_parser(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> None:
     for library in ("gymnasium", "stable_baselines3"):
         check_library("diabolo train", library, "learn")
-    from ..envs import TASKS, TAUGHT
+    from ..envs import TASKS, TAUGHT, Agent
     from ..training import Settings, Trainer
 
     check_task(arguments.task, TASKS)
     seconds = _check_numbers(arguments)
     models = [read_model(name) for name in arguments.model] if arguments.model else None
+    teacher = Agent.load(arguments.teacher) if arguments.teacher is not None else None
     settings = Settings(
         arguments.task,
         arguments.seed,
         arguments.envs,
         difficulty=arguments.difficulty,
         taught=_taught(arguments.taught, arguments.task, TAUGHT),
-        models=tuple(sha256(one.to_json().encode()).hexdigest()[:12] for one in models or ()),
+        models=tuple(_digest(one) for one in models or ()),
+        limits=arguments.limits,
+        teacher=_digest(teacher) if teacher else "",
     )
     folder = Path(arguments.out)
     begun = _begun(folder, settings, arguments.resume)
-    read = [one for one in arguments.model or [] if Path(one).exists()]
+    read = [one for one in (arguments.teacher, *(arguments.model or [])) if one and Path(one).exists()]
     files.check_outputs([folder / name for name in (CHECKPOINT, AGENT, CURVE, SETTINGS)], read, folder)
-    trainer = Trainer(settings, models, checkpoint=folder / CHECKPOINT if begun else None, begun=begun)
+    checkpoint = folder / CHECKPOINT if begun else None
+    trainer = Trainer(settings, models, teacher=teacher, checkpoint=checkpoint, begun=begun)
     with files.made_folder(folder), progress_steps() as show:
         keeper = _Keeper(folder, trainer, show, seconds, arguments.steps)
         keeper.keep()  # the folder is taken from here on
         trainer.learn(seconds=seconds, steps=arguments.steps, report=keeper.report)
         keeper.keep()
     print(f"{folder / AGENT}: {_sentence(trainer.progress())}")
+
+
+def _digest(what: Model | Agent) -> str:
+    return sha256(what.to_json().encode()).hexdigest()[:12]
 
 
 def _check_numbers(arguments: argparse.Namespace) -> float:
@@ -118,7 +131,7 @@ def _taught(wanted: float | None, task: str, known: tuple[str, ...]) -> float:
 
 def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
     """How far the training in a folder is; None where a new one begins."""
-    from ..training import Progress
+    from ..training import Progress, Settings
 
     path = folder / SETTINGS
     if not resume:
@@ -132,9 +145,10 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
         kept = json.loads(path.read_text(encoding="utf-8"))
         if kept["schema"] != SCHEMA:
             raise ValueError(f"schema {shown(kept['schema'])}; expected {SCHEMA}")
-        before, progress = kept["settings"], kept["progress"]
-        for name, value in asdict(settings).items():
-            if before[name] != (list(value) if isinstance(value, tuple) else value):
+        progress = kept["progress"]
+        before = _as_kept(Settings("")) | kept["settings"]  # of an older one, what it did not have
+        for name, value in _as_kept(settings).items():
+            if before[name] != value:
                 raise ValueError(f"{name} {before[name]} at first, {value} now; expected the same")
         for one in fields(Progress):
             known = progress[one.name]
@@ -148,6 +162,12 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
         raise ValueError(f"{path}: not of the schema {SCHEMA}; expected what a training wrote") from None
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
+
+
+def _as_kept(settings: Settings) -> dict[str, Any]:
+    """As a file has it."""
+    kept: dict[str, Any] = json.loads(files.json_text(asdict(settings)))
+    return kept
 
 
 def _sentence(progress: Progress) -> str:

@@ -24,6 +24,7 @@ from .._core import (
 )
 from .playing import Transition, play, shipped_agent
 from .single import DiaboloEnv
+from .spaces import ur5e_limits
 from .teaching import TAUGHT, taught_starts
 from .vector import DiaboloVectorEnv
 
@@ -43,6 +44,7 @@ __all__ = [
     "shipped_agent",
     "task_infos",
     "taught_starts",
+    "ur5e_limits",
 ]
 
 TASKS: tuple[str, ...] = tuple(info["name"] for info in task_infos())

@@ -23,7 +23,8 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     model: what it is played with; of several, each episode draws one.
     period: between actions [s]; steps: of the simulation in a period.
     limits: of the tips.
-    difficulty: "easy", the exact state is seen; "real", what a Camera() sees; or a Camera of one's own.
+    difficulty: "easy", the exact state is seen; "real", what a Camera() sees; "sealed", that, of models
+        that a diagnosis leaves open; or a Camera of one's own.
     starts: what a share of the episodes begins with, start_share of them.
     render_mode: "rgb_array" lets render() draw (`pip install '.[plot]'`).
 
@@ -49,7 +50,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     ) -> None:
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode: {shown(render_mode)}; expected 'rgb_array' or None")
-        models = models_of(model)
+        models = models_of(model, difficulty)
         self.render_mode, self._task, self._limits = render_mode, task, limits or HandLimits()
         self._lengths = [one.parameters.string_length for one in models]
         self._arena = Arena(

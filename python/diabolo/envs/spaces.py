@@ -4,12 +4,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.resources import files
 from typing import Any, TypeAlias
 
 import numpy as np
 from gymnasium.spaces import Box
 
-from .._core import Camera, Model, Parameters, State, StringFriction, observation_infos
+from .._core import (
+    Camera,
+    HandLimits,
+    Model,
+    Parameters,
+    SeedGrid,
+    State,
+    StickArm,
+    StickMap,
+    StringFriction,
+    arm_hand_limits,
+    observation_infos,
+)
 from ..checks import instance_of, list_of, numbers, shown, whole_number
 
 AnyModels: TypeAlias = Model | Parameters | Sequence[Model | Parameters] | None
@@ -20,7 +34,7 @@ OBSERVATION = Box(-1e3, 1e3, (sum(info["size"] for info in observation_infos()),
 """See diabolo.envs.observation_infos()."""
 
 OPTIONS = ("state", "goal", "model")
-DIFFICULTIES = ("easy", "real")
+DIFFICULTIES = ("easy", "real", "sealed")
 
 
 def usual_model() -> Model:
@@ -28,8 +42,29 @@ def usual_model() -> Model:
     return Model(Parameters(), name="rubbing", string_friction=StringFriction(coefficient=0.3))
 
 
-def models_of(given: AnyModels) -> list[Model]:
+@cache
+def sealed_models() -> list[Model]:
+    """What half a minute of a diabolo's play leaves open: models drawn by its diagnosis. The diabolo is that
+    of the project's plant, a simulator that shares no code with this one."""
+    folder = files("diabolo") / "envs" / "sealed"
+    names = sorted(path.name for path in folder.iterdir() if path.name.endswith(".json"))
+    return [Model.load(str(folder / name)) for name in names]
+
+
+@cache
+def ur5e_limits() -> HandLimits:
+    """Of the paper's two UR5e: their joints keep their speed and acceleration wherever the tips go."""
+    arms = [StickArm(side) for side in ("left", "right")]
+    left, right = (StickMap(arm, SeedGrid.build(arm)) for arm in arms)
+    return arm_hand_limits(left, right)
+
+
+def models_of(given: AnyModels, difficulty: str | Camera = "easy") -> list[Model]:
     """Those that episodes are played with; each draws one."""
+    if difficulty == "sealed":
+        if given is not None:
+            raise ValueError("model: given, beside the difficulty 'sealed', which has its own; expected None")
+        return sealed_models()
     if given is None:
         return [usual_model()]
     models = list_of("model", given, (Model, Parameters), least=1)
@@ -37,12 +72,14 @@ def models_of(given: AnyModels) -> list[Model]:
 
 
 def camera_of(difficulty: str | Camera) -> Camera | None:
-    """What an agent sees by: nothing for "easy", the exact state; a usual Camera for "real"; or one's own."""
+    """What an agent sees by: nothing for "easy", the exact state; a usual Camera for "real" and "sealed"; or
+    one's own."""
     if isinstance(difficulty, Camera):
         return difficulty
     if difficulty not in DIFFICULTIES:
-        raise ValueError(f"difficulty: {shown(difficulty)}; expected 'easy', 'real' or a Camera")
-    return Camera() if difficulty == "real" else None
+        names = ", ".join(repr(one) for one in DIFFICULTIES)
+        raise ValueError(f"difficulty: {shown(difficulty)}; expected {names} or a Camera")
+    return None if difficulty == "easy" else Camera()
 
 
 def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:

@@ -66,7 +66,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self.single_action_space, self.single_observation_space = ACTION, OBSERVATION
         self.action_space = batch_space(ACTION, self.num_envs)
         self.observation_space = batch_space(OBSERVATION, self.num_envs)
-        models = models_of(model)
+        models = models_of(model, difficulty)
         self._models, self._mode, self._copy = len(models), mode, copy
         whole_number("threads", threads, 0, MOST_THREADS)
         arena = Arena(
