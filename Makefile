@@ -238,7 +238,9 @@ check-prose: # Sentences of the pages are short.
 	@$(packages) build
 	@git ls-files -co --exclude-standard '*.md' | grep -vx CHANGELOG.md | xargs $(PYTHON) tools/count_sentences.py
 
-generate_stubs = rm -rf $(BUILD)/stubs; $(VENV)/bin/pybind11-stubgen --exit-code -o $(BUILD)/stubs diabolo._core
+# Less the methods that every object has.
+generate_stubs = rm -rf $(BUILD)/stubs; $(VENV)/bin/pybind11-stubgen --exit-code -o $(BUILD)/stubs diabolo._core; \
+  find $(BUILD)/stubs -name '*.pyi' -exec sed -E -i '/^ *def __(copy|deepcopy|getstate|setstate|repr)__\(/,+1d' {} +
 stubs: $(VENV)/.package-with-tests $(VENV)/.tools ## Write the type stubs of the compiled module anew
 	@$(generate_stubs)
 	@rm -rf python/diabolo/_core python/diabolo/_core.pyi

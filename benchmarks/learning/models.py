@@ -71,7 +71,7 @@ def run(given: argparse.Namespace) -> int:
 def sealed(model: dict[str, Any], name: str) -> str:
     """A model file without what it takes from recordings, in six digits."""
     kept = {key: value for key, value in model.items() if key != "from_recording"} | {"name": name}
-    return json.dumps(rounded(kept), indent=1) + "\n"
+    return json.dumps(rounded(kept)) + "\n"
 
 
 def rounded(value: Any) -> Any:

@@ -12,8 +12,6 @@ class ParameterInfo:
     """
     Name, unit and range of a numeric parameter.
     """
-    def __repr__(self) -> str:
-        ...
     @property
     def maximum(self) -> float:
         ...
@@ -61,19 +59,9 @@ class Parameters:
         """
         The authors' program, rule by rule, with the settings of its evaluation.
         """
-    def __copy__(self) -> Parameters:
-        ...
-    def __deepcopy__(self, memo: dict) -> Parameters:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def replace(self, **kwargs) -> Parameters:
         """
@@ -333,19 +321,9 @@ class StringElasticity:
         """
         Stiffness [N/m] and damping [N s/m] of the path length.
         """
-    def __copy__(self) -> StringElasticity:
-        ...
-    def __deepcopy__(self, memo: dict) -> StringElasticity:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -381,19 +359,9 @@ class StringFriction:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> StringFriction:
-        ...
-    def __deepcopy__(self, memo: dict) -> StringFriction:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -425,19 +393,9 @@ class Air:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> Air:
-        ...
-    def __deepcopy__(self, memo: dict) -> Air:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -485,19 +443,9 @@ class MagnusLift:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> MagnusLift:
-        ...
-    def __deepcopy__(self, memo: dict) -> MagnusLift:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -521,19 +469,9 @@ class SpinLoss:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> SpinLoss:
-        ...
-    def __deepcopy__(self, memo: dict) -> SpinLoss:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -565,19 +503,9 @@ class GravityTilt:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> GravityTilt:
-        ...
-    def __deepcopy__(self, memo: dict) -> GravityTilt:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -609,19 +537,9 @@ class FiniteAxle:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> FiniteAxle:
-        ...
-    def __deepcopy__(self, memo: dict) -> FiniteAxle:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -645,19 +563,9 @@ class StickFlex:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> StickFlex:
-        ...
-    def __deepcopy__(self, memo: dict) -> StickFlex:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -697,19 +605,9 @@ class StringMass:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> StringMass:
-        ...
-    def __deepcopy__(self, memo: dict) -> StringMass:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -733,19 +631,9 @@ class LandingRestitution:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> LandingRestitution:
-        ...
-    def __deepcopy__(self, memo: dict) -> LandingRestitution:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -773,19 +661,9 @@ class UnnamedForce:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> UnnamedForce:
-        ...
-    def __deepcopy__(self, memo: dict) -> UnnamedForce:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -857,19 +735,9 @@ class GyroscopicTilt:
         """
         Name, unit and range of every field (ParameterInfo).
         """
-    def __copy__(self) -> GyroscopicTilt:
-        ...
-    def __deepcopy__(self, memo: dict) -> GyroscopicTilt:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def to_dict(self) -> dict:
         """
@@ -907,21 +775,11 @@ class FormulaLaws:
         """
         Name: (unit, meaning) of all that a formula may ask for.
         """
-    def __copy__(self) -> FormulaLaws:
-        ...
-    def __deepcopy__(self, memo: dict) -> FormulaLaws:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __getstate__(self) -> str:
         ...
     def __init__(self, laws: typing.Any = []) -> None:
         ...
     def __len__(self) -> int:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: str) -> None:
         ...
     def to_json(self) -> str:
         """
@@ -943,19 +801,9 @@ class ResidualForce:
     __hash__: typing.ClassVar[None] = None
     def __bool__(self) -> bool:
         ...
-    def __copy__(self) -> ResidualForce:
-        ...
-    def __deepcopy__(self, memo: dict) -> ResidualForce:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> str:
-        ...
     def __init__(self, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: str) -> None:
         ...
     def to_dict(self) -> typing.Any:
         """
@@ -1016,19 +864,9 @@ class Model:
         """
         The authors' program with the settings of its evaluation: its own string of 1.46 m, held tips.
         """
-    def __copy__(self) -> Model:
-        ...
-    def __deepcopy__(self, memo: dict) -> Model:
-        ...
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __getstate__(self) -> dict:
-        ...
     def __init__(self, parameters: Parameters = ..., *, name: str = 'custom', interpolation: str = 'spline', own_string_length: bool = False, own_mass: bool = False, own_axle_radius: bool = False, **kwargs) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
         ...
     def save(self, path: os.PathLike | str | bytes) -> None:
         """
@@ -1083,17 +921,7 @@ class State:
     string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
     is the axle's direction, which only GyroscopicTilt turns.
     """
-    def __copy__(self) -> State:
-        ...
-    def __deepcopy__(self, memo: dict) -> State:
-        ...
-    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float, int, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
-        ...
     def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (0.0, 0.0, 0.0), spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, string_state: typing.Any = 'loose', axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (1.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     def to_array(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1168,17 +996,7 @@ class DiaboloProperties:
         """
         The paper's red diabolo, without markers.
         """
-    def __copy__(self) -> DiaboloProperties:
-        ...
-    def __deepcopy__(self, memo: dict) -> DiaboloProperties:
-        ...
-    def __getstate__(self) -> tuple[float, float, float, float]:
-        ...
     def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex, diameter: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, axle_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0065) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def axle_radius(self) -> float:
@@ -1219,14 +1037,6 @@ class Calibration:
         """
         Of the red diabolo with the sticks of July 2020; the default.
         """
-    def __copy__(self) -> Calibration:
-        ...
-    def __deepcopy__(self, memo: dict) -> Calibration:
-        ...
-    def __getstate__(self) -> tuple[tuple[list[str], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], tuple[list[str], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], tuple[list[str], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], DiaboloProperties, float]:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
-        ...
     def save(self, path: os.PathLike | str | bytes) -> None:
         """
         Writes it, whole or not at all.
@@ -1296,15 +1106,9 @@ class Recording:
         Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
         it, string and diabolo are the calibration's.
         """
-    def __getstate__(self) -> tuple:
-        ...
     def __init__(self, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], diabolo: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, *, diabolo_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, left_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.46) -> None:
         ...
     def __len__(self) -> int:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     def cut(self, first: typing.SupportsInt | typing.SupportsIndex, last: typing.SupportsInt | typing.SupportsIndex) -> Recording:
         """
@@ -1419,8 +1223,6 @@ class Spheroid:
         """
         Tips, each of the shape (3,) [m], and string length [m].
         """
-    def __repr__(self) -> str:
-        ...
     def closest_point(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
         The closest points of the surface [m].
@@ -1509,15 +1311,9 @@ class TipMotion:
         """
         Motion of a recording's tips and sticks, time zero at its first row; gaps in a tip's track are filled, and rows before both tips are seen, or after, are left out.
         """
-    def __getstate__(self) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], typing.Any, numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
-        ...
     def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], interpolation: str = 'linear', left_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
         ...
     def __len__(self) -> int:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
         """
@@ -1569,8 +1365,6 @@ class StepStatus:
     """
     What happened in one step.
     """
-    def __repr__(self) -> str:
-        ...
     @property
     def caught(self) -> bool:
         """
@@ -1596,15 +1390,11 @@ class Predictor:
     
     It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().
     """
-    def __getstate__(self) -> tuple[Model]:
-        ...
     @typing.overload
     def __init__(self, parameters: Parameters, **kwargs) -> None:
         ...
     @typing.overload
     def __init__(self, model: Model, **kwargs) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> StepStatus:
         """
@@ -1694,8 +1484,6 @@ class Interval:
     """
     From low to high.
     """
-    def __repr__(self) -> str:
-        ...
     @property
     def high(self) -> float:
         ...
@@ -1780,8 +1568,6 @@ class ResidualAndNoise:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -1861,8 +1647,6 @@ class ChangeInTime:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -1903,8 +1687,6 @@ class Adequacy:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -1952,8 +1734,6 @@ class Estimate:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -1985,8 +1765,6 @@ class EffectPlace:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2012,8 +1790,6 @@ class EffectSize:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2045,8 +1821,6 @@ class ClaimedEffect:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2114,8 +1888,6 @@ class UnnamedPlace:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2131,8 +1903,6 @@ class UnnamedStructure:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2206,8 +1976,6 @@ class LearntLawFound:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2274,8 +2042,6 @@ class ParametersAlone:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2296,8 +2062,6 @@ class DifferingEffect:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2335,8 +2099,6 @@ class UpperLimit:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2363,8 +2125,6 @@ class HeldOutErrors:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2447,8 +2207,6 @@ class ProposedMotion:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2486,8 +2244,6 @@ class LadderRow:
     def __eq__(self, other: typing.Any) -> bool:
         ...
     def __init__(self, name: str, estimate: typing.SupportsFloat | typing.SupportsIndex, z: typing.SupportsFloat | typing.SupportsIndex, claimed: bool) -> None:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2546,8 +2302,6 @@ class LocatedDirection:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2569,8 +2323,6 @@ class LocatedWindow:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2639,8 +2391,6 @@ class Location:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2657,8 +2407,6 @@ class RecordingNoise:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2687,8 +2435,6 @@ class Thresholds:
     def __eq__(self, other: typing.Any) -> bool:
         ...
     def __init__(self) -> None:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -2728,8 +2474,6 @@ class InputFile:
         ...
     def __init__(self, file: str, sha256: str) -> None:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2758,8 +2502,6 @@ class DiagnosisResult:
         Reads such a file.
         """
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def completed(self, seconds: typing.SupportsFloat | typing.SupportsIndex | None = None, inputs: collections.abc.Sequence[InputFile] = [], model: str | None = None) -> DiagnosisResult:
         """
@@ -2890,8 +2632,6 @@ class ComparedLaw:
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
         ...
-    def __repr__(self) -> str:
-        ...
     def to_dict(self) -> dict:
         """
         The same as its file has it.
@@ -2957,8 +2697,6 @@ class SimulatorComparison:
     """
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __repr__(self) -> str:
         ...
     def to_dict(self) -> dict:
         """
@@ -3050,11 +2788,7 @@ class HandLimits:
     string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
     left half (along y) the left tip keeps to, and the right tip to the other.
     """
-    def __getstate__(self) -> tuple[float, float, float, float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
-        ...
     def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def acceleration(self) -> float:
@@ -3081,11 +2815,7 @@ class Camera:
     noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
     nothing is seen; least_delay to most_delay [frames]: each episode draws one.
     """
-    def __getstate__(self) -> tuple[float, float, float, int, int]:
-        ...
     def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def dropouts(self) -> float:
@@ -3106,11 +2836,7 @@ class EpisodeStart:
     """
     What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], the goal (None: it is drawn), the stage of a task that has several, and how many flights were caught.
     """
-    def __getstate__(self) -> tuple[State, typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]], "FixedSize(2)"], typing.Annotated[list[float], "FixedSize(2)"] | None, int, int]:
-        ...
     def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, stage: typing.SupportsInt | typing.SupportsIndex = 0, flights: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
 class Arena:
     """
@@ -3176,13 +2902,7 @@ class Agent:
         """
         Reads a file of the schema diabolo.agent/1.
         """
-    def __getstate__(self) -> str:
-        ...
     def __init__(self, task: str, period: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: str) -> None:
         ...
     def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -3225,15 +2945,7 @@ class Waypoint:
     """
     A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
     """
-    def __copy__(self) -> Waypoint:
-        ...
-    def __deepcopy__(self, memo: dict) -> Waypoint:
-        ...
-    def __getstate__(self) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], float, float, float]:
-        ...
     def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0, velocity_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, direction_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def direction_weight(self) -> float:
@@ -3273,15 +2985,7 @@ class Goals:
     apex [m], above the tips, and landing [m] are those of the flight that the motion ends in; caught is the weight
     of missing a diabolo that flies.
     """
-    def __copy__(self) -> Goals:
-        ...
-    def __deepcopy__(self, memo: dict) -> Goals:
-        ...
-    def __getstate__(self) -> tuple:
-        ...
     def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, spin_weight: typing.SupportsFloat | typing.SupportsIndex = 0.02, taut: typing.SupportsFloat | typing.SupportsIndex | None = None, apex: typing.SupportsFloat | typing.SupportsIndex | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def apex(self) -> float | None:
@@ -3334,15 +3038,7 @@ class LimitUse:
     """
     How much of a limit a path uses: value, limit, and the excess, at most zero where it is kept, as a share or in metres.
     """
-    def __copy__(self) -> LimitUse:
-        ...
-    def __deepcopy__(self, memo: dict) -> LimitUse:
-        ...
-    def __getstate__(self) -> tuple[str, float, float, str, float, float]:
-        ...
     def __init__(self, name: str, value: typing.SupportsFloat | typing.SupportsIndex, limit: typing.SupportsFloat | typing.SupportsIndex, unit: str, time: typing.SupportsFloat | typing.SupportsIndex, excess: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def excess(self) -> float:
@@ -3371,15 +3067,7 @@ class TipLimits:
     highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
     robot's.
     """
-    def __copy__(self) -> TipLimits:
-        ...
-    def __deepcopy__(self, memo: dict) -> TipLimits:
-        ...
-    def __getstate__(self) -> tuple[float, float, float, float, float, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Any]:
-        ...
     def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: typing.Any = None) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def acceleration(self) -> float:
@@ -3406,15 +3094,7 @@ class Freedom:
     """
     What a solver may change of a seed: x too, durations, the last point; up to a reach [m] of each coordinate and a stretch of each duration, as a share.
     """
-    def __copy__(self) -> Freedom:
-        ...
-    def __deepcopy__(self, memo: dict) -> Freedom:
-        ...
-    def __getstate__(self) -> tuple[bool, bool, bool, float, float]:
-        ...
     def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: typing.SupportsFloat | typing.SupportsIndex = 0.4, stretch: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     @property
     def forward(self) -> bool:
@@ -3439,15 +3119,7 @@ class StickSpline:
     acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right; sticks: their
     directions, unit vectors, likewise, zero where not known; StickFlex alone looks at them.
     """
-    def __copy__(self) -> StickSpline:
-        ...
-    def __deepcopy__(self, memo: dict) -> StickSpline:
-        ...
-    def __getstate__(self) -> tuple[float, list[float], list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]], int, tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]] | None, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]]:
-        ...
     def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     def path(self) -> TipPath:
         """
@@ -3594,8 +3266,6 @@ class PlannedPlay:
     """
     A planned motion, and what it leads to by the model that it was planned with.
     """
-    def __repr__(self) -> str:
-        ...
     @property
     def action(self) -> str:
         ...
@@ -3672,17 +3342,7 @@ class StickArm:
     world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for each of the six links, shape
     (6, 6), as the ROS driver extracts it; None is the arm of the data sheet. Joints are [rad], base to last wrist.
     """
-    def __copy__(self) -> StickArm:
-        ...
-    def __deepcopy__(self, memo: dict) -> StickArm:
-        ...
-    def __getstate__(self) -> tuple[bool, float, float, float, list[float]]:
-        ...
     def __init__(self, side: str, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, spacing: typing.SupportsFloat | typing.SupportsIndex = 1.1, forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, calibration: typing.Any = None) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     def flange(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -3727,14 +3387,6 @@ class SeedGrid:
         """
         What save() wrote.
         """
-    def __copy__(self) -> SeedGrid:
-        ...
-    def __deepcopy__(self, memo: dict) -> SeedGrid:
-        ...
-    def __getstate__(self) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[list[int], "FixedSize(3)"], list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]], int]:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
-        ...
     def save(self, path: os.PathLike | str | bytes) -> None:
         """
         Write a CSV of x, y, z [m] and q1 to q6 [rad], a line for each key point.
@@ -3767,15 +3419,7 @@ class StickMap:
     """
     The joints of an arm as a function of its stick's tip, without drift.
     """
-    def __copy__(self) -> StickMap:
-        ...
-    def __deepcopy__(self, memo: dict) -> StickMap:
-        ...
-    def __getstate__(self) -> tuple[StickArm, SeedGrid]:
-        ...
     def __init__(self, arm: StickArm, grid: SeedGrid) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
     def slopes(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -3808,15 +3452,7 @@ class RobotLimits:
     """
     def __call__(self, path: TipPath) -> list[LimitUse]:
         ...
-    def __copy__(self) -> RobotLimits:
-        ...
-    def __deepcopy__(self, memo: dict) -> RobotLimits:
-        ...
-    def __getstate__(self) -> tuple[StickMap, StickMap, typing.Annotated[list[float], "FixedSize(6)"], typing.Annotated[list[float], "FixedSize(6)"], typing.Annotated[list[float], "FixedSize(6)"], float, float]:
-        ...
     def __init__(self, left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1, share: typing.SupportsFloat | typing.SupportsIndex = 0.97) -> None:
-        ...
-    def __setstate__(self, arg0: tuple) -> None:
         ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """
