@@ -57,7 +57,7 @@ $(VENV)/.package: $(VENV)/.created $(package_sources)
 
 $(VENV)/.package-with-tests: $(VENV)/.created $(package_sources)
 	@echo "Installing the Python package and its test tools into $(VENV) $(compiling)"
-	@$(install_package) '.[plot,envs,test]'
+	@$(install_package) '.[plot,envs,formats,test]'
 	@touch $(VENV)/.package $@
 
 $(VENV)/.tools: $(VENV)/.created tools/tool-requirements.txt

@@ -95,10 +95,10 @@ def _observations(goal: list[dict[str, Any]]) -> list[tuple[str, ...]]:
     for info in observation_infos():
         if info["name"] == "goal":
             for number in range(info["size"]):
-                one = (
-                    goal[number] if number < len(goal) else {"name": "-", "unit": "1", "meaning": "always 0"}
-                )
-                rows.append((str(first + number), f"`goal`, {one['name']}", one["unit"], one["meaning"]))
+                unused = {"name": "-", "unit": "1", "meaning": "always 0", "seen_over": 1.0}
+                one = goal[number] if number < len(goal) else unused
+                unit = one["unit"] if one["seen_over"] == 1.0 else f"{one['seen_over']:g} {one['unit']}"
+                rows.append((str(first + number), f"`goal`, {one['name']}", unit, one["meaning"]))
         else:
             rows.append((_span(first, info["size"]), f"`{info['name']}`", info["unit"], info["meaning"]))
         first += info["size"]

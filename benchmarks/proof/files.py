@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from diabolo.cli.files import whole_file
+from diabolo.files import whole_file
 
 
 def digest_of(path: Path) -> str:

@@ -174,7 +174,8 @@ py::list task_infos() {
     for (const GoalInfo& number : task.info->goal)
       if (!number.name.empty())
         goal.append(py::dict("name"_a = number.name, "unit"_a = number.unit, "low"_a = number.low,
-                             "high"_a = number.high, "meaning"_a = number.meaning));
+                             "high"_a = number.high, "meaning"_a = number.meaning,
+                             "seen_over"_a = number.seen_over));
     tasks.append(py::dict("name"_a = task.info->name, "meaning"_a = task.info->meaning,
                           "reward"_a = task.info->reward, "seconds"_a = task.info->seconds, "goal"_a = goal,
                           "spin"_a = py::make_tuple(task.info->least_spin, task.info->most_spin)));

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -182,14 +183,78 @@ void bind_orientation(py::class_<Recording>& cls, const char* name, OrientationT
 
 using GivenColumns = std::variant<std::monostate, std::string, std::map<std::string, std::string>>;
 
-Recording load(const std::filesystem::path& path, const Calibration& calibration,
-               const std::optional<std::string>& up, const GivenColumns& columns) {
+ReadOptions read_options(const std::optional<std::string>& up, const GivenColumns& columns) {
   ReadOptions options;
   if (up) options.up = up_axis_of(*up);
   if (const auto* text = std::get_if<std::string>(&columns)) options.columns = columns_of(*text);
   if (const auto* map = std::get_if<std::map<std::string, std::string>>(&columns))
     for (const auto& [tidy, given] : *map) options.columns.push_back(column_of(tidy, given));
-  return load_recording(path, calibration, options);
+  return options;
+}
+
+Recording load(const std::filesystem::path& path, const Calibration& calibration,
+               const std::optional<std::string>& up, const GivenColumns& columns) {
+  return load_recording(path, calibration, read_options(up, columns));
+}
+
+Recording read(const std::string& text, const std::filesystem::path& path, const Calibration& calibration,
+               const std::optional<std::string>& up, const GivenColumns& columns) {
+  return read_recording(text, path, calibration, read_options(up, columns));
+}
+
+/// A rigid body's name, positions (N, 3) and, unless it is a point, orientations (N, 4).
+using GivenBody = std::tuple<std::string, Array, std::optional<Array>>;
+
+/// The take that somebody else's reader found in a file.
+MotiveTake take_of(const std::string& file, const Array& time, const std::vector<GivenBody>& bodies) {
+  expect_shape(time, "time", {kAny});
+  const py::ssize_t size = time.shape(0);
+  MotiveTake take;
+  take.file_name = file;
+  take.time = Eigen::Map<const Eigen::VectorXd>(time.data(), size);
+  for (py::ssize_t i = 0; i < size; ++i)
+    if (!(std::abs(take.time[i]) <= kLargestTime) || (i > 0 && !(take.time[i] > take.time[i - 1])))
+      throw RecordingError(file + ", sample " + std::to_string(i) + ": time " + shown(take.time[i]) +
+                           " s; expected finite times that increase");
+  if (size < 2) throw RecordingError(file + ": " + std::to_string(size) + " samples; expected two at least");
+  take.rate = rate_of(take.time);
+  for (const double t : take.time) take.frame.push_back(std::lround(t * take.rate));
+  for (const auto& [name, position, quaternion] : bodies) {
+    const std::string where = file + ", " + name;
+    const Track track = to_track(position, where + ", position", size, &Track::position);
+    const OrientationTrack turned = to_orientation(quaternion, where + ", orientation", size);
+    MotiveBody body{name, turned.quaternion, track.position, track.valid};
+    if (quaternion) body.valid = track.valid && turned.valid;
+    take.bodies.push_back(std::move(body));
+  }
+  return take;
+}
+
+Recording read_bodies(const std::string& file, const Array& time, const std::vector<GivenBody>& bodies,
+                      const std::vector<std::string>& notes, const Calibration& calibration,
+                      const std::optional<std::string>& up) {
+  MotiveTake take = take_of(file, time, bodies);
+  take.notes = notes;
+  Recording recording = recording_of(std::move(take), calibration, read_options(up, {}));
+  check_recording(recording);
+  return recording;
+}
+
+Calibration of_setup(Calibration calibration, const DiaboloProperties& properties, double string_length) {
+  check_properties(properties, string_length, "setup");
+  calibration.properties = properties;
+  calibration.string_length = string_length;
+  return calibration;
+}
+
+/// A calibration for bodies of these names; empty ones stay as they are.
+Calibration renamed(Calibration calibration, const std::string& left, const std::string& right,
+                    const std::string& diabolo) {
+  if (!left.empty()) calibration.left.bodies = {left};
+  if (!right.empty()) calibration.right.bodies = {right};
+  if (!diabolo.empty()) calibration.diabolo.bodies = {diabolo};
+  check_calibration(calibration, "topics");
+  return calibration;
 }
 
 std::pair<std::vector<Recording>, std::vector<std::string>> trimmed(std::vector<Recording> recordings) {
@@ -278,6 +343,12 @@ void bind_calibration(py::module_& module) {
       "How the rigid bodies of a Motive take become the tips and the diabolo of a recording.")
       .def_static("published", &published_calibration,
                   "Of the red diabolo with the sticks of July 2020; the default.")
+      .def_static("plain", &plain_calibration,
+                  "Of bodies that are the tips and the diabolo themselves, in the world frame.")
+      .def("renamed", &renamed, "left"_a = "", "right"_a = "", "diabolo"_a = "",
+           "The same for bodies of these names, where one is given.")
+      .def("of", &of_setup, "properties"_a, "string_length"_a,
+           "The same for a diabolo and a string [m].")
       .def_static("blue", &blue_calibration, "Of the blue diabolo; its tips are only estimates.")
       .def_static("load", &load_calibration, "path"_a, Unlocked(),
                   "Reads a file of the schema diabolo.calibration/1.")
@@ -364,6 +435,14 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   module.def("load_recording", &load, "path"_a,
              py::arg_v("calibration", published_calibration(), "Calibration.published()"), py::kw_only(),
              "up"_a = py::none(), "columns"_a = py::none(), Unlocked(), "The same as Recording.load.");
+  module.def("read_recording", &read, "text"_a, "path"_a, "calibration"_a, "up"_a, "columns"_a, Unlocked(),
+             "The same of a text, as if it stood in a file.");
+  module.def(
+      "recording_of_bodies", &read_bodies, "file"_a, "time"_a, "bodies"_a, "notes"_a, "calibration"_a, "up"_a,
+      "The recording of rigid bodies: times [s], shape (N,), and of each body its name, positions [m], "
+      "shape "
+      "(N, 3), and orientations x, y, z, w, shape (N, 4), or None where it is a point; a row with NaN is "
+      "a dropout. `file` is what messages name, `notes` what its reader changed.");
   module.def("largest_spin", &largest_spin, "rate"_a,
              "Largest spin that a sampling rate [Hz] tells apart [rad/s].");
   module.def("trim_overlaps", &trimmed, "recordings"_a,

@@ -48,7 +48,6 @@ from ._core import (
     Waypoint,
     __version__,
     baseline,
-    load_recording,
     played_recording,
     start_state,
     trim_overlaps,
@@ -67,6 +66,7 @@ from .enums import (
     ThinRule,
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
+from .formats import load_recording, save_recording
 from .player import best_guess, hang_at_rest, model_for, plan, plan_action, success_rate
 from .residual import fit_residual
 from .rollout import Rollout, RolloutGradient, RolloutWarning, rollout, rollout_gradient
@@ -152,6 +152,7 @@ __all__ = [
     "predict",
     "rollout",
     "rollout_gradient",
+    "save_recording",
     "start_state",
     "success_rate",
     "trim_overlaps",

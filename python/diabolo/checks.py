@@ -16,7 +16,7 @@ from typing import Any, TypeAlias, TypeGuard, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import FormulaLaws, Model, Recording, load_recording
+from ._core import FormulaLaws, Model, Recording
 
 Kind = TypeVar("Kind")
 
@@ -178,10 +178,17 @@ def instance_of(name: str, given: Any, kind: type[Kind]) -> Kind:
     return given
 
 
+def _loader() -> Callable[[Any], Recording]:
+    """What reads recordings of any kind; it is built on these checks."""
+    from .formats import load_recording
+
+    return load_recording
+
+
 def recording_of(name: str, given: AnyRecording) -> Recording:
     """A recording, or what its file holds."""
     if isinstance(given, str | os.PathLike):
-        return loaded(name, given, load_recording)
+        return loaded(name, given, _loader())
     return instance_of(name, given, Recording)
 
 
@@ -193,7 +200,7 @@ def list_of(name: str, given: Any, kinds: tuple[type, ...] = (Recording,), *, le
 
     def one(place: str, item: Any) -> Any:
         if Recording in kinds and isinstance(item, str | os.PathLike):
-            return loaded(place, item, load_recording)
+            return loaded(place, item, _loader())
         if not isinstance(item, kinds):
             raise ValueError(f"{place}: {shown(item)}; expected {expected}")
         return item

@@ -417,7 +417,7 @@ def test_a_recording_that_is_odd_is_warned_of(
         (("info", "played.csv", "--calibration", "played.json"), "played.json: "),
         (("convert", "played.csv", "out.txt"), "out.txt: expected a name that ends in .csv"),
         (("convert", "played.csv", "played.csv"), "played.csv: this file is read; choose"),
-        (("convert", "played.csv"), "the following arguments are required: TIDY.csv"),
+        (("convert", "played.csv"), "the following arguments are required: OUT"),
         (("convert", "no.csv", "out.csv"), "no.csv: there is no such file"),
         (("convert", "played.csv", "no/out.csv"), "out.csv: there is no folder"),
         (("simulate", "out.csv"), "one of the arguments --on --motion is required"),
@@ -670,7 +670,7 @@ def test_sigterm_stops_it_and_leaves_nothing(tidy: Path) -> None:
 def test_sigterm_while_a_file_is_written_leaves_nothing(tidy: Path) -> None:
     text = (
         "import os, signal, sys, diabolo.cli.convert as convert\n"
-        "from diabolo.cli import files, main\n"
+        "from diabolo import files\nfrom diabolo.cli import main\n"
         "def run(arguments):\n"
         "    with files.whole_file('new/out.csv') as temporary:\n"
         "        temporary.write_text('half')\n"

@@ -254,7 +254,10 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
         (lambda: DiaboloEnv(steps=0), "steps: 0; expected 1 to 1000"),
         (lambda: DiaboloEnv(render_mode="human"), "render_mode: 'human'; expected 'rgb_array' or None"),
         (lambda: DiaboloVectorEnv(2, render_mode="rgb_array"), "render_mode: 'rgb_array'; expected None"),
-        (lambda: DiaboloEnv(difficulty="hard"), "difficulty: 'hard'; expected 'easy', 'real', 'sealed' or a Camera"),
+        (
+            lambda: DiaboloEnv(difficulty="hard"),
+            "difficulty: 'hard'; expected 'easy', 'real', 'sealed' or a Camera",
+        ),
         (
             lambda: DiaboloEnv(model=Parameters(), difficulty="sealed"),
             "model: given, beside the difficulty 'sealed', which has its own; expected None",

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from diabolo.checks import LARGEST_SEED, whole_number
 from diabolo.cli.arguments import progress_steps
-from diabolo.cli.files import check_outputs
+from diabolo.files import check_outputs
 
 from ... import command
 from .. import plant

@@ -105,43 +105,61 @@ inline void check_up(const Recording& recording, double yaw, const std::string& 
                        "; read it with --up=" + text_of(up) + ", or with --up=z as it stands");
 }
 
-/// Reads a recording of either kind, told apart by content: a Motive export, to which `calibration` is
-/// applied, or a tidy CSV with its JSON file beside it, which is in the world frame already. Stamps that
-/// jitter are put right, samples that jump become dropouts; notes tell. Throws RecordingError.
-inline Recording load_recording(const std::filesystem::path& path,
+/// What every recording goes through once it is read: stamps that jitter are put right, samples that jump
+/// become dropouts; notes tell. Throws RecordingError where another axis than z points up.
+inline Recording put_right(Recording recording, double yaw, const ReadOptions& options,
+                           const std::string& file_name) {
+  regularise_times(recording);
+  mask_jumps(recording);
+  mask_frozen(recording);
+  if (!options.up) check_up(recording, yaw, file_name);
+  return recording;
+}
+
+/// The recording of rigid bodies, to which `calibration` is applied. Throws RecordingError.
+inline Recording recording_of(MotiveTake take, const Calibration& calibration, const ReadOptions& options) {
+  const UpAxis up = options.up.value_or(UpAxis{});
+  const std::string file_name = take.file_name;
+  if (up.axis != 3 || up.mirrored) take = turned_to_z_up(std::move(take), up);
+  return put_right(apply(calibration, take), calibration.world_yaw, options, file_name);
+}
+
+/// Reads the text of a recording of either kind, told apart by content: a Motive export, to which
+/// `calibration` is applied, or a tidy CSV with its JSON file beside `path`, which is in the world frame
+/// already. Throws RecordingError.
+inline Recording read_recording(const std::string& text, const std::filesystem::path& path,
                                 const Calibration& calibration = published_calibration(),
                                 const ReadOptions& options = {}) {
-  const std::string text = read_file(path), file_name = path.string();
+  const std::string file_name = path.string();
   const std::string_view content = utf8_text(text, file_name);
   const std::string_view first_line = content.substr(0, content.find_first_of("\r\n"));
   const bool is_motive =
       first_line.starts_with(kMotiveMark) || first_line.starts_with('"' + std::string(kMotiveMark));
-  const UpAxis up = options.up.value_or(UpAxis{});
-  const bool is_turned = up.axis != 3 || up.mirrored;
-  Recording recording;
   if (is_motive) {
     if (!options.columns.empty())
       throw RecordingError(file_name +
                            ": columns are mapped, but it is a Motive export; expected another CSV");
-    MotiveTake take = read_motive(text, file_name);
-    recording = apply(calibration, is_turned ? turned_to_z_up(std::move(take), up) : std::move(take));
-  } else {
-    for (const char* const other : {";", "\t"})
-      if (first_line.find(',') == std::string_view::npos && first_line.find(other) != std::string_view::npos)
-        throw RecordingError(file_name + ", line 1: " + shown(other) +
-                             " separates the columns; expected commas, and decimal points");
-    if (options.columns.empty() && (',' + std::string(first_line) + ',').find(",time,") == std::string::npos)
-      throw RecordingError(file_name + ", line 1: starts with " + shown(first_line) +
-                           "; expected a Motive export (\"Format Version,...\") or a tidy recording "
-                           "(\"time,...\"); --columns maps other names");
-    recording = load_tidy(path, text, calibration, options.columns);
-    if (is_turned) recording = turned_to_z_up(std::move(recording), up);
+    return recording_of(read_motive(text, file_name), calibration, options);
   }
-  regularise_times(recording);
-  mask_jumps(recording);
-  mask_frozen(recording);
-  if (!options.up) check_up(recording, is_motive ? calibration.world_yaw : 0.0, file_name);
-  return recording;
+  for (const char* const other : {";", "\t"})
+    if (first_line.find(',') == std::string_view::npos && first_line.find(other) != std::string_view::npos)
+      throw RecordingError(file_name + ", line 1: " + shown(other) +
+                           " separates the columns; expected commas, and decimal points");
+  if (options.columns.empty() && (',' + std::string(first_line) + ',').find(",time,") == std::string::npos)
+    throw RecordingError(file_name + ", line 1: starts with " + shown(first_line) +
+                         "; expected a Motive export (\"Format Version,...\") or a tidy recording "
+                         "(\"time,...\"); --columns maps other names");
+  Recording recording = load_tidy(path, text, calibration, options.columns);
+  const UpAxis up = options.up.value_or(UpAxis{});
+  if (up.axis != 3 || up.mirrored) recording = turned_to_z_up(std::move(recording), up);
+  return put_right(std::move(recording), 0.0, options, file_name);
+}
+
+/// The same of a file.
+inline Recording load_recording(const std::filesystem::path& path,
+                                const Calibration& calibration = published_calibration(),
+                                const ReadOptions& options = {}) {
+  return read_recording(read_file(path), path, calibration, options);
 }
 
 /// Writes NAME.csv (tidy) and NAME.json, neither ever half-written. Throws RecordingError where `path` does

@@ -174,7 +174,7 @@ class Arena {
 
   void observe_into(std::vector<float>& to, std::size_t i) {
     const Episode& episode = episodes_[i];
-    observe(episode, limits().centre, options_.camera.has_value(), to.data() + kObservationSize * i);
+    observe(episode, task(), limits().centre, options_.camera.has_value(), to.data() + kObservationSize * i);
   }
 
   /// Environments [first, first + used) play a period, a lane each; unused lanes repeat the last one.

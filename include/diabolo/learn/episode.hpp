@@ -118,7 +118,8 @@ inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, co
 }
 
 /// Writes kObservationSize numbers, none beyond kMostObserved. With `camera`, what it saw.
-inline void observe(const Episode& episode, const Vector3<double>& centre, bool camera, float* to) {
+inline void observe(const Episode& episode, const TaskInfo& task, const Vector3<double>& centre, bool camera,
+                    float* to) {
   const auto put = [&to](double x) {
     *to++ = static_cast<float>(std::clamp(x, -kMostObserved, kMostObserved));
   };
@@ -135,13 +136,13 @@ inline void observe(const Episode& episode, const Vector3<double>& centre, bool 
                                                         : StringState::kLoose;
   put3(seen.position - 0.5 * (left + right));
   put3(seen.velocity);
-  put(seen.spin / 100.0);
+  put(seen.spin / kSpinSeenOver);
   for (const StringState one : {StringState::kOnString, StringState::kLoose, StringState::kFlying})
     put(string == one ? 1.0 : 0.0);
   put3(left - centre);
   put3(right - centre);
   for (const Vector3<double>& velocity : episode.hands.velocity) put3(velocity);
-  for (const double number : episode.goal) put(number);
+  for (std::size_t i = 0; i < kMostGoalNumbers; ++i) put(episode.goal[i] / task.goal[i].seen_over);
   put(episode.memory.flights);
   for (const Vector3<double>& force : forces) put3(force);
   put(episode.memory.stage);

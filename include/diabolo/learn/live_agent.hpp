@@ -63,7 +63,7 @@ class LiveAgent {
       if (options_.camera) episode_.sight = Sight(*options_.camera, state, episode_.draw);
     }
     Eigen::VectorXf seen(static_cast<Eigen::Index>(kObservationSize));
-    observe(episode_, options_.limits.centre, options_.camera.has_value(), seen.data());
+    observe(episode_, *task_.info, options_.limits.centre, options_.camera.has_value(), seen.data());
     const Eigen::MatrixXf action = agent_.policy.act(seen);
     move_hands(episode_.hands, action.data(), options_.limits, options_.string_length, agent_.period);
     return episode_.hands;

@@ -66,7 +66,7 @@ struct RoutineTask {
       "a catch in the middle; then, for two seconds, T exp(-(|v| / 0.3 m/s)^2) for a period T and a velocity "
       "v on the string",
       15.0,
-      {{{"spin", "rad/s", 70.0, 100.0, "before the throw"},
+      {{{"spin", "rad/s", 70.0, 100.0, "before the throw", kSpinSeenOver},
         {"height", "m", 0.3, 0.6, "of the apex above the middle of the tips' box"}}},
       30.0,
       50.0};

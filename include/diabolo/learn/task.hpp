@@ -21,7 +21,11 @@ struct GoalInfo {
   std::string_view name, unit;
   double low = 0.0, high = 0.0;
   std::string_view meaning;
+  double seen_over = 1.0;  ///< what it is divided by where an agent sees it
 };
+
+/// An agent sees spins over this [rad/s], so that they are about one.
+inline constexpr double kSpinSeenOver = 100.0;
 
 /// What a task is, for people and programs.
 struct TaskInfo {

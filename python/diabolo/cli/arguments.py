@@ -12,12 +12,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .._core import Calibration, Model, Recording, load_recording
+from .._core import Calibration, Model, Recording
 from ..checks import shown
 from ..evaluation import DEFAULT_MODELS, Excerpt
-from .files import STDOUT
+from ..files import STDOUT
+from ..formats import load_recording
 
-RECORDING_HELP = "a Motive export or a tidy recording; NAME.csv:0-180 takes the rows 0 to 180 of it only"
+RECORDING_HELP = (
+    "a Motive export, a tidy recording, a bag of ROS or another of docs/recordings.md; NAME.csv:0-180 takes "
+    "the rows 0 to 180 of it only"
+)
 
 
 def add_command(
@@ -60,6 +64,12 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
         metavar="LIST",
         help="map a CSV of your own: time=t[ms],left_x=lx[mm],..., each TIDY=NAME or TIDY=NAME[UNIT] "
         "with s, ms, us, ns, m, cm, mm, in or ft",
+    )
+    parser.add_argument(
+        "--topics",
+        metavar="LIST",
+        help="which topics or bodies of a bag, C3D, Vicon's or Qualisys' file are the tips and the diabolo: "
+        "left=NAME,right=NAME,diabolo=NAME; default: by their names",
     )
 
 
@@ -118,18 +128,19 @@ def split_excerpt(text: str) -> tuple[str, tuple[int, int] | None]:
 class Reading:
     """How recordings are read: what their files do not say of themselves."""
 
-    calibration: Calibration
+    calibration: Calibration | None
     up: str | None
     columns: str | None
+    topics: str | None
 
     def load(self, path: str) -> Recording:
-        return load_recording(path, self.calibration, up=self.up, columns=self.columns)
+        return load_recording(path, self.calibration, up=self.up, columns=self.columns, topics=self.topics)
 
 
 def reading_of(arguments: argparse.Namespace) -> Reading:
     path = arguments.calibration
-    calibration = Calibration.published() if path is None else Calibration.load(path)
-    return Reading(calibration, arguments.up, arguments.columns)
+    calibration = None if path is None else Calibration.load(path)
+    return Reading(calibration, arguments.up, arguments.columns, arguments.topics)
 
 
 def read_excerpt(text: str, reading: Reading) -> Excerpt:

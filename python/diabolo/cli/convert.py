@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`diabolo convert`: a Motive export as a tidy recording."""
+"""`diabolo convert`: a recording of one kind as another."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from .. import files
 from ..checks import warn_of
-from . import files
+from ..formats import WRITTEN, save_recording
 from .arguments import add_calibration, add_command, output_name, reading_of
 
 
@@ -19,16 +20,19 @@ def add_parser(commands: Any) -> None:
         commands,
         "convert",
         run=run,
-        summary="write a Motive export as a tidy recording",
-        text="Write a Motive export as a tidy recording: TIDY.csv with the stick tips and the diabolo in\n"
-        "the world frame (x forward, y left, z up; s, m, unit quaternions; empty cells are dropouts), and\n"
-        "beside it TIDY.json with mass and sizes of the diabolo, string length and rate.",
-        example="  diabolo convert throw_1.csv tidy/throw_1.csv",
+        summary="write a recording as another kind of file: tidy CSV, a bag of ROS 2, Parquet",
+        text="Read a recording of any kind (docs/recordings.md) and write the stick tips and the diabolo in\n"
+        "the world frame (x forward, y left, z up; s, m, unit quaternions), as the suffix of OUT says:\n\n"
+        "  .csv      tidy: empty cells are dropouts; beside it OUT.json with mass and sizes of the\n"
+        "            diabolo, string length and rate\n"
+        "  .mcap     poses of ROS 2 on /left_tip, /right_tip and /diabolo; string, diabolo in the metadata\n"
+        "  .parquet  the tidy table, and OUT.json beside it",
+        example="  diabolo convert throw_1.csv tidy/throw_1.csv\n"
+        "  diabolo convert bag/ take.csv --topics left=/stick_l/pose,right=/stick_r/pose,diabolo=/d/pose\n"
+        "  diabolo convert take.csv take.mcap",
     )
-    parser.add_argument(
-        "motive", metavar="MOTIVE.csv", help="what to read: a Motive export (or a tidy recording)"
-    )
-    parser.add_argument("tidy", metavar="TIDY.csv", type=output_name, help="what to write")
+    parser.add_argument("recording", metavar="RECORDING", help="what to read")
+    parser.add_argument("out", metavar="OUT", type=output_name, help="what to write")
     add_calibration(parser)
     parser.add_argument(
         "--json", metavar="FILE", help="write what was converted as JSON; - is standard output"
@@ -36,14 +40,15 @@ def add_parser(commands: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    target = Path(arguments.tidy)
-    if target.suffix != ".csv":
-        raise ValueError(f"{target}: expected a name that ends in .csv")
-    inputs = [arguments.motive] + ([arguments.calibration] if arguments.calibration else [])
-    files.check_outputs([target, target.with_suffix(".json"), arguments.json], inputs)
-    recording = reading_of(arguments).load(arguments.motive)
+    target = Path(arguments.out)
+    if target.suffix not in WRITTEN:
+        raise ValueError(f"{target}: expected a name that ends in {', '.join(WRITTEN)}")
+    inputs = [arguments.recording] + ([arguments.calibration] if arguments.calibration else [])
+    beside = None if target.suffix == ".mcap" else target.with_suffix(".json")
+    files.check_outputs([target, beside, arguments.json], inputs)
+    recording = reading_of(arguments).load(arguments.recording)
     warn_of([recording])
-    recording.save(target)
+    save_recording(recording, target)
     dropouts = int(np.count_nonzero(~recording.diabolo_valid))
     files.write_json(
         arguments.json,

@@ -13,12 +13,13 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from .._core import Model, Recording, load_recording
+from .. import files
+from .._core import Model, Recording
 from ..diagnosis import diagnose
+from ..formats import load_recording
 from ..report import check as check_report
 from ..report import quantity, report_html, words
 from ..view import replay_html, replay_of
-from . import files
 from .arguments import add_command, output_name, progress_steps
 from .diagnose import MODEL_FILE, REPORT_FILE, RESULT_FILE, input_file
 

@@ -10,15 +10,16 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from .._core import Estimate, FormulaLaws, InputFile, Recording, load_recording
+from .. import files
+from .._core import Estimate, FormulaLaws, InputFile, Recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import MOST_DRAWS, Comparison, Diagnosis, compare_simulator
 from ..diagnosis import diagnose as run_diagnosis
 from ..evaluation import DEFAULT_MODELS, Excerpt
+from ..formats import load_recording
 from ..report import check as check_report
 from ..report import report_html
 from ..view import Replay, replay_of
-from . import files
 from .arguments import (
     add_calibration,
     add_command,

@@ -6,10 +6,10 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from .. import files
 from .._core import Model
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..evaluation import DEFAULT_HORIZONS, DEFAULT_MODELS, Evaluation, Excerpt, TableRow, evaluate
-from . import files
 from .arguments import (
     RECORDING_HELP,
     add_calibration,

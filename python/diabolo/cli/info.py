@@ -12,12 +12,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import files
 from .._core import MotiveTake, Recording, RecordingError
-from . import files
+from ..formats import reader_of
 from .arguments import Reading, add_calibration, add_command, reading_of
 from .tables import format_table
 
 SCHEMA = "diabolo.info/1"
+KINDS = {
+    "motive": "Motive export",
+    "tidy": "tidy recording",
+    "csv": "CSV of mapped columns",
+    "parquet": "Parquet table",
+    "bag": "bag of ROS",
+    "c3d": "C3D",
+    "qualisys": "Qualisys export",
+    "vicon": "Vicon export",
+}
 MOST_DROPOUTS = 0.5  # of a body's samples
 LONGEST_GAP = 1.0  # [s]
 
@@ -56,9 +67,10 @@ def run(arguments: argparse.Namespace) -> None:
 
 def describe(path: str, reading: Reading) -> dict[str, Any]:
     """The figures, for JSON of the schema diabolo.info/1."""
-    if Path(path).exists() and not Path(path).is_file():
-        raise ValueError(f"{path}: a folder, a device or a pipe; expected a file")
-    take = _motive_take(path)
+    if Path(path).exists() and not Path(path).is_file() and not Path(path).is_dir():
+        raise ValueError(f"{path}: a device or a pipe; expected a file")
+    reader = reader_of(Path(path))
+    take = None if reader else _motive_take(path)
     recording: Recording | None = None
     problem = refused = None
     try:
@@ -86,7 +98,7 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "file": path,
-        "format": "motive" if take is not None else "csv" if reading.columns else "tidy",
+        "format": reader or ("motive" if take is not None else "csv" if reading.columns else "tidy"),
         "samples": len(time),
         "rate_hz": rate,
         "duration_s": float(time[-1] - time[0]),
@@ -100,9 +112,7 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
 
 
 def text_of(found: dict[str, Any]) -> str:
-    kind = {"motive": "Motive export", "tidy": "tidy recording", "csv": "CSV of mapped columns"}[
-        found["format"]
-    ]
+    kind = KINDS[found["format"]]
     lines = [
         f"{found['file']}: {kind}, {found['samples']} samples at {found['rate_hz']:g} Hz, "
         f"{found['duration_s']:.2f} s",

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from .. import files
 from .._core import recorded_plan, stretch_starts
 from ..checks import warn_of
-from . import files
 from .arguments import (
     RECORDING_HELP,
     add_calibration,

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import files
 from .._core import (
     DiaboloProperties,
     DiagnosisResult,
@@ -21,14 +22,14 @@ from .._core import (
     StickMap,
     TipLimits,
     Waypoint,
-    load_recording,
     played_recording,
 )
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS
+from ..formats import load_recording
 from ..player import ACTIONS, WANTED, best_guess, model_for, plan_action
 from ..view import view_html
-from . import files, plots
+from . import plots
 from .arguments import add_command, output_name, read_model
 from .simulate import check_spin
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import files
 from ..checks import LARGEST_SEED, check_library
-from . import files
 from .arguments import add_command, add_playing, check_task, output_name, read_model
 from .tables import format_table
 

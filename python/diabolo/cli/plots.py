@@ -13,7 +13,7 @@ from .._core import Model, PlannedPlay, baseline
 from ..checks import check_drawing
 from ..enums import StringState
 from ..evaluation import ALL_RECORDINGS, Evaluation, Excerpt, HorizonRow, position_errors, predict
-from .files import whole_file
+from ..files import whole_file
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

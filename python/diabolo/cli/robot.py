@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from .. import files
 from .._core import (
     SeedGrid,
     StickArm,
     StickMap,
     TipMotion,
     check_plan,
-    load_recording,
     load_tip_plan,
     recorded_plan,
 )
-from . import files
+from ..formats import load_recording
 from .arguments import add_command, output_name
 from .tables import format_table
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import files
 from .._core import (
     DiaboloProperties,
     Model,
@@ -23,7 +24,6 @@ from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS, predict
 from ..motions import MOTIONS
 from ..rollout import rollout
-from . import files
 from .arguments import (
     RECORDING_HELP,
     add_calibration,

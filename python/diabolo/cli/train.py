@@ -12,8 +12,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .. import files
 from ..checks import check_library, shown
-from . import files
 from .arguments import add_command, add_playing, check_task, output_name, progress_steps, read_model
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from .. import files
 from ..evaluation import DEFAULT_MODELS, predict
 from ..view import predict_anew, view_html
-from . import files
 from .arguments import (
     RECORDING_HELP,
     add_calibration,

@@ -61,6 +61,13 @@ inline Calibration published_calibration() {
           .string_length = kPublishedStringLength};
 }
 
+/// Of bodies that are the tips and the diabolo themselves, in the world frame; their names tell which is
+/// which.
+inline Calibration plain_calibration() {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero(), x = Eigen::Vector3d::UnitX();
+  return {.left = {{"left"}, none, x}, .right = {{"right"}, none, x}, .diabolo = {{"diabolo"}, none, x}};
+}
+
 /// For the take of 2020-11-12 with the blue diabolo, of which no calibration take exists.
 /// Its spin axis and the point nearest to the body's origin on it are what find_spin_line() finds in the take
 /// itself (to about 1 mm and 0.1 degrees); where along the axle the centre lies is unknown, zero here. The
@@ -134,9 +141,19 @@ inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
                              OrientationTrack& orientation) {
     // Any rotation that takes body x to the axis would do; this one turns least.
     const Eigen::Quaterniond to_axis = turn_from_x(part.axis);
+    const bool is_point = body.quaternion.cols() == 0;
+    if (is_point && !part.point.isZero())
+      throw RecordingError(take.file_name + ": " + shown(body.name) +
+                           " has no orientation, but the calibration has a point in it; expected 0, 0, 0");
     track = Track::missing(size);
+    track.valid = body.valid;
+    if (is_point) {
+      for (Eigen::Index i = 0; i < size; ++i)
+        if (body.valid[i]) track.position.col(i) = yaw * body.position.col(i) + calibration.world_offset;
+      return;
+    }
     orientation = OrientationTrack::missing(size);
-    track.valid = orientation.valid = body.valid;
+    orientation.valid = body.valid;
     for (Eigen::Index i = 0; i < size; ++i) {
       if (!body.valid[i]) continue;
       const Eigen::Quaterniond rotation(Eigen::Vector4d(body.quaternion.col(i)));

@@ -24,10 +24,11 @@
 
 namespace diabolo {
 
-/// A rigid body that Motive tracked over N samples, in the frame of the motion capture.
+/// A rigid body that was tracked over N samples, in the frame of the motion capture.
 struct MotiveBody {
   std::string name;
-  Eigen::Matrix4Xd quaternion;  ///< x, y, z, w; 4 x N, body to capture frame, unit; NaN in a dropout
+  Eigen::Matrix4Xd quaternion;  ///< x, y, z, w; 4 x N, body to capture frame, unit; NaN in a dropout; 4 x 0
+                                ///< where only a point was tracked
   Eigen::Matrix3Xd position;    ///< of the body's origin [m], 3 x N; NaN in a dropout
   Marks valid;                  ///< N; false marks a dropout
 };

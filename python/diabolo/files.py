@@ -29,7 +29,7 @@ def check_outputs(
             raise ValueError("an empty name of a file to read; expected a file")
         path = Path(given)
         taken[_place(path)] = "this file is read"
-        if path.name and path.suffix != ".json":  # a tidy recording's other half
+        if path.suffix in (".csv", ".parquet"):  # a tidy recording's other half
             taken[_place(path.with_suffix(".json"))] = "this file is read"
     for output in outputs:
         if output is None or output == STDOUT:

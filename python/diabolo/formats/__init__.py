@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: MIT
+"""Recordings of other programs: bags of ROS (rosbag2, MCAP, rosbag1), C3D, Parquet, and exports of Vicon and
+Qualisys, read and in part written by libraries that are installed by `pip install '.[formats]'`.
+
+What a file names as bodies or points goes through the same calibration, checks and repairs as an export of
+Motive; a table of columns through those of a CSV.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from .. import _core
+from .._core import Calibration, Recording, RecordingError
+from ..checks import check_library, shown
+
+ROLES = ("left", "right", "diabolo")
+WRITTEN = (".csv", ".mcap", ".parquet")
+"""Suffixes of what save_recording() writes."""
+
+
+def load_recording(
+    path: str | os.PathLike[str],
+    calibration: Calibration | None = None,
+    *,
+    up: str | None = None,
+    columns: str | Mapping[str, str] | None = None,
+    topics: str | Mapping[str, str] | None = None,
+) -> Recording:
+    """Read a recording of any kind, told apart by its suffix and its first line.
+
+    CSV files, tidy or Motive's, are read as by Recording.load, with `calibration` (default: the published
+    one), `up` and `columns`. A `.parquet` is the same table. Bags (a folder of rosbag2, `.mcap`, `.db3`,
+    `.bag`), `.c3d`, Vicon's CSV of objects and Qualisys' TSV of bodies hold bodies or points with names: by
+    default these are the tips and the diabolo themselves, in a world frame with z up, told apart by names.
+    topics: {"left": NAME, "right": NAME, "diabolo": NAME}, or "left=NAME,...", says which they are.
+    Raises RecordingError with the file, what was found and what was expected.
+    """
+    path, names = Path(os.fspath(path)), topics_of(topics)
+    reader = reader_of(path)
+    if reader is None:
+        if topics is not None:
+            raise RecordingError(
+                f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only"
+            )
+        return _core.load_recording(path, calibration or Calibration.published(), up=up, columns=columns)
+    if reader == "parquet":
+        from . import parquet
+
+        text = parquet.csv_of(path)
+        return _core.read_recording(text, path, calibration or Calibration.published(), up, columns)
+    if columns is not None:
+        raise RecordingError(f"{path}: columns are mapped, but it is no table; expected --topics")
+    from . import bodies
+
+    found, notes, given = _bodies_of(reader, path)
+    bodies.check_names(path, found, names)
+    time, tracks = bodies.together(path, found, names)
+    return _core.recording_of_bodies(
+        str(path), time, tracks, notes, (calibration or given).renamed(**names), up
+    )
+
+
+def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
+    """Write it as its suffix says: `.csv` (tidy, with JSON beside it), `.mcap` (poses of ROS 2), or
+    `.parquet` (the tidy table, with JSON beside it)."""
+    path = Path(os.fspath(path))
+    if path.suffix == ".csv":
+        recording.save(path)
+    elif path.suffix == ".mcap":
+        from . import bag
+
+        check_library(f"writing {path.name}", "mcap", "formats")
+        check_library(f"writing {path.name}", "rosbags", "formats")
+        bag.save(recording, path)
+    elif path.suffix == ".parquet":
+        from . import parquet
+
+        check_library(f"writing {path.name}", "pyarrow", "formats")
+        parquet.save(recording, path)
+    else:
+        raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
+
+
+def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:
+    """Names of bodies by their role, of a mapping or of `left=NAME,right=NAME,diabolo=NAME`."""
+    if given is None:
+        return {}
+    if isinstance(given, str):
+        pairs = [item.partition("=") for item in given.split(",")]
+        if any(not name for _, _, name in pairs):
+            raise RecordingError(f"topics {shown(given)}; expected left=NAME,right=NAME,diabolo=NAME")
+        given = {role.strip(): name.strip() for role, _, name in pairs}
+    if unknown := sorted({*given} - {*ROLES}):
+        raise RecordingError(f"topics: found {shown(unknown[0])}; expected {', '.join(ROLES)}")
+    return dict(given)
+
+
+LIBRARIES = {"bag": "rosbags", "c3d": "ezc3d", "parquet": "pyarrow"}
+READERS = {".mcap": "bag", ".db3": "bag", ".bag": "bag", ".c3d": "c3d", ".parquet": "parquet"}
+
+
+def reader_of(path: Path) -> str | None:
+    """Which part of this package reads a file: "bag", "c3d", "parquet", "qualisys" or "vicon"; None: the core
+    does, or there is none. Raises RecordingError about a folder that is no bag, ValueError where the library
+    for it is not installed."""
+    if os.path.isdir(path):
+        if not (path / "metadata.yaml").exists():
+            raise RecordingError(f"{path}: a directory; expected a file, or a bag with its metadata.yaml")
+        reader: str | None = "bag"
+    else:
+        reader = READERS.get(path.suffix.lower())
+    if reader is not None and os.path.exists(path):
+        check_library(f"reading {path.name}", LIBRARIES[reader], "formats")
+        return reader
+    if path.suffix.lower() in (".csv", ".tsv") and os.path.isfile(path):
+        with path.open("rb") as file:
+            first = file.readline(200).decode("utf-8", "replace").strip("\ufeff\r\n ,\t;")
+        if first.startswith("NO_OF_FRAMES"):
+            return "qualisys"
+        if first == "Objects":
+            return "vicon"
+    return None
+
+
+def _bodies_of(reader: str, path: Path) -> tuple[list[Any], list[str], Calibration]:
+    """The bodies of a file, what was changed, and the calibration that goes with it."""
+    if reader == "bag":
+        from . import bag
+
+        return bag.read(path)
+    if reader == "c3d":
+        from . import c3d
+
+        return c3d.read(path), [], Calibration.plain()
+    from . import exports
+
+    read = exports.read_qualisys if reader == "qualisys" else exports.read_vicon
+    return read(path), [], Calibration.plain()

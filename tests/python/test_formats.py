@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: MIT
+"""Recordings of other programs: bags of ROS, C3D, Parquet, and exports of Vicon and Qualisys."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from diabolo import Calibration, Recording, RecordingError, load_recording, save_recording
+from diabolo.cli import main
+from diabolo.formats.bodies import Body, together
+from diabolo.formats.c3d import quaternions
+from numpy.typing import NDArray
+
+SWING = Path(__file__).parents[2] / "data" / "recordings" / "swing.csv"
+
+
+@pytest.fixture(scope="module")
+def swing() -> Recording:
+    return load_recording(SWING).cut(0, 480)
+
+
+def same(
+    one: Recording, other: Recording, *, times: float = 1.5e-9, places: float = 1e-9, turned: bool = True
+) -> None:
+    """Times, dropouts, places and directions of both, and how long they are."""
+    assert len(one) == len(other)
+    np.testing.assert_allclose(one.time - one.time[0], other.time - other.time[0], rtol=0.0, atol=times)
+    for name in ("left", "right", "diabolo"):
+        np.testing.assert_allclose(getattr(one, name), getattr(other, name), atol=places)
+        turns, others = getattr(one, f"{name}_orientation"), getattr(other, f"{name}_orientation")
+        if turned and turns is not None:
+            aligned = np.abs((turns * others).sum(axis=1))
+            assert np.nanmin(aligned) > 1.0 - 1e-6
+    assert one.rate == pytest.approx(other.rate)
+
+
+@pytest.mark.parametrize("suffix", [".mcap", ".parquet", ".csv"])
+def test_what_is_written_is_read_again(swing: Recording, tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"swing{suffix}"
+    save_recording(swing, path)
+    again = load_recording(path)
+    same(swing, again)
+    assert again.string_length == swing.string_length
+    assert again.properties.mass == swing.properties.mass
+    assert not np.isfinite(again.diabolo).all() and np.isfinite(again.diabolo).any()  # with its dropouts
+
+
+def write_bag(folder: Path, recording: Recording, topics: dict[str, str], shift: dict[str, int]) -> None:
+    """A folder of rosbag2 whose bodies have stamps of their own."""
+    from rosbags.rosbag2 import StoragePlugin, Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    types = store.types
+    with Writer(folder, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+        for role, topic in topics.items():
+            connection = writer.add_connection(topic, "geometry_msgs/msg/PoseStamped", typestore=store)
+            places, turns = getattr(recording, role), getattr(recording, f"{role}_orientation")
+            for i in np.flatnonzero(np.isfinite(places[:, 0])):
+                stamp = 1_700_000_000 * 10**9 + round(recording.time[i] * 1e9) + shift.get(role, 0)
+                message = types["geometry_msgs/msg/PoseStamped"](
+                    types["std_msgs/msg/Header"](
+                        types["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9), "world"
+                    ),
+                    types["geometry_msgs/msg/Pose"](
+                        types["geometry_msgs/msg/Point"](*places[i].tolist()),
+                        types["geometry_msgs/msg/Quaternion"](*turns[i].tolist()),
+                    ),
+                )
+                data = store.serialize_cdr(message, "geometry_msgs/msg/PoseStamped")
+                writer.write(connection, stamp, data)
+
+
+TOPICS = {"left": "/mocap/hand_a", "right": "/mocap/hand_b", "diabolo": "/mocap/top"}
+GIVEN = ",".join(f"{role}={name}" for role, name in TOPICS.items())
+
+
+def test_a_bag_of_rosbag2_is_read_by_its_topics(swing: Recording, tmp_path: Path) -> None:
+    bag = tmp_path / "bag"
+    write_bag(bag, swing, TOPICS, {})
+    with pytest.raises(
+        RecordingError, match=r"no rigid body for the left stick: .*the file has \"/mocap/hand"
+    ):
+        load_recording(bag)
+    found = load_recording(bag, topics=TOPICS)
+    same(swing, found, places=1e-6)
+    told = " ".join(found.warnings())
+    assert "stamps of a clock" in told and "nothing in it says how long the string is" in told
+    with pytest.raises(RecordingError, match="no body '/nobody' for left; the file has '/mocap"):
+        load_recording(bag, topics={**TOPICS, "left": "/nobody"})
+
+
+def test_bodies_with_stamps_of_their_own_are_interpolated_to_the_diabolo(
+    swing: Recording, tmp_path: Path
+) -> None:
+    bag = tmp_path / "bag"
+    write_bag(bag, swing, TOPICS, {"left": 1_000_000, "right": -700_000})
+    found = load_recording(bag, topics=GIVEN)
+    inside = slice(2, -2)
+    late = np.array([np.interp(swing.time - 0.001, swing.time, column) for column in swing.left.T]).T
+    seen = np.isfinite(swing.diabolo[:, 0])
+    np.testing.assert_allclose(found.left[inside], late[seen][inside], atol=3e-4)
+    assert len(found) == int(seen.sum())
+
+
+def test_points_of_c3d_are_tips_without_directions(swing: Recording, tmp_path: Path) -> None:
+    ezc3d = pytest.importorskip("ezc3d")
+    file = ezc3d.c3d()
+    file["parameters"]["POINT"]["RATE"]["value"] = [swing.rate]
+    file["parameters"]["POINT"]["LABELS"]["value"] = ("left_tip", "right_tip", "diabolo")
+    file["parameters"]["POINT"]["UNITS"]["value"] = ("mm",)
+    points = np.ones((4, 3, len(swing)))
+    for k, name in enumerate(("left", "right", "diabolo")):
+        points[:3, k] = getattr(swing, name).T * 1e3
+    file["data"]["points"] = points
+    file.write(str(tmp_path / "swing.c3d"))
+    found = load_recording(tmp_path / "swing.c3d")
+    same(swing, found, times=1e-6, places=1e-6, turned=False)
+    assert found.diabolo_orientation is None
+
+
+def test_rotations_become_quaternions() -> None:
+    rng = np.random.default_rng(25)
+    wanted = rng.normal(size=(200, 4))
+    wanted /= np.linalg.norm(wanted, axis=1, keepdims=True)
+    wanted[:4] = np.eye(4)
+    found = quaternions(matrices_of(wanted))
+    np.testing.assert_allclose(np.abs((found * wanted).sum(axis=1)), 1.0, atol=1e-12)
+    assert np.isnan(quaternions(np.zeros((1, 3, 3)))).all()
+
+
+def matrices_of(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    x, y, z, w = q.T
+    return np.moveaxis(
+        np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        ),
+        -1,
+        0,
+    )
+
+
+def write_qualisys(path: Path, recording: Recording) -> None:
+    names = ("left", "right", "diabolo")
+    lines = [
+        f"NO_OF_FRAMES\t{len(recording)}",
+        f"FREQUENCY\t{recording.rate:g}",
+        "DATA_INCLUDED\t6D",
+        "BODY_NAMES\t" + "\t".join(names),
+    ]
+    own = ["X", "Y", "Z", "Roll", "Pitch", "Yaw", "Residual", *(f"Rot[{k}]" for k in range(9))]
+    head: list[str] = []
+    for name in names:
+        head += [f"{name} X", *own[1:], ""]
+    lines.append("\t".join(head))
+    table = []
+    for name in names:
+        places = np.nan_to_num(getattr(recording, name) * 1e3)
+        turns = np.nan_to_num(matrices_of(getattr(recording, f"{name}_orientation")))
+        gone = (places == 0.0).all(axis=1)
+        rest = np.zeros((len(recording), 4))
+        rest[gone, 3] = -1.0
+        table.append((places, rest, turns.swapaxes(1, 2).reshape(-1, 9)))
+    for i in range(len(recording)):
+        lines.append(
+            "\t".join("\t".join(f"{x:.6f}" for part in body for x in part[i]) + "\t" for body in table)
+        )
+    path.write_text("\n".join(lines) + "\n")
+
+
+def write_vicon(path: Path, recording: Recording) -> None:
+    names = ("left", "right", "diabolo")
+    lines = ["Objects", f"{recording.rate:g}", ",," + ",".join(f"{name}:{name},,,,,," for name in names)[:-1]]
+    lines[2] = ",," + ",,,,,,".join(f"{name}:{name}" for name in names) + ",,,,,"
+    lines.append("Frame,Sub Frame," + ",".join("RX,RY,RZ,TX,TY,TZ" for _ in names))
+    lines.append(",," + ",".join("rad,rad,rad,mm,mm,mm" for _ in names))
+    for i in range(len(recording)):
+        cells = [str(i + 1), "0"]
+        for name in names:
+            turn, place = getattr(recording, f"{name}_orientation")[i], getattr(recording, name)[i] * 1e3
+            if not np.isfinite(place[0]):
+                cells += [""] * 6
+                continue
+            turn = turn if turn[3] >= 0.0 else -turn
+            size = np.linalg.norm(turn[:3])
+            vector = turn[:3] * (2.0 * np.arctan2(size, turn[3]) / size if size > 0.0 else 2.0)
+            cells += [f"{x:.9f}" for x in (*vector, *place)]
+        lines.append(",".join(cells))
+    path.write_text("\n".join(lines) + "\n")
+
+
+@pytest.mark.parametrize(("name", "write"), [("take.tsv", write_qualisys), ("take.csv", write_vicon)])
+def test_exports_of_other_motion_capture_are_read(
+    swing: Recording, tmp_path: Path, name: str, write: Callable[[Path, Recording], None]
+) -> None:
+    write(tmp_path / name, swing)
+    same(swing, load_recording(tmp_path / name), times=1e-6, places=1e-6)
+
+
+def test_the_commands_take_them(swing: Recording, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bag, tidy = tmp_path / "take.mcap", tmp_path / "take.csv"
+    assert main(["convert", str(SWING), str(bag)]) == 0
+    assert main(["info", str(bag)]) == 0
+    assert "bag" in capsys.readouterr().out
+    assert main(["convert", str(bag), str(tidy)]) == 0
+    same(load_recording(SWING), load_recording(tidy))
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "complaint"),
+    [
+        ("take.mcap", b"no bag", "cannot be read as a bag of ROS"),
+        ("take.db3", b"no bag", "cannot be read as a bag of ROS"),
+        ("take.bag", b"", "cannot be read as a bag of ROS"),
+        ("take.c3d", b"no c3d", "cannot be read as C3D"),
+        ("take.parquet", b"PAR1", "cannot be read as Parquet"),
+        ("take.tsv", b"NO_OF_FRAMES\t2\nFREQUENCY\t100\n", "no BODY_NAMES"),
+        ("take.tsv", b"NO_OF_FRAMES\t2\nBODY_NAMES\ta\nX\n", "no FREQUENCY"),
+        ("take.tsv", b"NO_OF_FRAMES\t2\nFREQUENCY\t100\nBODY_NAMES\ta\nX\tY\n1\t2\n", "columns of 0 bodies"),
+        ("take.csv", b"Objects\n100\n", "expected an export of Vicon"),
+        ("take.csv", b"Objects\nfast\na\nRX\nrad\n1\n", "line 2: found ['fast']; expected the rate"),
+        ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad\n1,0,0,0,0\n", "expected a column TX of a"),
+    ],
+)
+def test_a_broken_file_ends_in_one_sentence(
+    tmp_path: Path, name: str, content: bytes, complaint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / name).write_bytes(content)
+    assert main(["info", str(tmp_path / name)]) == 2
+    error = capsys.readouterr().err
+    assert complaint in error and name in error and error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("call", "complaint"),
+    [
+        (lambda folder: load_recording(folder), "a directory; expected a file, or a bag"),
+        (lambda _: load_recording(SWING, topics=GIVEN), "topics are given; expected them of bags"),
+        (lambda _: load_recording(SWING, topics="left"), "topics 'left'; expected left=NAME,right=NAME"),
+        (lambda _: load_recording(SWING, topics={"middle": "a"}), "topics: found 'middle'; expected left"),
+        (
+            lambda folder: save_recording(load_recording(SWING), folder / "a.txt"),
+            "expected a name that ends in",
+        ),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(tmp_path: Path, call: Callable[[Path], Any], complaint: str) -> None:
+    with pytest.raises(RecordingError, match=complaint.replace("(", r"\(")):
+        call(tmp_path)
+
+
+def test_stamps_that_go_back_are_refused_with_the_body() -> None:
+    body = Body("left", np.array([0, 2, 1]), np.zeros((3, 3)))
+    with pytest.raises(RecordingError, match="left: stamp 1 ns does not come after the one before"):
+        together(Path("bag"), [body], {})
+
+
+def test_a_point_cannot_have_a_tip_elsewhere() -> None:
+    from diabolo._core import recording_of_bodies
+
+    place = np.ones((3, 3))
+    bodies = [(name, place, None) for name in ("stick_left", "stick_right", "diabolo_red")]
+    with pytest.raises(
+        RecordingError, match='"stick_left" has no orientation, but the calibration has a point'
+    ):
+        recording_of_bodies("file", np.arange(3.0), bodies, [], Calibration.published(), None)
