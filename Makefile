@@ -238,9 +238,11 @@ check-prose: # Sentences of the pages are short.
 	@$(packages) build
 	@git ls-files -co --exclude-standard '*.md' | grep -vx CHANGELOG.md | xargs $(PYTHON) tools/count_sentences.py
 
-# Less the methods that every object has.
+# Less the methods that every object has, and what fits on one line on one line.
+tidy_stubs = s/^ *def __(copy|deepcopy|getstate|setstate|repr)__\(.*\n.*\n//mg; \
+  s/(:\n\s+""")\n\s+([^\n"\\]*)\n\s+"""/$$1$$2"""/g; s/:\n\s+\.\.\.\n/: ...\n/g
 generate_stubs = rm -rf $(BUILD)/stubs; $(VENV)/bin/pybind11-stubgen --exit-code -o $(BUILD)/stubs diabolo._core; \
-  find $(BUILD)/stubs -name '*.pyi' -exec sed -E -i '/^ *def __(copy|deepcopy|getstate|setstate|repr)__\(/,+1d' {} +
+  find $(BUILD)/stubs -name '*.pyi' -exec perl -0pi -e '$(tidy_stubs)' {} +
 stubs: $(VENV)/.package-with-tests $(VENV)/.tools ## Write the type stubs of the compiled module anew
 	@$(generate_stubs)
 	@rm -rf python/diabolo/_core python/diabolo/_core.pyi

@@ -27,7 +27,7 @@ from PIL import Image
 
 IMAGES = Path(__file__).with_name("images")
 SHOWN = "2020-07-11_basic_physics/right_hand_extend_1.csv"  # in the moving picture; no fit sees it
-BEGIN, SECONDS, BETWEEN_FRAMES = 1.0, 4.0, 0.1  # real time: GIF counts in hundredths of a second
+BEGIN, SECONDS, BETWEEN_FRAMES = 1.0, 3.0, 0.12  # real time: GIF counts in hundredths of a second
 ANEW = 1.0  # between the starts of its predictions [s]
 TRAIL = 0.6  # [s]
 INK, SOFT, LEFT, RIGHT = "#111827", "#9ca3af", "#c2410c", "#1d4ed8"

@@ -309,7 +309,9 @@ task: its name; period [s] between its actions; steps of the simulation in a per
 weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1.)")
       .def(py::init(&make_agent), "task"_a, "period"_a, "steps"_a, "layers"_a)
       .def_static("load", &load_agent, "path"_a, Unlocked(), "Reads a file of the schema diabolo.agent/1.")
-      .def("to_json", &write_agent, "The text of its file.")
+      .def("to_json", &write_agent, "decimals"_a = py::none(),
+           "The text of its file; with its numbers rounded to so many decimals (1 to 6) it is a third as "
+           "large.")
       .def("act", &act, "observations"_a,
            "Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each.")
       .def_readonly("task", &Agent::task)

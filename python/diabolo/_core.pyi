@@ -9,24 +9,17 @@ import os
 import typing
 __all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
-    """
-    Name, unit and range of a numeric parameter.
-    """
+    """Name, unit and range of a numeric parameter."""
     @property
-    def maximum(self) -> float:
-        ...
+    def maximum(self) -> float: ...
     @property
-    def meaning(self) -> str:
-        ...
+    def meaning(self) -> str: ...
     @property
-    def minimum(self) -> float:
-        ...
+    def minimum(self) -> float: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def unit(self) -> str:
-        ...
+    def unit(self) -> str: ...
 class Parameters:
     """
     Everything that the predictor can be told.
@@ -41,268 +34,167 @@ class Parameters:
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def consistent(**kwargs) -> Parameters:
-        """
-        Inextensible massless string without friction; results converge as the step goes to zero.
-        """
+        """Inextensible massless string without friction; results converge as the step goes to zero."""
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every numeric field (ParameterInfo).
-        """
+        """Name, unit and range of every numeric field (ParameterInfo)."""
     @staticmethod
     def paper(**kwargs) -> Parameters:
-        """
-        The rules of the paper's text with its errata corrected.
-        """
+        """The rules of the paper's text with its errata corrected."""
     @staticmethod
     def published(**kwargs) -> Parameters:
-        """
-        The authors' program, rule by rule, with the settings of its evaluation.
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """The authors' program, rule by rule, with the settings of its evaluation."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def replace(self, **kwargs) -> Parameters:
-        """
-        A copy with other values in the given fields.
-        """
+        """A copy with other values in the given fields."""
     def to_dict(self) -> dict:
-        """
-        All fields by name; Parameters(**fields) builds them again.
-        """
+        """All fields by name; Parameters(**fields) builds them again."""
     @property
     def axle_radius(self) -> float:
-        """
-        radius of the axle [m]; within [0.0001, 0.1]
-        """
+        """radius of the axle [m]; within [0.0001, 0.1]"""
     @axle_radius.setter
-    def axle_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def axle_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def cap_scale(self) -> float:
-        """
-        paper: part of the spheroid's motion that caps the pull [1]; within [0.0, 1.0]
-        """
+        """paper: part of the spheroid's motion that caps the pull [1]; within [0.0, 1.0]"""
     @cap_scale.setter
-    def cap_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def cap_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def catch_distance(self) -> float:
-        """
-        a catch needs the diabolo this close to the line of the tips [m]; within [0.0, 1.0]
-        """
+        """a catch needs the diabolo this close to the line of the tips [m]; within [0.0, 1.0]"""
     @catch_distance.setter
-    def catch_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def catch_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def catch_slack(self) -> float:
-        """
-        a catch needs tips no closer than the string length minus this [m]; within [0.0, 20.0]
-        """
+        """a catch needs tips no closer than the string length minus this [m]; within [0.0, 20.0]"""
     @catch_slack.setter
-    def catch_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def catch_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def dissipation_rate(self) -> float:
-        """
-        decay of the velocity while on the string [1/s]; within [0.0, 1000.0]
-        """
+        """decay of the velocity while on the string [1/s]; within [0.0, 1000.0]"""
     @dissipation_rate.setter
-    def dissipation_rate(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def dissipation_rate(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def flight_rule(self) -> str:
-        """
-        when the diabolo leaves the string and comes back to it, as in diabolo.FlightRule: 'published' 'paper' 'slack'
-        """
+        """when the diabolo leaves the string and comes back to it, as in diabolo.FlightRule: 'published' 'paper' 'slack'"""
     @flight_rule.setter
-    def flight_rule(self, arg1: str) -> None:
-        ...
+    def flight_rule(self, arg1: str) -> None: ...
     @property
     def flying_distance(self) -> float:
-        """
-        paper's c_F [m]; within [0.0, 1.0]
-        """
+        """paper's c_F [m]; within [0.0, 1.0]"""
     @flying_distance.setter
-    def flying_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def flying_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def gravity(self) -> float:
-        """
-        acceleration of gravity, downwards [m/s^2]; within [0.0, 100.0]
-        """
+        """acceleration of gravity, downwards [m/s^2]; within [0.0, 100.0]"""
     @gravity.setter
-    def gravity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def gravity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def integrator(self) -> str:
-        """
-        of the free motion, as in diabolo.Integrator: 'euler' 'parabolic'
-        """
+        """of the free motion, as in diabolo.Integrator: 'euler' 'parabolic'"""
     @integrator.setter
-    def integrator(self, arg1: str) -> None:
-        ...
+    def integrator(self, arg1: str) -> None: ...
     @property
     def loose_distance(self) -> float:
-        """
-        paper's c_L [m]; within [0.0, 1.0]
-        """
+        """paper's c_L [m]; within [0.0, 1.0]"""
     @loose_distance.setter
-    def loose_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def loose_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def mass(self) -> float:
-        """
-        mass of the diabolo [kg]; within [0.001, 10.0]
-        """
+        """mass of the diabolo [kg]; within [0.001, 10.0]"""
     @mass.setter
-    def mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def mu_acceleration(self) -> float:
-        """
-        paper: spin per growth of the right strand [rad/m]; within [0.0, 10000.0]
-        """
+        """paper: spin per growth of the right strand [rad/m]; within [0.0, 10000.0]"""
     @mu_acceleration.setter
-    def mu_acceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def mu_acceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def mu_deceleration(self) -> float:
-        """
-        paper: spin per shrinking of the right strand [rad/m]; within [0.0, 10000.0]
-        """
+        """paper: spin per shrinking of the right strand [rad/m]; within [0.0, 10000.0]"""
     @mu_deceleration.setter
-    def mu_deceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def mu_deceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def normal_rule(self) -> str:
-        """
-        which direction counts as the spheroid's normal, as in diabolo.NormalRule: 'published' 'true'
-        """
+        """which direction counts as the spheroid's normal, as in diabolo.NormalRule: 'published' 'true'"""
     @normal_rule.setter
-    def normal_rule(self, arg1: str) -> None:
-        ...
+    def normal_rule(self, arg1: str) -> None: ...
     @property
     def per_step(self) -> bool:
-        """
-        apply the factors as if every step were a reference step, so that the motion depends on the step
-        """
+        """apply the factors as if every step were a reference step, so that the motion depends on the step"""
     @per_step.setter
-    def per_step(self, arg1: bool) -> None:
-        ...
+    def per_step(self, arg1: bool) -> None: ...
     @property
     def planar(self) -> bool:
-        """
-        keep the diabolo in the plane through its start square to plane_normal
-        """
+        """keep the diabolo in the plane through its start square to plane_normal"""
     @planar.setter
-    def planar(self, arg1: bool) -> None:
-        ...
+    def planar(self, arg1: bool) -> None: ...
     @property
     def plane_normal(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        unit vector, shape (3,)
-        """
+        """unit vector, shape (3,)"""
     @plane_normal.setter
-    def plane_normal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
-        ...
+    def plane_normal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
     @property
     def projection(self) -> str:
-        """
-        where a diabolo outside the spheroid is put back, as in diabolo.Projection: 'radial' 'closest_point'
-        """
+        """where a diabolo outside the spheroid is put back, as in diabolo.Projection: 'radial' 'closest_point'"""
     @projection.setter
-    def projection(self, arg1: str) -> None:
-        ...
+    def projection(self, arg1: str) -> None: ...
     @property
     def pull_scale(self) -> float:
-        """
-        paper: part of the correction that becomes velocity, before the cap [1]; within [0.0, 1.0]
-        """
+        """paper: part of the correction that becomes velocity, before the cap [1]; within [0.0, 1.0]"""
     @pull_scale.setter
-    def pull_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def pull_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def pull_scale_after_cap(self) -> float:
-        """
-        paper: damping of the pull after the cap, per reference step [1]; within [0.0, 1.0]
-        """
+        """paper: damping of the pull after the cap, per reference step [1]; within [0.0, 1.0]"""
     @pull_scale_after_cap.setter
-    def pull_scale_after_cap(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def pull_scale_after_cap(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def reference_step(self) -> float:
-        """
-        step that the per-step factors are stated for [s]; within [1e-06, 0.1]
-        """
+        """step that the per-step factors are stated for [s]; within [1e-06, 0.1]"""
     @reference_step.setter
-    def reference_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def reference_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def release_when_overstretched(self) -> bool:
-        """
-        let go where the tips are farther apart than the string, instead of holding the diabolo
-        """
+        """let go where the tips are farther apart than the string, instead of holding the diabolo"""
     @release_when_overstretched.setter
-    def release_when_overstretched(self, arg1: bool) -> None:
-        ...
+    def release_when_overstretched(self, arg1: bool) -> None: ...
     @property
     def spin_coupling(self) -> float:
-        """
-        rate at which slip on the axle is worn off [1/s]; within [0.0, 1000.0]
-        """
+        """rate at which slip on the axle is worn off [1/s]; within [0.0, 1000.0]"""
     @spin_coupling.setter
-    def spin_coupling(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def spin_coupling(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def spin_rule(self) -> str:
-        """
-        how passing string drives the spin, as in diabolo.SpinRule: 'slip' 'length_change'
-        """
+        """how passing string drives the spin, as in diabolo.SpinRule: 'slip' 'length_change'"""
     @spin_rule.setter
-    def spin_rule(self, arg1: str) -> None:
-        ...
+    def spin_rule(self, arg1: str) -> None: ...
     @property
     def string_law(self) -> str:
-        """
-        how the string acts on the diabolo, as in diabolo.StringLaw: 'pull_velocity' 'inextensible'
-        """
+        """how the string acts on the diabolo, as in diabolo.StringLaw: 'pull_velocity' 'inextensible'"""
     @string_law.setter
-    def string_law(self, arg1: str) -> None:
-        ...
+    def string_law(self, arg1: str) -> None: ...
     @property
     def string_length(self) -> float:
-        """
-        length of the string between the tips [m]; within [0.05, 20.0]
-        """
+        """length of the string between the tips [m]; within [0.05, 20.0]"""
     @string_length.setter
-    def string_length(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def string_length(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def thin_rule(self) -> str:
-        """
-        what happens to the pull when the spheroid is thin, as in diabolo.ThinRule: 'published' 'paper'
-        """
+        """what happens to the pull when the spheroid is thin, as in diabolo.ThinRule: 'published' 'paper'"""
     @thin_rule.setter
-    def thin_rule(self, arg1: str) -> None:
-        ...
+    def thin_rule(self, arg1: str) -> None: ...
     @property
     def thin_slack(self) -> float:
-        """
-        the spheroid is thin when the tips are farther apart than L minus this [m]; within [0.0, 20.0]
-        """
+        """the spheroid is thin when the tips are farther apart than L minus this [m]; within [0.0, 20.0]"""
     @thin_slack.setter
-    def thin_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def thin_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def wraps(self) -> float:
-        """
-        whole turns of the string around the axle beyond the pass under it [1]; within [0.0, 5.0]
-        """
+        """whole turns of the string around the axle beyond the pass under it [1]; within [0.0, 5.0]"""
     @wraps.setter
-    def wraps(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def wraps(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class StringElasticity:
     """
     A string that stretches.
@@ -313,38 +205,24 @@ class StringElasticity:
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
+        """Name, unit and range of every field (ParameterInfo)."""
     @staticmethod
     def of_stiffness(stiffness: typing.SupportsFloat | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> StringElasticity:
-        """
-        Stiffness [N/m] and damping [N s/m] of the path length.
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Stiffness [N/m] and damping [N s/m] of the path length."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def compliance(self) -> float:
-        """
-        extension of the path length per tension [m/N]; within [0.0, 1.0]
-        """
+        """extension of the path length per tension [m/N]; within [0.0, 1.0]"""
     @compliance.setter
-    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def damping(self) -> float:
-        """
-        tension per rate of the path length [N s/m]; within [0.0, 10000.0]
-        """
+        """tension per rate of the path length [N s/m]; within [0.0, 10000.0]"""
     @damping.setter
-    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class StringFriction:
     """
     A string that rubs on the axle: Euler's and Eytelwein's capstan law.
@@ -356,297 +234,176 @@ class StringFriction:
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def coefficient(self) -> float:
-        """
-        capstan coefficient of string on axle [1]; within [0.0, 3.0]
-        """
+        """capstan coefficient of string on axle [1]; within [0.0, 3.0]"""
     @coefficient.setter
-    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def spin_gain(self) -> float:
-        """
-        mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]
-        """
+        """mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]"""
     @spin_gain.setter
-    def spin_gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def spin_gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class Air:
-    """
-    Air that holds the diabolo back: a = -(linear_drag + quadratic_drag |u|) u, u = v - wind.
-    """
+    """Air that holds the diabolo back: a = -(linear_drag + quadratic_drag |u|) u, u = v - wind."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def linear_drag(self) -> float:
-        """
-        deceleration per speed [1/s]; within [0.0, 10.0]
-        """
+        """deceleration per speed [1/s]; within [0.0, 10.0]"""
     @linear_drag.setter
-    def linear_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def linear_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def quadratic_drag(self) -> float:
-        """
-        deceleration per squared speed [1/m]; within [0.0, 10.0]
-        """
+        """deceleration per squared speed [1/m]; within [0.0, 10.0]"""
     @quadratic_drag.setter
-    def quadratic_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def quadratic_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def wind_x(self) -> float:
-        """
-        velocity of the air, forward [m/s]; within [-100.0, 100.0]
-        """
+        """velocity of the air, forward [m/s]; within [-100.0, 100.0]"""
     @wind_x.setter
-    def wind_x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def wind_x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def wind_y(self) -> float:
-        """
-        velocity of the air, to the left [m/s]; within [-100.0, 100.0]
-        """
+        """velocity of the air, to the left [m/s]; within [-100.0, 100.0]"""
     @wind_y.setter
-    def wind_y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def wind_y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class MagnusLift:
-    """
-    Lift of a spinning diabolo: a = coefficient * omega x v, omega = -spin * axis.
-    """
+    """Lift of a spinning diabolo: a = coefficient * omega x v, omega = -spin * axis."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def coefficient(self) -> float:
-        """
-        acceleration per angular velocity and speed [1/rad]; within [-1.0, 1.0]
-        """
+        """acceleration per angular velocity and speed [1/rad]; within [-1.0, 1.0]"""
     @coefficient.setter
-    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class SpinLoss:
-    """
-    What slows the spin beside the string: dw/dt = -air w|w| - axle sign(w).
-    """
+    """What slows the spin beside the string: dw/dt = -air w|w| - axle sign(w)."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def air(self) -> float:
-        """
-        deceleration per squared spin [1/rad]; within [0.0, 1.0]
-        """
+        """deceleration per squared spin [1/rad]; within [0.0, 1.0]"""
     @air.setter
-    def air(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def air(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def axle(self) -> float:
-        """
-        constant deceleration [rad/s^2]; within [0.0, 10000.0]
-        """
+        """constant deceleration [rad/s^2]; within [0.0, 10000.0]"""
     @axle.setter
-    def axle(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def axle(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class GravityTilt:
-    """
-    Gravity along (x, y, -sqrt(1 - x^2 - y^2)) instead of -z: a frame that is not level.
-    """
+    """Gravity along (x, y, -sqrt(1 - x^2 - y^2)) instead of -z: a frame that is not level."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def x(self) -> float:
-        """
-        gravity's direction, forward [1]; within [-0.5, 0.5]
-        """
+        """gravity's direction, forward [1]; within [-0.5, 0.5]"""
     @x.setter
-    def x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def y(self) -> float:
-        """
-        gravity's direction, to the left [1]; within [-0.5, 0.5]
-        """
+        """gravity's direction, to the left [1]; within [-0.5, 0.5]"""
     @y.setter
-    def y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class FiniteAxle:
-    """
-    An axle that is not thin: string lies around it, and the strands leave it along its tangents.
-    """
+    """An axle that is not thin: string lies around it, and the strands leave it along its tangents."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def radius(self) -> float:
-        """
-        of the axle, to the string's centre line [m]; within [0.0, 0.1]
-        """
+        """of the axle, to the string's centre line [m]; within [0.0, 0.1]"""
     @radius.setter
-    def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class StickFlex:
-    """
-    Sticks that bend: each tip gives by compliance times the string's pull, square to its stick.
-    """
+    """Sticks that bend: each tip gives by compliance times the string's pull, square to its stick."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def compliance(self) -> float:
-        """
-        of one tip, square to its stick [m/N]; within [0.0, 1.0]
-        """
+        """of one tip, square to its stick [m/N]; within [0.0, 1.0]"""
     @compliance.setter
-    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def damping(self) -> float:
-        """
-        of one tip [N s/m]; within [0.0, 10000.0]
-        """
+        """of one tip [N s/m]; within [0.0, 10000.0]"""
     @damping.setter
-    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tip_mass(self) -> float:
-        """
-        that moves with one tip [kg]; within [0.0, 1.0]
-        """
+        """that moves with one tip [kg]; within [0.0, 1.0]"""
     @tip_mass.setter
-    def tip_mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def tip_mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class StringMass:
-    """
-    A string that weighs something: while it is loose, half of it hangs on the diabolo.
-    """
+    """A string that weighs something: while it is loose, half of it hangs on the diabolo."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def linear_density(self) -> float:
-        """
-        of the string [kg/m]; within [0.0, 0.1]
-        """
+        """of the string [kg/m]; within [0.0, 0.1]"""
     @linear_density.setter
-    def linear_density(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def linear_density(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class LandingRestitution:
-    """
-    A catch that bounces: of the rate at which a string that comes taut would stretch, so much is given back.
-    """
+    """A catch that bounces: of the rate at which a string that comes taut would stretch, so much is given back."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def coefficient(self) -> float:
-        """
-        of the string's rate of stretch that a catch gives back [1]; within [0.0, 1.0]
-        """
+        """of the string's rate of stretch that a catch gives back [1]; within [0.0, 1.0]"""
     @coefficient.setter
-    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class UnnamedForce:
     """
     A force without a name, as a diagnosis found it: accelerations times powers of speed and spin.
@@ -658,99 +415,61 @@ class UnnamedForce:
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def flight_against(self) -> float:
-        """
-        off the string, against the velocity [m/s^2]; within [-100.0, 100.0]
-        """
+        """off the string, against the velocity [m/s^2]; within [-100.0, 100.0]"""
     @flight_against.setter
-    def flight_against(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def flight_against(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def flight_lift(self) -> float:
-        """
-        off the string, along omega x v [m/s^2]; within [-100.0, 100.0]
-        """
+        """off the string, along omega x v [m/s^2]; within [-100.0, 100.0]"""
     @flight_lift.setter
-    def flight_lift(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def flight_lift(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def flight_vertical(self) -> float:
-        """
-        off the string, up [m/s^2]; within [-100.0, 100.0]
-        """
+        """off the string, up [m/s^2]; within [-100.0, 100.0]"""
     @flight_vertical.setter
-    def flight_vertical(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def flight_vertical(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def speed_exponent(self) -> float:
-        """
-        power of the speed over 1 m/s [1]; within [-4.0, 4.0]
-        """
+        """power of the speed over 1 m/s [1]; within [-4.0, 4.0]"""
     @speed_exponent.setter
-    def speed_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def speed_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def spin_exponent(self) -> float:
-        """
-        power of the spin over 100 rad/s [1]; within [-4.0, 4.0]
-        """
+        """power of the spin over 100 rad/s [1]; within [-4.0, 4.0]"""
     @spin_exponent.setter
-    def spin_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def spin_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def string_binormal(self) -> float:
-        """
-        on the string, square to its plane, forwards [m/s^2]; within [-100.0, 100.0]
-        """
+        """on the string, square to its plane, forwards [m/s^2]; within [-100.0, 100.0]"""
     @string_binormal.setter
-    def string_binormal(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def string_binormal(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def string_tangent(self) -> float:
-        """
-        on the string, along it towards the right tip, at 1 m/s and 100 rad/s [m/s^2]; within [-100.0, 100.0]
-        """
+        """on the string, along it towards the right tip, at 1 m/s and 100 rad/s [m/s^2]; within [-100.0, 100.0]"""
     @string_tangent.setter
-    def string_tangent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def string_tangent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class GyroscopicTilt:
-    """
-    Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I.
-    """
+    """Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def fields() -> list:
-        """
-        Name, unit and range of every field (ParameterInfo).
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+        """Name, unit and range of every field (ParameterInfo)."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> dict:
-        """
-        All fields by name.
-        """
+        """All fields by name."""
     @property
     def gain(self) -> float:
-        """
-        mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]
-        """
+        """mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]"""
     @gain.setter
-    def gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class FormulaLaws:
     """
     Laws by formulas: somebody's own, or learnt by a diagnosis.
@@ -767,28 +486,17 @@ class FormulaLaws:
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> FormulaLaws:
-        """
-        Reads a file of the schema diabolo.laws/1.
-        """
+        """Reads a file of the schema diabolo.laws/1."""
     @staticmethod
     def variables() -> dict:
-        """
-        Name: (unit, meaning) of all that a formula may ask for.
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, laws: typing.Any = []) -> None:
-        ...
-    def __len__(self) -> int:
-        ...
+        """Name: (unit, meaning) of all that a formula may ask for."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, laws: typing.Any = []) -> None: ...
+    def __len__(self) -> int: ...
     def to_json(self) -> str:
-        """
-        The text of their file.
-        """
+        """The text of their file."""
     def to_list(self) -> typing.Any:
-        """
-        The laws as the constructor takes them.
-        """
+        """The laws as the constructor takes them."""
 class ResidualForce:
     """
     A force that was learnt from what named physics leaves.
@@ -799,16 +507,11 @@ class ResidualForce:
     arguments there is none.
     """
     __hash__: typing.ClassVar[None] = None
-    def __bool__(self) -> bool:
-        ...
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, **kwargs) -> None:
-        ...
+    def __bool__(self) -> bool: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, **kwargs) -> None: ...
     def to_dict(self) -> typing.Any:
-        """
-        largest, power, on_string and off_string, as the constructor takes them.
-        """
+        """largest, power, on_string and off_string, as the constructor takes them."""
 class Model:
     """
     Everything that decides a prediction.
@@ -841,77 +544,47 @@ class Model:
     unnamed_force: UnnamedForce
     @staticmethod
     def consistent() -> Model:
-        """
-        Ours: an inextensible string of the recording's length, tips on a smooth path.
-        """
+        """Ours: an inextensible string of the recording's length, tips on a smooth path."""
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> Model:
-        """
-        Reads a model file (JSON) of the schema diabolo.model/1.
-        """
+        """Reads a model file (JSON) of the schema diabolo.model/1."""
     @staticmethod
     def named(name: str) -> Model:
-        """
-        'published', 'paper' or 'consistent'.
-        """
+        """'published', 'paper' or 'consistent'."""
     @staticmethod
     def paper() -> Model:
-        """
-        The rules of the paper's text: its own string of 1.45 m, held tips.
-        """
+        """The rules of the paper's text: its own string of 1.45 m, held tips."""
     @staticmethod
     def published() -> Model:
-        """
-        The authors' program with the settings of its evaluation: its own string of 1.46 m, held tips.
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, parameters: Parameters = ..., *, name: str = 'custom', interpolation: str = 'spline', own_string_length: bool = False, own_mass: bool = False, own_axle_radius: bool = False, **kwargs) -> None:
-        ...
+        """The authors' program with the settings of its evaluation: its own string of 1.46 m, held tips."""
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, parameters: Parameters = ..., *, name: str = 'custom', interpolation: str = 'spline', own_string_length: bool = False, own_mass: bool = False, own_axle_radius: bool = False, **kwargs) -> None: ...
     def save(self, path: os.PathLike | str | bytes) -> None:
-        """
-        Writes a model file, whole or not at all.
-        """
+        """Writes a model file, whole or not at all."""
     def to_dict(self) -> dict:
-        """
-        The keyword arguments that make the model again.
-        """
+        """The keyword arguments that make the model again."""
     def to_json(self) -> str:
-        """
-        The text of its file.
-        """
+        """The text of its file."""
     @property
     def formula_laws(self) -> FormulaLaws:
-        """
-        Laws by formulas (FormulaLaws): a copy; set them anew to change them.
-        """
+        """Laws by formulas (FormulaLaws): a copy; set them anew to change them."""
     @formula_laws.setter
-    def formula_laws(self, arg1: FormulaLaws) -> None:
-        ...
+    def formula_laws(self, arg1: FormulaLaws) -> None: ...
     @property
     def interpolation(self) -> str:
-        """
-        How the tips of a recording are read between its samples, as in diabolo.Interpolation.
-        """
+        """How the tips of a recording are read between its samples, as in diabolo.Interpolation."""
     @interpolation.setter
-    def interpolation(self, arg1: str) -> None:
-        ...
+    def interpolation(self, arg1: str) -> None: ...
     @property
     def own_string_length(self) -> bool:
-        """
-        Whether parameters.string_length counts, whatever a recording says.
-        """
+        """Whether parameters.string_length counts, whatever a recording says."""
     @own_string_length.setter
-    def own_string_length(self, arg0: bool) -> None:
-        ...
+    def own_string_length(self, arg0: bool) -> None: ...
     @property
     def residual_force(self) -> ResidualForce:
-        """
-        What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it.
-        """
+        """What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it."""
     @residual_force.setter
-    def residual_force(self, arg1: ResidualForce) -> None:
-        ...
+    def residual_force(self, arg1: ResidualForce) -> None: ...
 class State:
     """
     State of the diabolo, a point mass that spins.
@@ -921,184 +594,110 @@ class State:
     string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
     is the axle's direction, which only GyroscopicTilt turns.
     """
-    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (0.0, 0.0, 0.0), spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, string_state: typing.Any = 'loose', axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (1.0, 0.0, 0.0)) -> None:
-        ...
+    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (0.0, 0.0, 0.0), spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, string_state: typing.Any = 'loose', axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (1.0, 0.0, 0.0)) -> None: ...
     def to_array(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Position, velocity and spin, shape (7,).
-        """
+        """Position, velocity and spin, shape (7,)."""
     @property
     def axis(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Direction of the axle, forward: a unit vector, shape (3,).
-        """
+        """Direction of the axle, forward: a unit vector, shape (3,)."""
     @axis.setter
-    def axis(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
-        ...
+    def axis(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
     @property
     def position(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Centre [m], shape (3,).
-        """
+        """Centre [m], shape (3,)."""
     @position.setter
-    def position(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
-        ...
+    def position(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
     @property
     def spin(self) -> float:
-        """
-        [rad/s]
-        """
+        """[rad/s]"""
     @spin.setter
-    def spin(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def spin(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def string_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Mean acceleration by the string over the last step [m/s^2], shape (3,).
-        """
+        """Mean acceleration by the string over the last step [m/s^2], shape (3,)."""
     @property
     def string_state(self) -> int:
-        """
-        A StringState; its number or its name may be assigned.
-        """
+        """A StringState; its number or its name may be assigned."""
     @string_state.setter
-    def string_state(self, arg1: typing.Any) -> None:
-        ...
+    def string_state(self, arg1: typing.Any) -> None: ...
     @property
     def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        [m/s], shape (3,).
-        """
+        """[m/s], shape (3,)."""
     @velocity.setter
-    def velocity(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
-        ...
+    def velocity(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
 class RecordingError(ValueError):
-    """
-    What is wrong with a recording, a calibration or one of their files.
-    """
+    """What is wrong with a recording, a calibration or one of their files."""
 class DiaboloProperties:
-    """
-    What a diabolo is like.
-    """
+    """What a diabolo is like."""
     @staticmethod
     def blue() -> DiaboloProperties:
-        """
-        The blue one, which runs on a bearing.
-        """
+        """The blue one, which runs on a bearing."""
     @staticmethod
-    def green() -> DiaboloProperties:
-        ...
+    def green() -> DiaboloProperties: ...
     @staticmethod
-    def patterned() -> DiaboloProperties:
-        ...
+    def patterned() -> DiaboloProperties: ...
     @staticmethod
     def red() -> DiaboloProperties:
-        """
-        The paper's red diabolo, without markers.
-        """
-    def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex, diameter: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, axle_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0065) -> None:
-        ...
+        """The paper's red diabolo, without markers."""
+    def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex, diameter: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, axle_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0065) -> None: ...
     @property
     def axle_radius(self) -> float:
-        """
-        Where the string runs [m].
-        """
+        """Where the string runs [m]."""
     @property
     def diameter(self) -> float:
-        """
-        Of the cups [m].
-        """
+        """Of the cups [m]."""
     @property
     def length(self) -> float:
-        """
-        Along the axle [m].
-        """
+        """Along the axle [m]."""
     @property
     def mass(self) -> float:
-        """
-        [kg]
-        """
+        """[kg]"""
 class Calibration:
-    """
-    How the rigid bodies of a Motive take become the tips and the diabolo of a recording.
-    """
+    """How the rigid bodies of a Motive take become the tips and the diabolo of a recording."""
     @staticmethod
     def blue() -> Calibration:
-        """
-        Of the blue diabolo; its tips are only estimates.
-        """
+        """Of the blue diabolo; its tips are only estimates."""
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> Calibration:
-        """
-        Reads a file of the schema diabolo.calibration/1.
-        """
+        """Reads a file of the schema diabolo.calibration/1."""
     @staticmethod
     def plain() -> Calibration:
-        """
-        Of bodies that are the tips and the diabolo themselves, in the world frame.
-        """
+        """Of bodies that are the tips and the diabolo themselves, in the world frame."""
     @staticmethod
     def published() -> Calibration:
-        """
-        Of the red diabolo with the sticks of July 2020; the default.
-        """
+        """Of the red diabolo with the sticks of July 2020; the default."""
     def of(self, properties: DiaboloProperties, string_length: typing.SupportsFloat | typing.SupportsIndex) -> Calibration:
-        """
-        The same for a diabolo and a string [m].
-        """
+        """The same for a diabolo and a string [m]."""
     def renamed(self, left: str = '', right: str = '', diabolo: str = '') -> Calibration:
-        """
-        The same for bodies of these names, where one is given.
-        """
+        """The same for bodies of these names, where one is given."""
     def save(self, path: os.PathLike | str | bytes) -> None:
-        """
-        Writes it, whole or not at all.
-        """
+        """Writes it, whole or not at all."""
     def to_json(self) -> str:
-        """
-        The text of its file.
-        """
+        """The text of its file."""
 class MotiveBody:
-    """
-    A rigid body of a Motive take, in the frame of the motion capture.
-    """
+    """A rigid body of a Motive take, in the frame of the motion capture."""
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
     def position(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Of the body's origin [m], shape (N, 3); NaN in a dropout.
-        """
+        """Of the body's origin [m], shape (N, 3); NaN in a dropout."""
     @property
     def quaternion(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Body to capture frame, x, y, z, w, shape (N, 4); NaN in a dropout.
-        """
+        """Body to capture frame, x, y, z, w, shape (N, 4); NaN in a dropout."""
 class MotiveTake:
-    """
-    A take as OptiTrack Motive exports it, with nothing interpreted.
-    """
+    """A take as OptiTrack Motive exports it, with nothing interpreted."""
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> MotiveTake:
-        """
-        Reads a Motive export (CSV).
-        """
+        """Reads a Motive export (CSV)."""
     @property
     def bodies(self) -> list[MotiveBody]:
-        """
-        List of MotiveBody.
-        """
+        """List of MotiveBody."""
     @property
     def rate(self) -> float:
-        """
-        [Hz]
-        """
+        """[Hz]"""
     @property
     def time(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        [s], shape (N,).
-        """
+        """[s], shape (N,)."""
 class Recording:
     """
     A recorded play: stick tips and diabolo over N samples.
@@ -1119,111 +718,67 @@ class Recording:
         Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
         it, string and diabolo are the calibration's.
         """
-    def __init__(self, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], diabolo: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, *, diabolo_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, left_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.46) -> None:
-        ...
-    def __len__(self) -> int:
-        ...
+    def __init__(self, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], diabolo: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, *, diabolo_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, left_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.46) -> None: ...
+    def __len__(self) -> int: ...
     def cut(self, first: typing.SupportsInt | typing.SupportsIndex, last: typing.SupportsInt | typing.SupportsIndex) -> Recording:
-        """
-        Rows first to last, both included.
-        """
+        """Rows first to last, both included."""
     def resample(self, rate: typing.SupportsFloat | typing.SupportsIndex) -> Recording:
-        """
-        The recording at another rate [Hz]; dropouts are not bridged.
-        """
+        """The recording at another rate [Hz]; dropouts are not bridged."""
     def save(self, path: os.PathLike | str | bytes) -> None:
-        """
-        Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all.
-        """
+        """Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all."""
     def spin(self, signed: bool = True) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the published rule, which counts turning of the axle too.
-        """
+        """Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the published rule, which counts turning of the axle too."""
     def warnings(self) -> list[str]:
-        """
-        What its reader changed, and what is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each.
-        """
+        """What its reader changed, and what is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each."""
     @property
     def clock(self) -> float:
-        """
-        What laws in time go by, at the first sample [s]: a part keeps that of the whole.
-        """
+        """What laws in time go by, at the first sample [s]: a part keeps that of the whole."""
     @property
     def diabolo(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Centre of the axle [m], shape (N, 3).
-        """
+        """Centre of the axle [m], shape (N, 3)."""
     @property
     def diabolo_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
-        """
-        Unit quaternions x, y, z, w, shape (N, 4), or None; body x is the spin axis.
-        """
+        """Unit quaternions x, y, z, w, shape (N, 4), or None; body x is the spin axis."""
     @property
     def diabolo_valid(self) -> numpy.typing.NDArray[numpy.bool]:
-        """
-        False marks a dropout, shape (N,).
-        """
+        """False marks a dropout, shape (N,)."""
     @property
     def frame(self) -> numpy.typing.NDArray[numpy.int64]:
-        """
-        Number of each sample in its take, shape (N,).
-        """
+        """Number of each sample in its take, shape (N,)."""
     @property
     def left(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Left stick tip [m], shape (N, 3).
-        """
+        """Left stick tip [m], shape (N, 3)."""
     @property
     def left_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
-        """
-        Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards.
-        """
+        """Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards."""
     @property
     def left_valid(self) -> numpy.typing.NDArray[numpy.bool]:
-        """
-        False marks a dropout, shape (N,).
-        """
+        """False marks a dropout, shape (N,)."""
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
     def notes(self) -> list[str]:
-        """
-        What its reader changed or took for granted, a clause each.
-        """
+        """What its reader changed or took for granted, a clause each."""
     @property
-    def properties(self) -> DiaboloProperties:
-        ...
+    def properties(self) -> DiaboloProperties: ...
     @property
     def rate(self) -> float:
-        """
-        Nominal sampling rate [Hz].
-        """
+        """Nominal sampling rate [Hz]."""
     @property
     def right(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Right stick tip [m], shape (N, 3).
-        """
+        """Right stick tip [m], shape (N, 3)."""
     @property
     def right_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
-        """
-        Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards.
-        """
+        """Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards."""
     @property
     def right_valid(self) -> numpy.typing.NDArray[numpy.bool]:
-        """
-        False marks a dropout, shape (N,).
-        """
+        """False marks a dropout, shape (N,)."""
     @property
     def string_length(self) -> float:
-        """
-        [m]
-        """
+        """[m]"""
     @property
     def time(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        [s], shape (N,).
-        """
+        """[s], shape (N,)."""
 class Spheroid:
     """
     The points that a diabolo reaches when the string is taut.
@@ -1233,82 +788,48 @@ class Spheroid:
     the shape (...) or (..., 3); a point with a NaN (a dropout) gives NaN.
     """
     def __init__(self, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_length: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        """
-        Tips, each of the shape (3,) [m], and string length [m].
-        """
+        """Tips, each of the shape (3,) [m], and string length [m]."""
     def closest_point(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        The closest points of the surface [m].
-        """
+        """The closest points of the surface [m]."""
     def normal(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Outward unit normals of the confocal surfaces through the points.
-        """
+        """Outward unit normals of the confocal surfaces through the points."""
     def path_gradient(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Derivative of the path length with respect to the point.
-        """
+        """Derivative of the path length with respect to the point."""
     def path_length(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        |p - left| + |p - right| [m].
-        """
+        """|p - left| + |p - right| [m]."""
     def published_normal(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        The unit vectors that the published program takes for the normals.
-        """
+        """The unit vectors that the published program takes for the normals."""
     def radial_point(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Where the rays from the centre leave the spheroid [m] (the published program's projection).
-        """
+        """Where the rays from the centre leave the spheroid [m] (the published program's projection)."""
     def signed_distance(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Distance to the surface [m], positive inside (the paper's s).
-        """
+        """Distance to the surface [m], positive inside (the paper's s)."""
     @property
     def axis(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Unit vector from the right tip to the left one, shape (3,).
-        """
+        """Unit vector from the right tip to the left one, shape (3,)."""
     @property
     def center(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Midpoint of the tips, shape (3,) [m].
-        """
+        """Midpoint of the tips, shape (3,) [m]."""
     @property
     def left(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Left tip, shape (3,) [m].
-        """
+        """Left tip, shape (3,) [m]."""
     @property
     def overstretched(self) -> bool:
-        """
-        Whether the tips are farther apart than the string is long.
-        """
+        """Whether the tips are farther apart than the string is long."""
     @property
     def right(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Right tip, shape (3,) [m].
-        """
+        """Right tip, shape (3,) [m]."""
     @property
     def semi_major(self) -> float:
-        """
-        Half the string's length [m].
-        """
+        """Half the string's length [m]."""
     @property
     def semi_minor(self) -> float:
-        """
-        Radius across the axis [m].
-        """
+        """Radius across the axis [m]."""
     @property
     def string_length(self) -> float:
-        """
-        [m]
-        """
+        """[m]"""
     @property
     def tip_distance(self) -> float:
-        """
-        Distance between the tips [m].
-        """
+        """Distance between the tips [m]."""
 class TipMotion:
     """
     Motion of the two stick tips, given at increasing instants.
@@ -1321,78 +842,47 @@ class TipMotion:
     """
     @staticmethod
     def of_recording(recording: Recording, interpolation: str = 'spline') -> TipMotion:
-        """
-        Motion of a recording's tips and sticks, time zero at its first row; gaps in a tip's track are filled, and rows before both tips are seen, or after, are left out.
-        """
-    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], interpolation: str = 'linear', left_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
-        ...
-    def __len__(self) -> int:
-        ...
+        """Motion of a recording's tips and sticks, time zero at its first row; gaps in a tip's track are filled, and rows before both tips are seen, or after, are left out."""
+    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], interpolation: str = 'linear', left_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None: ...
+    def __len__(self) -> int: ...
     def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
-        """
-        Left tips [m], right tips [m], left and right velocities [m/s] at times of any shape (...): four arrays of the shape (..., 3).
-        """
+        """Left tips [m], right tips [m], left and right velocities [m/s] at times of any shape (...): four arrays of the shape (..., 3)."""
     def directions_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
-        """
-        Directions of the left and of the right stick at times of any shape (...): two arrays of the shape (..., 3), zero where not known.
-        """
+        """Directions of the left and of the right stick at times of any shape (...): two arrays of the shape (..., 3), zero where not known."""
     @property
     def begin(self) -> float:
-        """
-        First instant [s].
-        """
+        """First instant [s]."""
     @property
     def end(self) -> float:
-        """
-        Last instant [s].
-        """
+        """Last instant [s]."""
     @property
-    def interpolation(self) -> str:
-        ...
+    def interpolation(self) -> str: ...
     @property
     def left(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Left tips [m], shape (M, 3).
-        """
+        """Left tips [m], shape (M, 3)."""
     @property
     def left_directions(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Of the left stick, shape (M, 3); zero where not known.
-        """
+        """Of the left stick, shape (M, 3); zero where not known."""
     @property
     def right(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Right tips [m], shape (M, 3).
-        """
+        """Right tips [m], shape (M, 3)."""
     @property
     def right_directions(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Of the right stick, shape (M, 3); zero where not known.
-        """
+        """Of the right stick, shape (M, 3); zero where not known."""
     @property
     def times(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Instants [s], shape (M,).
-        """
+        """Instants [s], shape (M,)."""
 class StepStatus:
-    """
-    What happened in one step.
-    """
+    """What happened in one step."""
     @property
     def caught(self) -> bool:
-        """
-        The string was under a flying diabolo again.
-        """
+        """The string was under a flying diabolo again."""
     @property
     def overstretched(self) -> bool:
-        """
-        The tips are as far apart as the string is long, or farther, whatever the diabolo does.
-        """
+        """The tips are as far apart as the string is long, or farther, whatever the diabolo does."""
     @property
     def snapped_taut(self) -> bool:
-        """
-        The string came taut within the step.
-        """
+        """The string came taut within the step."""
 class Predictor:
     """
     Predicts the diabolo from the motion of the stick tips.
@@ -1404,11 +894,9 @@ class Predictor:
     It holds nothing but checked constants; the state is yours. For many steps, or many states, use rollout().
     """
     @typing.overload
-    def __init__(self, parameters: Parameters, **kwargs) -> None:
-        ...
+    def __init__(self, parameters: Parameters, **kwargs) -> None: ...
     @typing.overload
-    def __init__(self, model: Model, **kwargs) -> None:
-        ...
+    def __init__(self, model: Model, **kwargs) -> None: ...
     def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> StepStatus:
         """
         Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
@@ -1421,1378 +909,813 @@ class Predictor:
         """
     @property
     def parameters(self) -> Parameters:
-        """
-        A copy.
-        """
+        """A copy."""
 class ExcerptScore:
-    """
-    Position error of one rollout over a recording, as the paper's table counts it.
-    """
+    """Position error of one rollout over a recording, as the paper's table counts it."""
     @property
     def baseline_error(self) -> float:
-        """
-        Of the lowest-point baseline [m].
-        """
+        """Of the lowest-point baseline [m]."""
     @property
     def diverged(self) -> float | None:
-        """
-        When the prediction left the world [s], or None.
-        """
+        """When the prediction left the world [s], or None."""
     @property
     def duration(self) -> float:
-        """
-        From the start to the last row compared [s].
-        """
+        """From the start to the last row compared [s]."""
     @property
     def error(self) -> float | None:
-        """
-        Mean distance to the recorded diabolo [m]; None where the prediction diverged.
-        """
+        """Mean distance to the recorded diabolo [m]; None where the prediction diverged."""
     @property
     def model(self) -> str:
-        """
-        Name.
-        """
+        """Name."""
     @property
     def motion(self) -> str:
-        """
-        As the paper calls it; empty where it has no such excerpt.
-        """
+        """As the paper calls it; empty where it has no such excerpt."""
     @property
     def paper_error(self) -> float | None:
-        """
-        As the paper prints it [m], or None.
-        """
+        """As the paper prints it [m], or None."""
     @property
     def program_error(self) -> float | None:
-        """
-        Of the authors' program, run again [m], or None.
-        """
+        """Of the authors' program, run again [m], or None."""
     @property
     def recording(self) -> str:
-        """
-        Name of the take.
-        """
+        """Name of the take."""
     @property
     def rows(self) -> int:
-        """
-        Of the excerpt.
-        """
+        """Of the excerpt."""
     @property
     def scored(self) -> int:
-        """
-        Rows compared.
-        """
+        """Rows compared."""
     @property
     def skipped(self) -> int:
-        """
-        Rows after the start whose diabolo, or the one before, is missing.
-        """
+        """Rows after the start whose diabolo, or the one before, is missing."""
     @property
     def start_row(self) -> int:
-        """
-        0 unless the diabolo or a tip is missing there.
-        """
+        """0 unless the diabolo or a tip is missing there."""
 class Interval:
-    """
-    From low to high.
-    """
+    """From low to high."""
     @property
-    def high(self) -> float:
-        ...
+    def high(self) -> float: ...
     @property
-    def low(self) -> float:
-        ...
+    def low(self) -> float: ...
 class ErrorSummary:
-    """
-    What a set of position errors looks like.
-    """
+    """What a set of position errors looks like."""
     @property
     def mean(self) -> float:
-        """
-        [m]
-        """
+        """[m]"""
     @property
     def mean_ci95(self) -> Interval | None:
-        """
-        Block-bootstrap interval of the mean [m]; None where the errors are too few to tell.
-        """
+        """Block-bootstrap interval of the mean [m]; None where the errors are too few to tell."""
     @property
     def median(self) -> float:
-        """
-        [m]
-        """
+        """[m]"""
     @property
     def percentile_90(self) -> float:
-        """
-        [m]
-        """
+        """[m]"""
     @property
     def windows(self) -> int:
-        """
-        How many errors.
-        """
+        """How many errors."""
 class HorizonScore:
-    """
-    Position errors at one horizon, over all starts.
-    """
+    """Position errors at one horizon, over all starts."""
     @property
     def advantage(self) -> float | None:
-        """
-        How much smaller the model's error is than the baseline's in the same window, mean [m].
-        """
+        """How much smaller the model's error is than the baseline's in the same window, mean [m]."""
     @property
-    def advantage_ci95(self) -> Interval | None:
-        ...
+    def advantage_ci95(self) -> Interval | None: ...
     @property
     def baseline(self) -> ErrorSummary | None:
-        """
-        Of the lowest-point baseline, over all windows.
-        """
+        """Of the lowest-point baseline, over all windows."""
     @property
     def failed(self) -> int:
-        """
-        Of these: the prediction diverged; not in `model`.
-        """
+        """Of these: the prediction diverged; not in `model`."""
     @property
     def horizon(self) -> float:
-        """
-        After the start [s].
-        """
+        """After the start [s]."""
     @property
     def missed_catches(self) -> int:
-        """
-        Of these: predicted in flight below the tips, so never caught.
-        """
+        """Of these: predicted in flight below the tips, so never caught."""
     @property
     def model(self) -> ErrorSummary | None:
-        """
-        ErrorSummary, or None where nothing could be compared.
-        """
+        """ErrorSummary, or None where nothing could be compared."""
     @property
     def windows(self) -> int:
-        """
-        Starts that could be compared.
-        """
+        """Starts that could be compared."""
 class ResidualAndNoise:
-    """
-    What windows of half a second, or predictions of data left out, leave over, and what noise would.
-    """
+    """What windows of half a second, or predictions of data left out, leave over, and what noise would."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def ahead_s(self) -> float | None:
-        """
-        Of a prediction of data left out; null for windows that are fitted.
-        """
+        """Of a prediction of data left out; null for windows that are fitted."""
     @property
     def base(self) -> float:
-        """
-        Left by the base in the middle window, root mean square; ahead, the middle distance.
-        """
+        """Left by the base in the middle window, root mean square; ahead, the middle distance."""
     @property
     def begin_s(self) -> float:
-        """
-        Of the stretch of time.
-        """
+        """Of the stretch of time."""
     @property
     def direction(self) -> str:
-        """
-        forward, left or up where one leads; else empty.
-        """
+        """forward, left or up where one leads; else empty."""
     @property
-    def end_s(self) -> float:
-        ...
+    def end_s(self) -> float: ...
     @property
     def left(self) -> float:
-        """
-        The same with what was found.
-        """
+        """The same with what was found."""
     @property
     def mode(self) -> str:
-        """
-        State of the string; EVENT where it changes, ANY for all.
-        """
+        """State of the string; EVENT where it changes, ANY for all."""
     @property
     def noise(self) -> float:
-        """
-        The same of noise alone.
-        """
+        """The same of noise alone."""
     @property
     def p_value(self) -> float:
-        """
-        Chance that noise leaves more than noise in so many windows.
-        """
+        """Chance that noise leaves more than noise in so many windows."""
     @property
     def quantity(self) -> str:
-        """
-        position or spin.
-        """
+        """position or spin."""
     @property
     def recording(self) -> str:
-        """
-        By its name; empty for all.
-        """
+        """By its name; empty for all."""
     @property
     def times_noise(self) -> float:
-        """
-        How many times the noise the middle window leaves.
-        """
+        """How many times the noise the middle window leaves."""
     @property
     def unit(self) -> str:
-        """
-        m or rad/s.
-        """
+        """m or rad/s."""
     @property
     def windows(self) -> int:
-        """
-        How many were looked at, of half a second each; or predictions.
-        """
+        """How many were looked at, of half a second each; or predictions."""
 class ChangeInTime:
-    """
-    Something that is not what it was a moment ago, window by window.
-    """
+    """Something that is not what it was a moment ago, window by window."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def frequency_hz(self) -> float | None:
-        """
-        Where an oscillation explains it best.
-        """
+        """Where an oscillation explains it best."""
     @property
     def quantity(self) -> str:
-        """
-        What changes.
-        """
+        """What changes."""
     @property
     def size(self) -> float:
-        """
-        Root mean square of what neighbouring windows agree on.
-        """
+        """Root mean square of what neighbouring windows agree on."""
     @property
     def trend_per_s(self) -> float | None:
-        """
-        Where a steady change explains it best.
-        """
+        """Where a steady change explains it best."""
     @property
     def unit(self) -> str:
-        """
-        Of its size.
-        """
+        """Of its size."""
     @property
     def z(self) -> float:
-        """
-        Standard deviations by which neighbouring windows agree too well.
-        """
+        """Standard deviations by which neighbouring windows agree too well."""
 class Adequacy:
-    """
-    Whether the answer leaves no more than the camera's noise would.
-    """
+    """Whether the answer leaves no more than the camera's noise would."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def adequate(self) -> bool | None:
-        """
-        Null where it was not asked.
-        """
+        """Null where it was not asked."""
     @property
     def base_adequate(self) -> bool | None:
-        """
-        The same of the base alone.
-        """
+        """The same of the base alone."""
     @property
     def changes(self) -> list[ChangeInTime]:
-        """
-        What is left and changes in time, the surest first.
-        """
+        """What is left and changes in time, the surest first."""
     @property
     def explained(self) -> float | None:
-        """
-        Share of the base's gap of position, beyond noise, that the answer closes; null without a gap.
-        """
+        """Share of the base's gap of position, beyond noise, that the answer closes; null without a gap."""
     @property
     def overall(self) -> list[ResidualAndNoise]:
-        """
-        Over all windows: position and, where it was seen, spin; then predictions.
-        """
+        """Over all windows: position and, where it was seen, spin; then predictions."""
     @property
     def places(self) -> list[ResidualAndNoise]:
-        """
-        Where more is left than noise leaves, the worst first; then predictions.
-        """
+        """Where more is left than noise leaves, the worst first; then predictions."""
     @property
     def spin_explained(self) -> float | None:
-        """
-        The same of the spin.
-        """
+        """The same of the spin."""
 class Estimate:
-    """
-    A number that was estimated.
-    """
+    """A number that was estimated."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def ci90(self) -> Interval | None:
-        """
-        90 % interval.
-        """
+        """90 % interval."""
     @property
     def name(self) -> str:
-        """
-        By its fixed name.
-        """
+        """By its fixed name."""
     @property
     def unit(self) -> str:
-        """
-        1 for a plain number.
-        """
+        """1 for a plain number."""
     @property
     def value(self) -> float:
-        """
-        In its unit.
-        """
+        """In its unit."""
 class EffectPlace:
-    """
-    Where an effect matters.
-    """
+    """Where an effect matters."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def direction(self) -> str:
-        """
-        In which it acts.
-        """
+        """In which it acts."""
     @property
     def intervals(self) -> list[Interval]:
-        """
-        When it matters [s].
-        """
+        """When it matters [s]."""
     @property
     def modes(self) -> list[str]:
-        """
-        States of the string in which it matters.
-        """
+        """States of the string in which it matters."""
 class EffectSize:
-    """
-    What an effect does to a free diabolo; null where it does not act so.
-    """
+    """What an effect does to a free diabolo; null where it does not act so."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def acceleration_mps2(self) -> float | None:
-        """
-        As a constant one would move it as far.
-        """
+        """As a constant one would move it as far."""
     @property
     def position_05s_m(self) -> float | None:
-        """
-        How far it moves the diabolo in 0.5 s.
-        """
+        """How far it moves the diabolo in 0.5 s."""
     @property
     def position_1s_m(self) -> float | None:
-        """
-        How far it moves the diabolo in 1 s.
-        """
+        """How far it moves the diabolo in 1 s."""
     @property
     def spin_share_1s(self) -> float | None:
-        """
-        Which share of the spin it changes in 1 s.
-        """
+        """Which share of the spin it changes in 1 s."""
 class ClaimedEffect:
-    """
-    Something that is missing, or was measured wrongly, and is claimed.
-    """
+    """Something that is missing, or was measured wrongly, and is claimed."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def confidence(self) -> float | None:
-        """
-        Chance that the name is right.
-        """
+        """Chance that the name is right."""
     @property
     def kind(self) -> str:
-        """
-        physics, measurement or numerical.
-        """
+        """physics, measurement or numerical."""
     @property
     def material(self) -> bool:
-        """
-        Whether it is large enough to matter.
-        """
+        """Whether it is large enough to matter."""
     @property
     def name(self) -> str:
-        """
-        Of the candidate.
-        """
+        """Of the candidate."""
     @property
     def p_value(self) -> float | None:
-        """
-        Over all candidates.
-        """
+        """Over all candidates."""
     @property
     def parameters(self) -> list[Estimate]:
-        """
-        What it comes out as.
-        """
+        """What it comes out as."""
     @property
     def size(self) -> EffectSize:
-        """
-        How much it does to a free diabolo.
-        """
+        """How much it does to a free diabolo."""
     @property
     def spin_worse_without_ci95_radps(self) -> list[Interval | None]:
-        """
-        The same of the spin; null where it was not seen.
-        """
+        """The same of the spin; null where it was not seen."""
     @property
     def tied_with(self) -> list[str]:
-        """
-        Candidates that explain as much in its place.
-        """
+        """Candidates that explain as much in its place."""
     @property
     def where(self) -> EffectPlace:
-        """
-        Where it matters.
-        """
+        """Where it matters."""
     @property
     def worse_without_ci95_m(self) -> list[Interval | None]:
-        """
-        By how much held-out data is predicted worse without it, 95 % interval of each horizon.
-        """
+        """By how much held-out data is predicted worse without it, 95 % interval of each horizon."""
 class UnnamedPlace:
-    """
-    Where something without a name acts.
-    """
+    """Where something without a name acts."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def direction(self) -> str:
-        """
-        In which it acts.
-        """
+        """In which it acts."""
 class UnnamedStructure:
-    """
-    Something that is there and has no name.
-    """
+    """Something that is there and has no name."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def curve(self) -> list[typing.Annotated[list[float], "FixedSize(2)"]]:
-        """
-        Scalar, and the mean around it.
-        """
+        """Scalar, and the mean around it."""
     @property
     def deviation(self) -> float:
-        """
-        Standard deviation of the mean.
-        """
+        """Standard deviation of the mean."""
     @property
     def explained(self) -> float:
-        """
-        Share of what is left over.
-        """
+        """Share of what is left over."""
     @property
     def exponent(self) -> float:
-        """
-        Power of the scalar.
-        """
+        """Power of the scalar."""
     @property
     def exponent_deviation(self) -> float:
-        """
-        Its standard deviation.
-        """
+        """Its standard deviation."""
     @property
     def law(self) -> str:
-        """
-        In words.
-        """
+        """In words."""
     @property
     def scalar(self) -> str:
-        """
-        Scalar of the motion that it grows with.
-        """
+        """Scalar of the motion that it grows with."""
     @property
-    def scalar_unit(self) -> str:
-        ...
+    def scalar_unit(self) -> str: ...
     @property
     def size_m(self) -> float:
-        """
-        How far it moves a free diabolo in 0.5 s.
-        """
+        """How far it moves a free diabolo in 0.5 s."""
     @property
-    def unit(self) -> str:
-        ...
+    def unit(self) -> str: ...
     @property
     def value(self) -> float:
-        """
-        Mean, in its unit.
-        """
+        """Mean, in its unit."""
     @property
     def where(self) -> UnnamedPlace:
-        """
-        Where it acts.
-        """
+        """Where it acts."""
     @property
     def z(self) -> float:
-        """
-        Standard deviations from zero.
-        """
+        """Standard deviations from zero."""
 class LearntLawFound:
-    """
-    A law that was learnt from what had no name; it is in the model.
-    """
+    """A law that was learnt from what had no name; it is in the model."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def acts(self) -> str:
-        """
-        What the formula is the size of, see FormulaLaws.
-        """
+        """What the formula is the size of, see FormulaLaws."""
     @property
     def dependence_p_value(self) -> float | None:
-        """
-        The chance that exchanged strengths gain as much: small where it depends on what it says.
-        """
+        """The chance that exchanged strengths gain as much: small where it depends on what it says."""
     @property
     def formula(self) -> str:
-        """
-        Of the numbers and of FormulaLaws.variables().
-        """
+        """Of the numbers and of FormulaLaws.variables()."""
     @property
     def gain(self) -> float:
-        """
-        In chi^2, of windows that were left out.
-        """
+        """In chi^2, of windows that were left out."""
     @property
     def gain_by_strength(self) -> float | None:
-        """
-        In chi^2, of windows that were left out, where it is as strong in each as it is on average there; null where it does not change from window to window, or too fast for them.
-        """
+        """In chi^2, of windows that were left out, where it is as strong in each as it is on average there; null where it does not change from window to window, or too fast for them."""
     @property
     def gain_permuted(self) -> float | None:
-        """
-        The same once these strengths are exchanged among the windows, the median of many times.
-        """
+        """The same once these strengths are exchanged among the windows, the median of many times."""
     @property
     def law(self) -> str:
-        """
-        In words.
-        """
+        """In words."""
     @property
     def name(self) -> str:
-        """
-        In the model's file.
-        """
+        """In the model's file."""
     @property
     def numbers(self) -> list[Estimate]:
-        """
-        Of the formula, the size first.
-        """
+        """Of the formula, the size first."""
     @property
     def spin_worse_without_ci95_radps(self) -> list[Interval | None]:
-        """
-        The same of the spin; null where it was not seen.
-        """
+        """The same of the spin; null where it was not seen."""
     @property
     def worse_without_ci95_m(self) -> list[Interval | None]:
-        """
-        By how much held-out data is predicted worse without it, 95 % interval of each horizon.
-        """
+        """By how much held-out data is predicted worse without it, 95 % interval of each horizon."""
 class ParametersAlone:
-    """
-    What something comes out as where one recording is fitted by itself.
-    """
+    """What something comes out as where one recording is fitted by itself."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def parameters(self) -> list[Estimate]:
-        """
-        As of a claimed effect.
-        """
+        """As of a claimed effect."""
     @property
     def recording(self) -> str:
-        """
-        By its name.
-        """
+        """By its name."""
 class DifferingEffect:
-    """
-    Something of which recordings ask for different values.
-    """
+    """Something of which recordings ask for different values."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def kind(self) -> str:
-        """
-        physics or measurement.
-        """
+        """physics or measurement."""
     @property
     def name(self) -> str:
-        """
-        Of the candidate.
-        """
+        """Of the candidate."""
     @property
     def recordings(self) -> list[ParametersAlone]:
-        """
-        Each by itself.
-        """
+        """Each by itself."""
     @property
     def what(self) -> str:
-        """
-        In words.
-        """
+        """In words."""
     @property
     def z(self) -> float:
-        """
-        Standard deviations between the two that differ most.
-        """
+        """Standard deviations between the two that differ most."""
 class UpperLimit:
-    """
-    Physics that is not claimed: how much of it may still be there.
-    """
+    """Physics that is not claimed: how much of it may still be there."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def limit95(self) -> float:
-        """
-        It is below this in size, at 95 %.
-        """
+        """It is below this in size, at 95 %."""
     @property
     def name(self) -> str:
-        """
-        Of the candidate that is not claimed.
-        """
+        """Of the candidate that is not claimed."""
     @property
-    def parameter(self) -> str:
-        ...
+    def parameter(self) -> str: ...
     @property
-    def unit(self) -> str:
-        ...
+    def unit(self) -> str: ...
 class HeldOutErrors:
-    """
-    Errors on data that was not fitted, horizon by horizon.
-    """
+    """Errors on data that was not fitted, horizon by horizon."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def augmented_error_m(self) -> list[float | None]:
-        """
-        The same with what was found.
-        """
+        """The same with what was found."""
     @property
     def augmented_spin_error_radps(self) -> list[float | None]:
-        """
-        The same with what was found.
-        """
+        """The same with what was found."""
     @property
     def base_error_m(self) -> list[float | None]:
-        """
-        Mean position error of the base.
-        """
+        """Mean position error of the base."""
     @property
     def base_spin_error_radps(self) -> list[float | None]:
-        """
-        Mean spin error of the base; null where no spin was seen.
-        """
+        """Mean spin error of the base; null where no spin was seen."""
     @property
     def fitted_windows(self) -> int:
-        """
-        Windows that were fitted.
-        """
+        """Windows that were fitted."""
     @property
     def heldout(self) -> str:
-        """
-        recordings, or blocks of one.
-        """
+        """recordings, or blocks of one."""
     @property
     def holdout_unused(self) -> list[str]:
-        """
-        Held-out recordings without a start to compare.
-        """
+        """Held-out recordings without a start to compare."""
     @property
     def horizons_s(self) -> list[float]:
-        """
-        After the start.
-        """
+        """After the start."""
     @property
     def improvement_ci95_m(self) -> list[Interval | None]:
-        """
-        95 % interval of base less augmented.
-        """
+        """95 % interval of base less augmented."""
     @property
     def of_windows(self) -> int:
-        """
-        Of so many; the others say least.
-        """
+        """Of so many; the others say least."""
     @property
     def spin_improvement_ci95_radps(self) -> list[Interval | None]:
-        """
-        95 % interval of base less augmented.
-        """
+        """95 % interval of base less augmented."""
     @property
     def start_error_m(self) -> list[float | None]:
-        """
-        What the noise of the starts alone makes.
-        """
+        """What the noise of the starts alone makes."""
     @property
     def start_spin_error_radps(self) -> list[float | None]:
-        """
-        By how much the spins of the starts are off those around them.
-        """
+        """By how much the spins of the starts are off those around them."""
     @property
     def windows(self) -> int:
-        """
-        Predictions that were compared.
-        """
+        """Predictions that were compared."""
 class ProposedMotion:
-    """
-    A motion that would tell ties apart.
-    """
+    """A motion that would tell ties apart."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def motion(self) -> str:
-        """
-        By its name.
-        """
+        """By its name."""
     @property
     def odds(self) -> float | None:
-        """
-        Against the wrong one, to 1.
-        """
+        """Against the wrong one, to 1."""
     @property
     def parts(self) -> list[str]:
-        """
-        Candidates that are tied, and that it tells apart.
-        """
+        """Candidates that are tied, and that it tells apart."""
     @property
     def seconds(self) -> float:
-        """
-        To record.
-        """
+        """To record."""
     @property
     def what(self) -> str:
-        """
-        In words.
-        """
+        """In words."""
 class LadderRow:
-    """
-    A candidate, and what speaks for it.
-    """
+    """A candidate, and what speaks for it."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, name: str, estimate: typing.SupportsFloat | typing.SupportsIndex, z: typing.SupportsFloat | typing.SupportsIndex, claimed: bool) -> None:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, name: str, estimate: typing.SupportsFloat | typing.SupportsIndex, z: typing.SupportsFloat | typing.SupportsIndex, claimed: bool) -> None: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
-    def claimed(self) -> bool:
-        ...
+    def claimed(self) -> bool: ...
     @property
     def estimate(self) -> float:
-        """
-        Of the parameter.
-        """
+        """Of the parameter."""
     @property
     def kind(self) -> str:
-        """
-        physics or measurement.
-        """
+        """physics or measurement."""
     @property
     def name(self) -> str:
-        """
-        Of the candidate.
-        """
+        """Of the candidate."""
     @property
     def p_value(self) -> float:
-        """
-        Over all candidates.
-        """
+        """Over all candidates."""
     @property
     def parameter(self) -> str:
-        """
-        Of several, the one that stands out most.
-        """
+        """Of several, the one that stands out most."""
     @property
     def reason(self) -> str:
-        """
-        Why it is claimed, or not.
-        """
+        """Why it is claimed, or not."""
     @property
     def size_m(self) -> float | None:
-        """
-        How far it moves a free diabolo in 0.5 s; null where it acts on spin.
-        """
+        """How far it moves a free diabolo in 0.5 s; null where it acts on spin."""
     @property
-    def unit(self) -> str:
-        ...
+    def unit(self) -> str: ...
     @property
     def z(self) -> float:
-        """
-        Standard deviations from zero.
-        """
+        """Standard deviations from zero."""
 class LocatedDirection:
-    """
-    A direction in which something may be missing.
-    """
+    """A direction in which something may be missing."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def mode(self) -> str:
-        """
-        State of the string in which it is looked at.
-        """
+        """State of the string in which it is looked at."""
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def unit(self) -> str:
-        ...
+    def unit(self) -> str: ...
 class LocatedWindow:
-    """
-    What is missing in a window of a recording.
-    """
+    """What is missing in a window of a recording."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
-    def begin_s(self) -> float:
-        ...
+    def begin_s(self) -> float: ...
     @property
-    def end_s(self) -> float:
-        ...
+    def end_s(self) -> float: ...
     @property
     def mode(self) -> str:
-        """
-        State of the string at its begin.
-        """
+        """State of the string at its begin."""
     @property
     def recording(self) -> str:
-        """
-        By its name.
-        """
+        """By its name."""
     @property
     def residual_after_m(self) -> float:
-        """
-        The same with what was found.
-        """
+        """The same with what was found."""
     @property
     def residual_before_m(self) -> float:
-        """
-        Root mean square of the base.
-        """
+        """Root mean square of the base."""
     @property
     def residual_noise_m(self) -> float | None:
-        """
-        What noise alone would leave.
-        """
+        """What noise alone would leave."""
     @property
     def spin_after_rad_s(self) -> float | None:
-        """
-        The same with what was found.
-        """
+        """The same with what was found."""
     @property
     def spin_before_rad_s(self) -> float | None:
-        """
-        Root mean square of the base's spin.
-        """
+        """Root mean square of the base's spin."""
     @property
     def spin_noise_rad_s(self) -> float | None:
-        """
-        What noise alone would leave.
-        """
+        """What noise alone would leave."""
     @property
     def z(self) -> list[float | None]:
-        """
-        Of what is missing, direction by direction.
-        """
+        """Of what is missing, direction by direction."""
     @property
     def z_after(self) -> list[float | None]:
-        """
-        Of what is left with what was found.
-        """
+        """Of what is left with what was found."""
 class Location:
-    """
-    Where base and recordings part.
-    """
+    """Where base and recordings part."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
-    def directions(self) -> list[LocatedDirection]:
-        ...
+    def directions(self) -> list[LocatedDirection]: ...
     @property
-    def windows(self) -> list[LocatedWindow]:
-        ...
+    def windows(self) -> list[LocatedWindow]: ...
 class RecordingNoise:
-    """
-    Noise of a recording.
-    """
+    """Noise of a recording."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def position_m(self) -> float:
-        """
-        Standard deviation.
-        """
+        """Standard deviation."""
     @property
     def recording(self) -> str:
-        """
-        By its name.
-        """
+        """By its name."""
     @property
     def spin_rad_s(self) -> float:
-        """
-        Standard deviation.
-        """
+        """Standard deviation."""
 class Thresholds:
-    """
-    What decided the claims, so that nobody has to copy it.
-    """
+    """What decided the claims, so that nobody has to copy it."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self) -> None:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self) -> None: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def measurement(self) -> float:
-        """
-        The same of a fault of measurement.
-        """
+        """The same of a fault of measurement."""
     @property
     def numerical_share(self) -> float:
-        """
-        Share of what is left over, beyond which the base's numerical rules count.
-        """
+        """Share of what is left over, beyond which the base's numerical rules count."""
     @property
     def physics(self) -> float:
-        """
-        Standard deviations beyond which physics counts.
-        """
+        """Standard deviations beyond which physics counts."""
     @property
     def times_noise(self) -> float:
-        """
-        What is left may be so many times what noise leaves.
-        """
+        """What is left may be so many times what noise leaves."""
     @property
     def worthwhile_odds(self) -> float:
-        """
-        Below these a proposed motion parts nothing.
-        """
+        """Below these a proposed motion parts nothing."""
 class InputFile:
-    """
-    A file that was diagnosed.
-    """
+    """A file that was diagnosed."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
-    def __init__(self, file: str, sha256: str) -> None:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __init__(self, file: str, sha256: str) -> None: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def file(self) -> str:
-        """
-        Name without folders.
-        """
+        """Name without folders."""
     @property
-    def sha256(self) -> str:
-        ...
+    def sha256(self) -> str: ...
 class DiagnosisResult:
-    """
-    Everything that a diagnosis says, as its file holds it.
-    """
+    """Everything that a diagnosis says, as its file holds it."""
     __hash__: typing.ClassVar[None] = None
     @staticmethod
     def from_json(text: str) -> DiagnosisResult:
-        """
-        Reads the text of such a file; what it lacks is as in an empty result.
-        """
+        """Reads the text of such a file; what it lacks is as in an empty result."""
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> DiagnosisResult:
-        """
-        Reads such a file.
-        """
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+        """Reads such a file."""
+    def __eq__(self, other: typing.Any) -> bool: ...
     def completed(self, seconds: typing.SupportsFloat | typing.SupportsIndex | None = None, inputs: collections.abc.Sequence[InputFile] = [], model: str | None = None) -> DiagnosisResult:
-        """
-        The same with what only its caller knows; the rest as it is.
-        """
+        """The same with what only its caller knows; the rest as it is."""
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     def to_json(self) -> str:
-        """
-        The text of its file, schema diabolo.diagnosis/1.
-        """
+        """The text of its file, schema diabolo.diagnosis/1."""
     @property
     def adequacy(self) -> Adequacy:
-        """
-        Whether it leaves no more than noise would.
-        """
+        """Whether it leaves no more than noise would."""
     @property
     def base(self) -> str:
-        """
-        Name of the simulator that was asked about.
-        """
+        """Name of the simulator that was asked about."""
     @property
     def differing(self) -> list[DifferingEffect]:
-        """
-        What recordings ask different values of, the surest first.
-        """
+        """What recordings ask different values of, the surest first."""
     @property
     def effects(self) -> list[ClaimedEffect]:
-        """
-        What is claimed, the surest first.
-        """
+        """What is claimed, the surest first."""
     @property
     def fit(self) -> HeldOutErrors:
-        """
-        Errors on data that was not fitted.
-        """
+        """Errors on data that was not fitted."""
     @property
     def headline(self) -> str:
-        """
-        The first that holds of INSUFFICIENT_DATA, TIE, NAMED, MEASUREMENT_FAULT, NUMERICAL, UNNAMED_STRUCTURE and NOTHING_MISSING.
-        """
+        """The first that holds of INSUFFICIENT_DATA, TIE, NAMED, MEASUREMENT_FAULT, NUMERICAL, UNNAMED_STRUCTURE and NOTHING_MISSING."""
     @property
     def inputs(self) -> list[InputFile]:
-        """
-        Files that were diagnosed, where its caller said so.
-        """
+        """Files that were diagnosed, where its caller said so."""
     @property
     def ladder(self) -> list[LadderRow]:
-        """
-        Every candidate, and why it was claimed or not.
-        """
+        """Every candidate, and why it was claimed or not."""
     @property
     def learnt(self) -> list[LearntLawFound]:
-        """
-        Laws that were learnt from it.
-        """
+        """Laws that were learnt from it."""
     @property
     def locate(self) -> Location:
-        """
-        Where base and recording part, window by window.
-        """
+        """Where base and recording part, window by window."""
     @property
     def model(self) -> str | None:
-        """
-        Name of the model's file; null where none was written.
-        """
+        """Name of the model's file; null where none was written."""
     @property
     def next_experiment(self) -> list[ProposedMotion]:
-        """
-        Motions that would part ties.
-        """
+        """Motions that would part ties."""
     @property
     def noise(self) -> list[RecordingNoise]:
-        """
-        Of each recording.
-        """
+        """Of each recording."""
     @property
     def not_done(self) -> list[str]:
-        """
-        What budget or base kept from being asked.
-        """
+        """What budget or base kept from being asked."""
     @property
     def nuisances(self) -> list[Estimate]:
-        """
-        What was measured on the way.
-        """
+        """What was measured on the way."""
     @property
     def schema(self) -> str:
-        """
-        diabolo.diagnosis/1.
-        """
+        """diabolo.diagnosis/1."""
     @property
     def seconds(self) -> float | None:
-        """
-        That it took; null where its caller did not say.
-        """
+        """That it took; null where its caller did not say."""
     @property
     def sentence(self) -> str:
-        """
-        The answer in words.
-        """
+        """The answer in words."""
     @property
     def thresholds(self) -> Thresholds:
-        """
-        What decided the claims.
-        """
+        """What decided the claims."""
     @property
     def unnamed(self) -> list[UnnamedStructure]:
-        """
-        What is there and has no name.
-        """
+        """What is there and has no name."""
     @property
     def upper_limits(self) -> list[UpperLimit]:
-        """
-        What may be there unseen.
-        """
+        """What may be there unseen."""
     @property
     def version(self) -> str:
-        """
-        Of the tool.
-        """
+        """Of the tool."""
 class ComparedLaw:
-    """
-    A law in reality and in a simulator.
-    """
+    """A law in reality and in a simulator."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     @property
     def difference(self) -> list[Estimate]:
-        """
-        Real less simulated: what the simulator has to get.
-        """
+        """Real less simulated: what the simulator has to get."""
     @property
     def kind(self) -> str:
-        """
-        physics, measurement or learnt.
-        """
+        """physics, measurement or learnt."""
     @property
     def name(self) -> str:
-        """
-        Of the candidate, or of a law that was learnt.
-        """
+        """Of the candidate, or of a law that was learnt."""
     @property
     def p_value(self) -> float | None:
-        """
-        That the two are the same, over all candidates.
-        """
+        """That the two are the same, over all candidates."""
     @property
     def real(self) -> list[Estimate]:
-        """
-        What it comes out as in the recordings.
-        """
+        """What it comes out as in the recordings."""
     @property
     def simulated(self) -> list[Estimate]:
-        """
-        What it comes out as in the simulated ones.
-        """
+        """What it comes out as in the simulated ones."""
     @property
     def size_m(self) -> float | None:
-        """
-        How far the difference moves a free diabolo in 0.5 s; null where it does not act so.
-        """
+        """How far the difference moves a free diabolo in 0.5 s; null where it does not act so."""
     @property
     def tied_with(self) -> list[str]:
-        """
-        Candidates that explain the recordings as well.
-        """
+        """Candidates that explain the recordings as well."""
     @property
     def verdict(self) -> str:
-        """
-        agrees, lacks, too_little, too_much or should_not_have, of the simulator; cannot_tell where one of the two shows it and the other is unsure.
-        """
+        """agrees, lacks, too_little, too_much or should_not_have, of the simulator; cannot_tell where one of the two shows it and the other is unsure."""
     @property
     def what(self) -> str:
-        """
-        In words.
-        """
+        """In words."""
     @property
     def where(self) -> EffectPlace:
-        """
-        Where it matters.
-        """
+        """Where it matters."""
 class SimulatorComparison:
-    """
-    What reality has and a simulator has not, law by law.
-    """
+    """What reality has and a simulator has not, law by law."""
     __hash__: typing.ClassVar[None] = None
-    def __eq__(self, other: typing.Any) -> bool:
-        ...
+    def __eq__(self, other: typing.Any) -> bool: ...
     def to_dict(self) -> dict:
-        """
-        The same as its file has it.
-        """
+        """The same as its file has it."""
     def to_json(self) -> str:
-        """
-        The text of its file, schema diabolo.comparison/1.
-        """
+        """The text of its file, schema diabolo.comparison/1."""
     @property
     def fit(self) -> HeldOutErrors:
-        """
-        Errors of the simulator on data that was not fitted, alone and with the difference of our two models; without horizons where it was not asked to play from recorded starts.
-        """
+        """Errors of the simulator on data that was not fitted, alone and with the difference of our two models; without horizons where it was not asked to play from recorded starts."""
     @property
     def laws(self) -> list[ComparedLaw]:
-        """
-        What differs, the largest first, and then what agrees.
-        """
+        """What differs, the largest first, and then what agrees."""
     @property
     def real(self) -> DiagnosisResult:
-        """
-        Diagnosis of the recordings.
-        """
+        """Diagnosis of the recordings."""
     @property
     def recording_faults(self) -> list[str]:
-        """
-        Faults of the recordings, which no simulator has to have.
-        """
+        """Faults of the recordings, which no simulator has to have."""
     @property
     def schema(self) -> str:
-        """
-        diabolo.comparison/1.
-        """
+        """diabolo.comparison/1."""
     @property
     def sentence(self) -> str:
-        """
-        The answer in words.
-        """
+        """The answer in words."""
     @property
     def simulated(self) -> DiagnosisResult:
-        """
-        Diagnosis of what was simulated.
-        """
+        """Diagnosis of what was simulated."""
 class ResidualFit:
-    """
-    A residual that was fitted, and its errors on what it was not fitted to.
-    """
+    """A residual that was fitted, and its errors on what it was not fitted to."""
     @property
     def base_error(self) -> float:
-        """
-        Median distance without it, half a second later [m].
-        """
+        """Median distance without it, half a second later [m]."""
     @property
     def error(self) -> float:
-        """
-        The same with it [m].
-        """
+        """The same with it [m]."""
     @property
     def gain_ci95(self) -> typing.Any:
-        """
-        95 % interval of the mean by which it takes errors off [m]; None where there are too few.
-        """
+        """95 % interval of the mean by which it takes errors off [m]; None where there are too few."""
     @property
     def model(self) -> Model:
-        """
-        The base, with the residual where it stands.
-        """
+        """The base, with the residual where it stands."""
     @property
     def stands(self) -> bool:
-        """
-        Whether predictions get better by more than 1 mm half a second later, for sure.
-        """
+        """Whether predictions get better by more than 1 mm half a second later, for sure."""
     @property
     def usual(self) -> float:
-        """
-        The size that weights were expected to have [m/s^2].
-        """
+        """The size that weights were expected to have [m/s^2]."""
     @property
     def windows(self) -> int:
-        """
-        How many predictions were compared.
-        """
+        """How many predictions were compared."""
 class HandLimits:
     """
     What the tips may do under an agent.
@@ -2801,26 +1724,19 @@ class HandLimits:
     string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
     left half (along y) the left tip keeps to, and the right tip to the other.
     """
-    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None:
-        ...
+    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None: ...
     @property
-    def acceleration(self) -> float:
-        ...
+    def acceleration(self) -> float: ...
     @property
-    def centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
-    def gap(self) -> float:
-        ...
+    def gap(self) -> float: ...
     @property
-    def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
-    def speed(self) -> float:
-        ...
+    def speed(self) -> float: ...
     @property
-    def string_margin(self) -> float:
-        ...
+    def string_margin(self) -> float: ...
 class Camera:
     """
     How an agent sees the diabolo: with noise, late, and not in every frame. A frame is a period.
@@ -2828,81 +1744,49 @@ class Camera:
     noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
     nothing is seen; least_delay to most_delay [frames]: each episode draws one.
     """
-    def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None:
-        ...
+    def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None: ...
     @property
-    def dropouts(self) -> float:
-        ...
+    def dropouts(self) -> float: ...
     @property
-    def least_delay(self) -> int:
-        ...
+    def least_delay(self) -> int: ...
     @property
-    def most_delay(self) -> int:
-        ...
+    def most_delay(self) -> int: ...
     @property
-    def noise(self) -> float:
-        ...
+    def noise(self) -> float: ...
     @property
-    def spin_noise(self) -> float:
-        ...
+    def spin_noise(self) -> float: ...
 class EpisodeStart:
-    """
-    What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], the goal (None: it is drawn), the stage of a task that has several, and how many flights were caught.
-    """
-    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, stage: typing.SupportsInt | typing.SupportsIndex = 0, flights: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
-        ...
+    """What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], the goal (None: it is drawn), the stage of a task that has several, and how many flights were caught."""
+    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, stage: typing.SupportsInt | typing.SupportsIndex = 0, flights: typing.SupportsInt | typing.SupportsIndex = 0) -> None: ...
 class Arena:
-    """
-    Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites.
-    """
-    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
-        ...
+    """Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites."""
+    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None: ...
     def model_of(self, environment: typing.SupportsInt | typing.SupportsIndex) -> int:
-        """
-        Number of the model that it plays with.
-        """
+        """Number of the model that it plays with."""
     def outcome(self, environment: typing.SupportsInt | typing.SupportsIndex) -> dict:
-        """
-        What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model.
-        """
+        """What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
     def pose(self, environment: typing.SupportsInt | typing.SupportsIndex) -> tuple:
-        """
-        State of the diabolo, left tip and right tip.
-        """
+        """State of the diabolo, left tip and right tip."""
     def reset(self, environment: typing.SupportsInt | typing.SupportsIndex, state: State | None = None, goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, model: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
-        """
-        Begins its next episode, with what is given in place of what is drawn.
-        """
+        """Begins its next episode, with what is given in place of what is drawn."""
     def seed(self, environment: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex) -> None:
-        """
-        Its episodes begin anew with this seed.
-        """
+        """Its episodes begin anew with this seed."""
     def step(self, actions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
-        """
-        Plays a period. actions: shares of the tips' accelerations, shape (count, 6).
-        """
+        """Plays a period. actions: shares of the tips' accelerations, shape (count, 6)."""
     @property
-    def count(self) -> int:
-        ...
+    def count(self) -> int: ...
     @property
     def final_observations(self) -> numpy.ndarray:
-        """
-        Of episodes that the same step has reset.
-        """
+        """Of episodes that the same step has reset."""
     @property
     def observations(self) -> numpy.ndarray:
-        """
-        float32, shape (count, numbers of an observation).
-        """
+        """float32, shape (count, numbers of an observation)."""
     @property
-    def rewards(self) -> numpy.ndarray:
-        ...
+    def rewards(self) -> numpy.ndarray: ...
     @property
-    def terminated(self) -> numpy.ndarray:
-        ...
+    def terminated(self) -> numpy.ndarray: ...
     @property
-    def truncated(self) -> numpy.ndarray:
-        ...
+    def truncated(self) -> numpy.ndarray: ...
 class Agent:
     """
     An agent: a network that sees observations and gives actions, and what it was trained for.
@@ -2912,31 +1796,20 @@ class Agent:
     """
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> Agent:
-        """
-        Reads a file of the schema diabolo.agent/1.
-        """
-    def __init__(self, task: str, period: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None:
-        ...
+        """Reads a file of the schema diabolo.agent/1."""
+    def __init__(self, task: str, period: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None: ...
     def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each.
-        """
-    def to_json(self) -> str:
-        """
-        The text of its file.
-        """
+        """Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each."""
+    def to_json(self, decimals: typing.SupportsInt | typing.SupportsIndex | None = None) -> str:
+        """The text of its file; with its numbers rounded to so many decimals (1 to 6) it is a third as large."""
     @property
-    def layers(self) -> list:
-        ...
+    def layers(self) -> list: ...
     @property
-    def period(self) -> float:
-        ...
+    def period(self) -> float: ...
     @property
-    def steps(self) -> int:
-        ...
+    def steps(self) -> int: ...
     @property
-    def task(self) -> str:
-        ...
+    def task(self) -> str: ...
 class LiveAgent:
     """
     An agent at the sticks of a robot or of somebody else's simulator.
@@ -2945,51 +1818,34 @@ class LiveAgent:
     gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed. Raises
     ValueError where the tips are not within the limits.
     """
-    def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], limits: HandLimits = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.45, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, camera: Camera | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
-        ...
+    def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], limits: HandLimits = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.45, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, camera: Camera | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> None: ...
     def act(self, state: State) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
-        """
-        Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant.
-        """
+        """Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant."""
     @property
-    def agent(self) -> Agent:
-        ...
+    def agent(self) -> Agent: ...
 class Waypoint:
-    """
-    A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle.
-    """
-    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0, velocity_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, direction_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
-        ...
+    """A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle."""
+    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0, velocity_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, direction_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None: ...
     @property
-    def direction_weight(self) -> float:
-        ...
+    def direction_weight(self) -> float: ...
     @direction_weight.setter
-    def direction_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def direction_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @position.setter
-    def position(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None:
-        ...
+    def position(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
-    def position_weight(self) -> float:
-        ...
+    def position_weight(self) -> float: ...
     @position_weight.setter
-    def position_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def position_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @velocity.setter
-    def velocity(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None:
-        ...
+    def velocity(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
-    def velocity_weight(self) -> float:
-        ...
+    def velocity_weight(self) -> float: ...
     @velocity_weight.setter
-    def velocity_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def velocity_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 class Goals:
     """
     What a plan shall achieve; what is not given does not count.
@@ -2998,79 +1854,50 @@ class Goals:
     apex [m], above the tips, and landing [m] are those of the flight that the motion ends in; caught is the weight
     of missing a diabolo that flies.
     """
-    def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, spin_weight: typing.SupportsFloat | typing.SupportsIndex = 0.02, taut: typing.SupportsFloat | typing.SupportsIndex | None = None, apex: typing.SupportsFloat | typing.SupportsIndex | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
-        ...
+    def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, spin_weight: typing.SupportsFloat | typing.SupportsIndex = 0.02, taut: typing.SupportsFloat | typing.SupportsIndex | None = None, apex: typing.SupportsFloat | typing.SupportsIndex | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None: ...
     @property
-    def apex(self) -> float | None:
-        ...
+    def apex(self) -> float | None: ...
     @property
-    def caught(self) -> float | None:
-        ...
+    def caught(self) -> float | None: ...
     @property
-    def final_state(self) -> Waypoint | None:
-        ...
+    def final_state(self) -> Waypoint | None: ...
     @property
-    def landing(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None:
-        ...
+    def landing(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None: ...
     @property
-    def spin(self) -> float | None:
-        ...
+    def spin(self) -> float | None: ...
     @property
-    def taut(self) -> float | None:
-        ...
+    def taut(self) -> float | None: ...
     @property
-    def waypoints(self) -> list[Waypoint]:
-        ...
+    def waypoints(self) -> list[Waypoint]: ...
 class TipPath:
-    """
-    Planned motion of the tips: piecewise cubics.
-    """
+    """Planned motion of the tips: piecewise cubics."""
     def derivatives(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): shape (4, N, 6).
-        """
+        """Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): shape (4, N, 6)."""
     def followed_by(self, next: TipPath) -> TipPath:
-        """
-        This path and then another one, moved in time to this one's end, where their tips and velocities must meet.
-        """
+        """This path and then another one, moved in time to this one's end, where their tips and velocities must meet."""
     def tips(self, interval: typing.SupportsFloat | typing.SupportsIndex = 0.002) -> TipMotion:
-        """
-        The same motion in samples [s], for predictions.
-        """
+        """The same motion in samples [s], for predictions."""
     @property
     def begin(self) -> float:
-        """
-        [s]
-        """
+        """[s]"""
     @property
     def end(self) -> float:
-        """
-        [s]
-        """
+        """[s]"""
 class LimitUse:
-    """
-    How much of a limit a path uses: value, limit, and the excess, at most zero where it is kept, as a share or in metres.
-    """
-    def __init__(self, name: str, value: typing.SupportsFloat | typing.SupportsIndex, limit: typing.SupportsFloat | typing.SupportsIndex, unit: str, time: typing.SupportsFloat | typing.SupportsIndex, excess: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    """How much of a limit a path uses: value, limit, and the excess, at most zero where it is kept, as a share or in metres."""
+    def __init__(self, name: str, value: typing.SupportsFloat | typing.SupportsIndex, limit: typing.SupportsFloat | typing.SupportsIndex, unit: str, time: typing.SupportsFloat | typing.SupportsIndex, excess: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def excess(self) -> float:
-        ...
+    def excess(self) -> float: ...
     @property
-    def limit(self) -> float:
-        ...
+    def limit(self) -> float: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def time(self) -> float:
-        ...
+    def time(self) -> float: ...
     @property
-    def unit(self) -> str:
-        ...
+    def unit(self) -> str: ...
     @property
-    def value(self) -> float:
-        ...
+    def value(self) -> float: ...
 class TipLimits:
     """
     What the tips may do; every plan keeps it.
@@ -3080,50 +1907,34 @@ class TipLimits:
     highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
     robot's.
     """
-    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: typing.Any = None) -> None:
-        ...
+    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: typing.Any = None) -> None: ...
     @property
-    def acceleration(self) -> float:
-        ...
+    def acceleration(self) -> float: ...
     @property
-    def highest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def highest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
-    def jerk(self) -> float:
-        ...
+    def jerk(self) -> float: ...
     @property
-    def least_gap(self) -> float:
-        ...
+    def least_gap(self) -> float: ...
     @property
-    def lowest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def lowest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
-    def speed(self) -> float:
-        ...
+    def speed(self) -> float: ...
     @property
-    def string_margin(self) -> float:
-        ...
+    def string_margin(self) -> float: ...
 class Freedom:
-    """
-    What a solver may change of a seed: x too, durations, the last point; up to a reach [m] of each coordinate and a stretch of each duration, as a share.
-    """
-    def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: typing.SupportsFloat | typing.SupportsIndex = 0.4, stretch: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> None:
-        ...
+    """What a solver may change of a seed: x too, durations, the last point; up to a reach [m] of each coordinate and a stretch of each duration, as a share."""
+    def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: typing.SupportsFloat | typing.SupportsIndex = 0.4, stretch: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> None: ...
     @property
-    def forward(self) -> bool:
-        ...
+    def forward(self) -> bool: ...
     @property
-    def last_point(self) -> bool:
-        ...
+    def last_point(self) -> bool: ...
     @property
-    def reach(self) -> float:
-        ...
+    def reach(self) -> float: ...
     @property
-    def stretch(self) -> float:
-        ...
+    def stretch(self) -> float: ...
     @property
-    def times(self) -> bool:
-        ...
+    def times(self) -> bool: ...
 class StickSpline:
     """
     A motion of the tips by control points: a clamped or periodic cubic spline.
@@ -3132,126 +1943,80 @@ class StickSpline:
     acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right; sticks: their
     directions, unit vectors, likewise, zero where not known; StickFlex alone looks at them.
     """
-    def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None:
-        ...
+    def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None: ...
     def path(self) -> TipPath:
-        """
-        The TipPath through the points.
-        """
+        """The TipPath through the points."""
     @property
-    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        ...
+    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
-    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        ...
+    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
-    def sticks(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]:
-        ...
+    def sticks(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]: ...
     @property
-    def times(self) -> list[float]:
-        ...
+    def times(self) -> list[float]: ...
 class Action:
-    """
-    A figure of play: seed motion, freedom and goals.
-    """
+    """A figure of play: seed motion, freedom and goals."""
     @property
-    def freedom(self) -> Freedom:
-        ...
+    def freedom(self) -> Freedom: ...
     @property
-    def goals(self) -> Goals:
-        ...
+    def goals(self) -> Goals: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def seed(self) -> StickSpline:
-        ...
+    def seed(self) -> StickSpline: ...
 class GoalCost:
-    """
-    How far a plan is off one goal.
-    """
+    """How far a plan is off one goal."""
     @property
-    def error(self) -> float:
-        ...
+    def error(self) -> float: ...
     @property
-    def name(self) -> str:
-        ...
+    def name(self) -> str: ...
     @property
-    def reached(self) -> bool:
-        ...
+    def reached(self) -> bool: ...
     @property
-    def tolerance(self) -> float:
-        ...
+    def tolerance(self) -> float: ...
     @property
     def unit(self) -> str:
-        """
-        Of error and tolerance; empty for a share.
-        """
+        """Of error and tolerance; empty for a share."""
     @property
-    def weight(self) -> float:
-        ...
+    def weight(self) -> float: ...
 class Plan:
-    """
-    A motion that was found, and what it leads to. It keeps its limits.
-    """
+    """A motion that was found, and what it leads to. It keeps its limits."""
     @property
-    def answer(self) -> str:
-        ...
+    def answer(self) -> str: ...
     @property
-    def cost(self) -> float:
-        ...
+    def cost(self) -> float: ...
     @property
     def end(self) -> State:
-        """
-        State at the end of the motion.
-        """
+        """State at the end of the motion."""
     @property
-    def evaluations(self) -> int:
-        ...
+    def evaluations(self) -> int: ...
     @property
-    def goals(self) -> list[GoalCost]:
-        ...
+    def goals(self) -> list[GoalCost]: ...
     @property
-    def limits(self) -> list[LimitUse]:
-        ...
+    def limits(self) -> list[LimitUse]: ...
     @property
-    def motion(self) -> StickSpline:
-        ...
+    def motion(self) -> StickSpline: ...
     @property
-    def path(self) -> TipPath:
-        ...
+    def path(self) -> TipPath: ...
     @property
     def play(self) -> tuple:
-        """
-        Times, states (N, 7), string states, left and right tips.
-        """
+        """Times, states (N, 7), string states, left and right tips."""
     @property
-    def reached(self) -> bool:
-        ...
+    def reached(self) -> bool: ...
 class Seam:
-    """
-    Where a new piece of motion sets in.
-    """
+    """Where a new piece of motion sets in."""
     def catch(self, home_left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], home_right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], model: Model, others: collections.abc.Sequence[State] = []) -> Action:
-        """
-        The action that catches the diabolo, which flies, as it is or as in one of the other states.
-        """
+        """The action that catches the diabolo, which flies, as it is or as in one of the other states."""
     def joined(self, seed: StickSpline) -> StickSpline:
-        """
-        A seed moved there, which goes on from the tips' motion.
-        """
+        """A seed moved there, which goes on from the tips' motion."""
     @property
-    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
-    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
-    def state(self) -> State:
-        ...
+    def state(self) -> State: ...
     @property
-    def time(self) -> float:
-        ...
+    def time(self) -> float: ...
 class RecedingHorizon:
     """
     Motion that is planned piece by piece while it is played.
@@ -3260,93 +2025,57 @@ class RecedingHorizon:
         piece = ...                      # a plan from seam.state, its seed seam.joined(...)
         horizon.join(seam, piece, now, planning_time)  # False where it comes too late
     """
-    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None:
-        ...
-    def join(self, seam: Seam, plan: Plan, now: typing.SupportsFloat | typing.SupportsIndex, planning_time: typing.SupportsFloat | typing.SupportsIndex) -> bool:
-        ...
+    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None: ...
+    def join(self, seam: Seam, plan: Plan, now: typing.SupportsFloat | typing.SupportsIndex, planning_time: typing.SupportsFloat | typing.SupportsIndex) -> bool: ...
     def observe(self, time: typing.SupportsFloat | typing.SupportsIndex, state: State) -> None:
-        """
-        Takes over an observed state; predictions begin with the latest one.
-        """
-    def seam(self, now: typing.SupportsFloat | typing.SupportsIndex) -> Seam:
-        ...
-    def seam_at(self, time: typing.SupportsFloat | typing.SupportsIndex) -> Seam:
-        ...
+        """Takes over an observed state; predictions begin with the latest one."""
+    def seam(self, now: typing.SupportsFloat | typing.SupportsIndex) -> Seam: ...
+    def seam_at(self, time: typing.SupportsFloat | typing.SupportsIndex) -> Seam: ...
     @property
-    def path(self) -> TipPath:
-        ...
+    def path(self) -> TipPath: ...
 class PlannedPlay:
-    """
-    A planned motion, and what it leads to by the model that it was planned with.
-    """
+    """A planned motion, and what it leads to by the model that it was planned with."""
     @property
-    def action(self) -> str:
-        ...
+    def action(self) -> str: ...
     @property
     def answer(self) -> str:
-        """
-        The same in a sentence: that of the first plan that misses a goal, or why there are no more.
-        """
+        """The same in a sentence: that of the first plan that misses a goal, or why there are no more."""
     @property
     def ended(self) -> str:
-        """
-        Why there are fewer cycles than were asked for; empty where there are not.
-        """
+        """Why there are fewer cycles than were asked for; empty where there are not."""
     @property
     def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        Left tip [m], shape (N, 3).
-        """
+        """Left tip [m], shape (N, 3)."""
     @property
     def path(self) -> TipPath:
-        """
-        Of the tips.
-        """
+        """Of the tips."""
     @property
     def planning_time(self) -> float:
-        """
-        Of all plans together [s].
-        """
+        """Of all plans together [s]."""
     @property
     def plans(self) -> list[Plan]:
-        """
-        One a cycle; of a throw and catch, two, or one where there is nothing to catch.
-        """
+        """One a cycle; of a throw and catch, two, or one where there is nothing to catch."""
     @property
     def reached(self) -> bool:
-        """
-        Whether every goal of every cycle is reached.
-        """
+        """Whether every goal of every cycle is reached."""
     @property
     def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        Right tip [m], shape (N, 3).
-        """
+        """Right tip [m], shape (N, 3)."""
     @property
     def start(self) -> State:
-        """
-        State of the diabolo.
-        """
+        """State of the diabolo."""
     @property
     def states(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        Position [m], velocity [m/s] and spin [rad/s], shape (N, 7).
-        """
+        """Position [m], velocity [m/s] and spin [rad/s], shape (N, 7)."""
     @property
     def string_states(self) -> typing.Annotated[numpy.typing.NDArray[numpy.uint8], "[m, 1]"]:
-        """
-        As in StringState, shape (N,).
-        """
+        """As in StringState, shape (N,)."""
     @property
     def time(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
-        """
-        [s], shape (N,).
-        """
+        """[s], shape (N,)."""
     @property
     def wanted(self) -> list[Goals]:
-        """
-        The goals of the first cycle.
-        """
+        """The goals of the first cycle."""
 class StickArm:
     """
     A UR5e where it stands, with the stick in its flange, as in the paper.
@@ -3355,107 +2084,62 @@ class StickArm:
     world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for each of the six links, shape
     (6, 6), as the ROS driver extracts it; None is the arm of the data sheet. Joints are [rad], base to last wrist.
     """
-    def __init__(self, side: str, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, spacing: typing.SupportsFloat | typing.SupportsIndex = 1.1, forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, calibration: typing.Any = None) -> None:
-        ...
+    def __init__(self, side: str, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, spacing: typing.SupportsFloat | typing.SupportsIndex = 1.1, forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, calibration: typing.Any = None) -> None: ...
     def flange(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Poses of the flange in the controller's base frame, shape (..., 4, 4), of joints (..., 6).
-        """
+        """Poses of the flange in the controller's base frame, shape (..., 4, 4), of joints (..., 6)."""
     def inverse(self, flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Joints, shape (6,), near `seed` that bring the flange to a pose in the controller's base frame, shape (4, 4). Raises ValueError where the arm does not reach it.
-        """
+        """Joints, shape (6,), near `seed` that bring the flange to a pose in the controller's base frame, shape (4, 4). Raises ValueError where the arm does not reach it."""
     def jacobian(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Velocity of the tip (rows 0-2, [m/rad]) and rotation of the flange (rows 3-5) over the joints, controller's base frame, shape (..., 6, 6).
-        """
+        """Velocity of the tip (rows 0-2, [m/rad]) and rotation of the flange (rows 3-5) over the joints, controller's base frame, shape (..., 6, 6)."""
     def tip_position(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        The stick's tip [m, world], shape (..., 3), of joints (..., 6).
-        """
+        """The stick's tip [m, world], shape (..., 3), of joints (..., 6)."""
     @property
     def base(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Pose of the controller's base frame in the world, shape (4, 4).
-        """
+        """Pose of the controller's base frame in the world, shape (4, 4)."""
     @property
-    def side(self) -> str:
-        ...
+    def side(self) -> str: ...
     @property
     def tip(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        The stick's tip in the frame of the flange [m], shape (3,).
-        """
+        """The stick's tip in the frame of the flange [m], shape (3,)."""
 class SeedGrid:
-    """
-    Joint configurations at the key points of a box, and cubic splines between them.
-    """
+    """Joint configurations at the key points of a box, and cubic splines between them."""
     @staticmethod
     def build(arm: StickArm, lower: typing.Any = None, upper: typing.Any = None, knots: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] = [6, 7, 7]) -> SeedGrid:
-        """
-        For a box from `lower` to `upper` [m, world], each of the shape (3,); default: the paper's. Raises ValueError with the point that the arm does not reach.
-        """
+        """For a box from `lower` to `upper` [m, world], each of the shape (3,); default: the paper's. Raises ValueError with the point that the arm does not reach."""
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> SeedGrid:
-        """
-        What save() wrote.
-        """
+        """What save() wrote."""
     def save(self, path: os.PathLike | str | bytes) -> None:
-        """
-        Write a CSV of x, y, z [m] and q1 to q6 [rad], a line for each key point.
-        """
+        """Write a CSV of x, y, z [m] and q1 to q6 [rad], a line for each key point."""
     def seed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Interpolated joints [rad], shape (..., 6), at points (..., 3); outside, of the nearest point.
-        """
+        """Interpolated joints [rad], shape (..., 6), at points (..., 3); outside, of the nearest point."""
     @property
     def joints(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Of the key points [rad], shape (x, y, z, 6).
-        """
+        """Of the key points [rad], shape (x, y, z, 6)."""
     @property
     def knots(self) -> typing.Annotated[list[int], "FixedSize(3)"]:
-        """
-        Key points along x, y and z.
-        """
+        """Key points along x, y and z."""
     @property
     def lower(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        [m, world], shape (3,).
-        """
+        """[m, world], shape (3,)."""
     @property
     def upper(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        [m, world], shape (3,).
-        """
+        """[m, world], shape (3,)."""
 class StickMap:
-    """
-    The joints of an arm as a function of its stick's tip, without drift.
-    """
-    def __init__(self, arm: StickArm, grid: SeedGrid) -> None:
-        ...
+    """The joints of an arm as a function of its stick's tip, without drift."""
+    def __init__(self, arm: StickArm, grid: SeedGrid) -> None: ...
     def slopes(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code.
-        """
+        """How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code."""
     def slowest_tip_speed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        The same in the slowest direction: there one joint alone sets the pace.
-        """
+        """The same in the slowest direction: there one joint alone sets the pace."""
     def solve(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
-        """
-        Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for each, shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's range; there the joints are NaN.
-        """
+        """Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for each, shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's range; there the joints are NaN."""
     def tip_speed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        How fast the tip may go in a direction of any length, shape (3,), before a joint exceeds pi rad/s [m/s], shape (...); NaN where solve() has a code.
-        """
+        """How fast the tip may go in a direction of any length, shape (3,), before a joint exceeds pi rad/s [m/s], shape (...); NaN where solve() has a code."""
     @property
-    def arm(self) -> StickArm:
-        ...
+    def arm(self) -> StickArm: ...
     @property
-    def grid(self) -> SeedGrid:
-        ...
+    def grid(self) -> SeedGrid: ...
 class RobotLimits:
     """
     What two arms, each a StickMap, ask of a path: TipLimits(others=RobotLimits(left, right)).
@@ -3463,14 +2147,10 @@ class RobotLimits:
     Reach, the joints' speed [rad/s], acceleration [rad/s^2] and jerk [rad/s^3], of which `share` may be used up, and
     what must stay between the arms [m]. Called with a TipPath, it returns a list of LimitUse.
     """
-    def __call__(self, path: TipPath) -> list[LimitUse]:
-        ...
-    def __init__(self, left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1, share: typing.SupportsFloat | typing.SupportsIndex = 0.97) -> None:
-        ...
+    def __call__(self, path: TipPath) -> list[LimitUse]: ...
+    def __init__(self, left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1, share: typing.SupportsFloat | typing.SupportsIndex = 0.97) -> None: ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
-    """
-    The figure of that name from a pose of the tips and a state of the diabolo.
-    """
+    """The figure of that name from a pose of the tips and a state of the diabolo."""
 def arm_hand_limits(left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, room: HandLimits | None = None) -> HandLimits:
     """
     HandLimits of an agent under which no joint of two arms, each a StickMap, exceeds `speed` [rad/s] or
@@ -3479,47 +2159,26 @@ def arm_hand_limits(left: StickMap, right: StickMap, speed: typing.SupportsFloat
     reach its part.
     """
 def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    The lowest points of the spheroid [m], shape (N, 3): what every model has to beat.
-    """
+    """The lowest points of the spheroid [m], shape (N, 3): what every model has to beat."""
 def best_guess(model: Model, ladder: collections.abc.Sequence[LadderRow]) -> Model:
-    """
-    See diabolo.best_guess.
-    """
+    """See diabolo.best_guess."""
 def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> dict:
-    """
-    Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why.
-    """
+    """Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why."""
 def compare_simulator(recordings: collections.abc.Sequence[Recording], simulated: collections.abc.Sequence[Recording], simulate: typing.Any, base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
-    """
-    See diabolo.compare_simulator.
-    """
+    """See diabolo.compare_simulator."""
 def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any, draws: typing.SupportsInt | typing.SupportsIndex) -> tuple:
-    """
-    See diabolo.diagnose.
-    """
+    """See diabolo.diagnose."""
 def diagnosis_schema() -> str:
-    """
-    The JSON schema of a diagnosis' file.
-    """
-def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: typing.SupportsInt | typing.SupportsIndex) -> ResidualFit:
-    ...
+    """The JSON schema of a diagnosis' file."""
+def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: typing.SupportsInt | typing.SupportsIndex) -> ResidualFit: ...
 def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0, down_to: typing.SupportsFloat | typing.SupportsIndex = ...) -> tuple:
-    """
-    What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`.
-    """
+    """What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`."""
 def hang_at_rest(model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> State:
-    """
-    See diabolo.hang_at_rest.
-    """
+    """See diabolo.hang_at_rest."""
 def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: typing.SupportsFloat | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> State:
-    """
-    A diabolo that hangs at rest at the lowest point between the tips.
-    """
+    """A diabolo that hangs at rest at the lowest point between the tips."""
 def home_pose(name: str, string_length: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
-    """
-    Where the tips start a figure [m]: left and right.
-    """
+    """Where the tips start a figure [m]: left and right."""
 def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0) -> tuple:
     """
     Play a path slowly enough.
@@ -3529,117 +2188,61 @@ def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     of the path that each belongs to [s], shape (M,). Raises ValueError where no play is slow enough.
     """
 def largest_spin(rate: typing.SupportsFloat | typing.SupportsIndex) -> float:
-    """
-    Largest spin that a sampling rate [Hz] tells apart [rad/s].
-    """
+    """Largest spin that a sampling rate [Hz] tells apart [rad/s]."""
 def lessons() -> list:
-    """
-    Tasks that the player teaches.
-    """
+    """Tasks that the player teaches."""
 def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsFloat | typing.SupportsIndex) -> list[LimitUse]:
-    """
-    How much a path uses of each limit, from its exact maxima.
-    """
+    """How much a path uses of each limit, from its exact maxima."""
 def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ..., *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
-    """
-    The same as Recording.load.
-    """
+    """The same as Recording.load."""
 def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
-    """
-    The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's.
-    """
+    """The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's."""
 def model_for(model: Model, recording: Recording) -> Model:
-    """
-    See diabolo.model_for.
-    """
+    """See diabolo.model_for."""
 def observation_infos() -> list:
-    """
-    What an agent sees: name, unit, size and meaning.
-    """
+    """What an agent sees: name, unit, size and meaning."""
 def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
-    """
-    See diabolo.plan.
-    """
+    """See diabolo.plan."""
 def plan_action(action: str, models: collections.abc.Sequence[Model], start: State | None, cycles: typing.SupportsInt | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex, pace: typing.SupportsFloat | typing.SupportsIndex, height: typing.SupportsFloat | typing.SupportsIndex | None, sideways: typing.SupportsFloat | typing.SupportsIndex | None, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None, limits: TipLimits, solver: str, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]) -> PlannedPlay:
-    """
-    See diabolo.plan_action.
-    """
+    """See diabolo.plan_action."""
 def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: StickSpline, goals: Goals, limits: TipLimits, dt: typing.SupportsFloat | typing.SupportsIndex = 0.004) -> float:
-    """
-    The paper's residual of a motion; infinite where it breaks a limit.
-    """
+    """The paper's residual of a motion; infinite where it breaks a limit."""
 def played_recording(name: str, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], states: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, properties: DiaboloProperties, string_length: typing.SupportsFloat | typing.SupportsIndex) -> Recording:
-    """
-    A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin.
-    """
+    """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin."""
 def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
-    """
-    See diabolo.predict.
-    """
+    """See diabolo.predict."""
 def read_recording(text: str, path: os.PathLike | str | bytes, calibration: Calibration, up: str | None, columns: None | str | collections.abc.Mapping[str, str]) -> Recording:
-    """
-    The same of a text, as if it stood in a file.
-    """
+    """The same of a text, as if it stood in a file."""
 def read_text(path: os.PathLike | str | bytes) -> str:
-    """
-    A text file in UTF-8, without its byte order mark. Raises RecordingError.
-    """
+    """A text file in UTF-8, without its byte order mark. Raises RecordingError."""
 def recorded_plan(recording: Recording) -> TipMotion:
-    """
-    The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow.
-    """
+    """The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow."""
 def recording_of_bodies(file: str, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], bodies: collections.abc.Sequence[tuple[str, typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None]], notes: collections.abc.Sequence[str], calibration: Calibration, up: str | None) -> Recording:
-    """
-    The recording of rigid bodies: times [s], shape (N,), and of each body its name, positions [m], shape (N, 3), and orientations x, y, z, w, shape (N, 4), or None where it is a point; a row with NaN is a dropout. `file` is what messages name, `notes` what its reader changed.
-    """
+    """The recording of rigid bodies: times [s], shape (N,), and of each body its name, positions [m], shape (N, 3), and orientations x, y, z, w, shape (N, 4), or None where it is a point; a row with NaN is a dropout. `file` is what messages name, `notes` what its reader changed."""
 def rollout(models: collections.abc.Sequence[Model], initial: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, record_every: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
-    """
-    See diabolo.rollout, which checks and broadcasts what it hands over.
-    """
+    """See diabolo.rollout, which checks and broadcasts what it hands over."""
 def rollout_gradient(model: Model, initial: State, tips: TipMotion, with_respect_to: collections.abc.Sequence[str], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
-    """
-    See diabolo.rollout_gradient.
-    """
+    """See diabolo.rollout_gradient."""
 def score_excerpt(recording: Recording, model: Model) -> ExcerptScore:
-    """
-    See diabolo.evaluate.
-    """
+    """See diabolo.evaluate."""
 def score_excerpts(recording: Recording, model: Model) -> list[ExcerptScore]:
-    """
-    See diabolo.evaluate.
-    """
+    """See diabolo.evaluate."""
 def score_horizons(recordings: collections.abc.Sequence[Recording], model: Model, starts_every: typing.SupportsFloat | typing.SupportsIndex, horizons: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], start: str, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> list[HorizonScore]:
-    """
-    See diabolo.evaluate.
-    """
+    """See diabolo.evaluate."""
 def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsIndex, start: str = 'fair', signed_spin: bool = True) -> State:
-    """
-    State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program.
-    """
+    """State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program."""
 def stretch_starts(recording: Recording) -> list:
-    """
-    Rows from which a simulator is asked to play, each with its state, shape (7,).
-    """
+    """Rows from which a simulator is asked to play, each with its state, shape (7,)."""
 def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> float:
-    """
-    See diabolo.success_rate.
-    """
+    """See diabolo.success_rate."""
 def task_infos() -> list:
-    """
-    What can be played: name, meaning, reward, seconds, goal and first spin of each.
-    """
+    """What can be played: name, meaning, reward, seconds, goal and first spin of each."""
 def taught_starts(task: str, models: collections.abc.Sequence[Model], plays: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, limits: HandLimits) -> list[EpisodeStart]:
-    """
-    See diabolo.envs.taught_starts.
-    """
+    """See diabolo.envs.taught_starts."""
 def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list[Recording], list[str]]:
-    """
-    Recordings without the samples that they share with ones before, and what was trimmed.
-    """
+    """Recordings without the samples that they share with ones before, and what was trimmed."""
 def ur5e_inverse(flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4).
-    """
+    """Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4)."""
 AIMS: dict = {'height': ('hop', 'throw', 'side_throw', 'throw_and_catch'), 'sideways': ('swing', 'side_throw', 'throw_and_catch'), 'spin_gain': ('linear_acceleration', 'circular_acceleration')}
 DIAGNOSIS_SCHEMA: str = 'diabolo.diagnosis/1'
 PLANNED_ACTIONS: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'stop', 'throw_and_catch')

@@ -39,6 +39,16 @@ TEST_CASE("an agent reads back as it was written, bit for bit") {
   CHECK(write_agent(again) == write_agent(agent));
 }
 
+TEST_CASE("an agent of few decimals is nearly the same, in a smaller file") {
+  const Agent agent = drawn_agent(), again = read_agent(write_agent(agent, 3), "a.json");
+  CHECK((again.policy.layers()[0].weights - agent.policy.layers()[0].weights).cwiseAbs().maxCoeff() <
+        5.1e-4f);
+  CHECK(write_agent(again, 3) == write_agent(agent, 3));
+  CHECK(write_agent(agent, 3).size() < 0.5 * write_agent(agent).size());
+  CHECK_THROWS_WITH(write_agent(agent, 0), "decimals: 0; expected 1 to 6");
+  CHECK(complaint_about("\"layers\"", "\"unit\":0,\"layers\"").find("unit") != std::string::npos);
+}
+
 TEST_CASE("what is no agent is told with its file and field") {
   CHECK(complaint_about("SpinUp", "Fly").starts_with("a.json: task: found \"Fly\"; expected one of Hold"));
   CHECK(complaint_about("0.02", "3") == "a.json: period: 3 s; expected 0.001 to 0.1 s");

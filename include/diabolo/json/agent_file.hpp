@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,15 +23,16 @@
 namespace diabolo {
 
 inline constexpr const char* kAgentSchema = "diabolo.agent/1";
+inline constexpr int kMostDecimals = 6;
 
 namespace json_detail {
 
-inline Layer layer_from_json(const JsonFields& fields) {
+inline Layer layer_from_json(const JsonFields& fields, double unit) {
   fields.expect_only({"weights", "bias"});
   const nlohmann::json &rows = fields.list("weights"), &bias = fields.list("bias");
   const auto number = [&](const nlohmann::json& value, const char* field) {
     if (!value.is_number()) fields.fail(field, "numbers");
-    return value.get<float>();
+    return static_cast<float>(unit * value.get<double>());
   };
   Layer layer;
   const Eigen::Index outputs = static_cast<Eigen::Index>(rows.size());
@@ -62,17 +64,19 @@ inline double shortest(float number) {
 /// Reads the text of an agent's file:
 ///   {"schema": "diabolo.agent/1", "task": "SpinUp", "period": 0.02, "steps": 20,
 ///    "layers": [{"weights": [[...], ...], "bias": [...]}, ...]}
-/// Throws RecordingError with file, field, what was found and what was expected.
+/// With "unit": 0.001, weights and biases are multiples of that. Throws RecordingError with file, field, what
+/// was found and what was expected.
 inline Agent read_agent(std::string_view text, const std::string& file_name) {
   const nlohmann::json json = parse_json(text, file_name);
   const JsonFields file(json, file_name);
   file.expect_text("schema", kAgentSchema);
-  file.expect_only({"schema", "task", "period", "steps", "layers"});
+  file.expect_only({"schema", "task", "period", "steps", "unit", "layers"});
+  const double unit = json.contains("unit") ? file.positive("unit") : 1.0;
   std::vector<Layer> layers;
   const nlohmann::json& list = file.list("layers");
   for (std::size_t i = 0; i < list.size(); ++i)
-    layers.push_back(
-        json_detail::layer_from_json(JsonFields(list[i], file_name, "layers[" + std::to_string(i) + "].")));
+    layers.push_back(json_detail::layer_from_json(
+        JsonFields(list[i], file_name, "layers[" + std::to_string(i) + "]."), unit));
   const double steps = file.positive("steps");
   if (!(steps <= 1000.0) || steps != std::floor(steps)) file.fail("steps", "a whole number up to 1000");
   try {
@@ -93,12 +97,22 @@ inline Agent load_agent(const std::filesystem::path& path) {
   return read_agent(read_file(path), path.string());
 }
 
-/// The text of such a file; reads back as the same agent.
-inline std::string write_agent(const Agent& agent) {
-  const auto numbers = [](const auto& row) {
-    std::vector<double> shortest;
-    for (const float number : row) shortest.push_back(json_detail::shortest(number));
-    return shortest;
+/// The text of such a file; reads back as the same agent. With `decimals`, at most kMostDecimals, its numbers
+/// are rounded to as many, and the file is smaller.
+inline std::string write_agent(const Agent& agent, std::optional<int> decimals = {}) {
+  if (decimals && !(*decimals >= 1 && *decimals <= kMostDecimals))
+    throw std::invalid_argument("decimals: " + std::to_string(*decimals) + "; expected 1 to " +
+                                std::to_string(kMostDecimals));
+  const double per = std::pow(10.0, decimals.value_or(0));
+  const auto numbers = [&](const auto& row) {
+    nlohmann::ordered_json texts = nlohmann::ordered_json::array();
+    for (const float number : row) {
+      if (decimals)
+        texts.push_back(std::llround(per * static_cast<double>(number)));
+      else
+        texts.push_back(json_detail::shortest(number));
+    }
+    return texts;
   };
   nlohmann::ordered_json layers = nlohmann::ordered_json::array();
   for (const Layer& layer : agent.policy.layers()) {
@@ -106,13 +120,11 @@ inline std::string write_agent(const Agent& agent) {
     for (const auto& row : layer.weights.rowwise()) rows.push_back(numbers(row));
     layers.push_back({{"weights", std::move(rows)}, {"bias", numbers(layer.bias)}});
   }
-  return nlohmann::ordered_json{{"schema", kAgentSchema},
-                                {"task", agent.task},
-                                {"period", agent.period},
-                                {"steps", agent.steps},
-                                {"layers", std::move(layers)}}
-             .dump() +
-         "\n";
+  nlohmann::ordered_json file{
+      {"schema", kAgentSchema}, {"task", agent.task}, {"period", agent.period}, {"steps", agent.steps}};
+  if (decimals) file["unit"] = 1.0 / per;
+  file["layers"] = std::move(layers);
+  return file.dump() + "\n";
 }
 
 }  // namespace diabolo
