@@ -31,6 +31,7 @@ struct Lesson {
 };
 
 inline constexpr std::array kLessons{
+    Lesson{.task = "Hop", .action = kThrowAndCatch, .height = 0},
     Lesson{.task = "Throw", .action = kThrowAndCatch, .height = 0},
     Lesson{.task = "ThrowAndCatch", .action = kThrowAndCatch, .height = 0, .sideways = 1},
     Lesson{.task = "Pass", .action = "side_throw", .sideways = 0, .flights = 1},
