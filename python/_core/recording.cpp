@@ -223,9 +223,7 @@ MotiveTake take_of(const std::string& file, const Array& time, const std::vector
     const std::string where = file + ", " + name;
     const Track track = to_track(position, where + ", position", size, &Track::position);
     const OrientationTrack turned = to_orientation(quaternion, where + ", orientation", size);
-    MotiveBody body{name, turned.quaternion, track.position, track.valid};
-    if (quaternion) body.valid = track.valid && turned.valid;
-    take.bodies.push_back(std::move(body));
+    take.bodies.push_back({name, turned.quaternion, track.position, track.valid});
   }
   return take;
 }

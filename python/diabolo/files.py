@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 STDOUT = "-"
+ALONE = ("", ".json", ".mcap", ".db3", ".bag", ".c3d", ".tsv")
+"""Suffixes of files that are read without a JSON file beside them."""
 
 
 def check_outputs(
@@ -29,7 +31,7 @@ def check_outputs(
             raise ValueError("an empty name of a file to read; expected a file")
         path = Path(given)
         taken[_place(path)] = "this file is read"
-        if path.suffix in (".csv", ".parquet"):  # a tidy recording's other half
+        if path.suffix.lower() not in ALONE and not path.is_dir():  # a tidy recording's other half
             taken[_place(path.with_suffix(".json"))] = "this file is read"
     for output in outputs:
         if output is None or output == STDOUT:

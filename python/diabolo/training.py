@@ -15,9 +15,9 @@ import torch
 from stable_baselines3 import PPO
 from stable_baselines3.common.callbacks import BaseCallback
 
-from ._core import Agent, EpisodeStart, HandLimits
+from ._core import Agent, EpisodeStart
 from .envs.sb3 import DiaboloVecEnv
-from .envs.spaces import AnyModels, models_of, ur5e_limits
+from .envs.spaces import AnyModels, limits_of, models_of
 from .envs.teaching import taught_starts
 
 PPO_OPTIONS: dict[str, Any] = {
@@ -83,10 +83,15 @@ class Trainer:
         checkpoint: Path | None = None,
         begun: Progress | None = None,
     ) -> None:
+        if teacher is not None and (teacher.period, teacher.steps) != (settings.period, settings.steps):
+            raise ValueError(
+                f"teacher: acts every {teacher.period:g} s of {teacher.steps} steps; expected "
+                f"{settings.period:g} s of {settings.steps}"
+            )
         torch.set_num_threads(1)
         self.settings, self.begun = settings, begun or Progress()
         models = models_of(model, settings.difficulty)
-        limits = ur5e_limits() if settings.limits == "ur5e" else HandLimits()
+        limits = limits_of(settings.limits)
         starts: Sequence[EpisodeStart] = ()
         if settings.taught:
             starts = taught_starts(settings.task, models, seed=settings.seed, limits=limits)
@@ -120,7 +125,7 @@ class Trainer:
         self._start = time.monotonic()
         watch = _Watch(self, seconds, report)
         most = 2**53 if steps is None else steps
-        self.learner.learn(most, callback=watch, reset_num_timesteps=self.begun.steps == 0)
+        self.learner.learn(most, callback=watch, reset_num_timesteps=self.learner.num_timesteps == 0)
 
     def progress(self) -> Progress:
         """How far it is by now."""

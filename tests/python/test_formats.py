@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from diabolo import Calibration, Recording, RecordingError, load_recording, save_recording
 from diabolo.cli import main
-from diabolo.formats.bodies import Body, together
+from diabolo.formats.bodies import Body, at_common_times
 from diabolo.formats.c3d import quaternions
+from diabolo.formats.exports import read_qualisys, read_vicon
 from numpy.typing import NDArray
 
 SWING = Path(__file__).parents[2] / "data" / "recordings" / "swing.csv"
@@ -18,7 +19,7 @@ SWING = Path(__file__).parents[2] / "data" / "recordings" / "swing.csv"
 
 @pytest.fixture(scope="module")
 def swing() -> Recording:
-    return load_recording(SWING).cut(0, 480)
+    return load_recording(SWING).cut(40, 420)
 
 
 def same(
@@ -28,7 +29,7 @@ def same(
     assert len(one) == len(other)
     np.testing.assert_allclose(one.time - one.time[0], other.time - other.time[0], rtol=0.0, atol=times)
     for name in ("left", "right", "diabolo"):
-        np.testing.assert_allclose(getattr(one, name), getattr(other, name), atol=places)
+        np.testing.assert_allclose(getattr(one, name), getattr(other, name), rtol=0.0, atol=places)
         turns, others = getattr(one, f"{name}_orientation"), getattr(other, f"{name}_orientation")
         if turned and turns is not None:
             aligned = np.abs((turns * others).sum(axis=1))
@@ -42,6 +43,8 @@ def test_what_is_written_is_read_again(swing: Recording, tmp_path: Path, suffix:
     save_recording(swing, path)
     again = load_recording(path)
     same(swing, again)
+    np.testing.assert_allclose(again.time, swing.time, rtol=0.0, atol=1e-9)
+    assert not [note for note in again.warnings() if "taken for" in note]
     assert again.string_length == swing.string_length
     assert again.properties.mass == swing.properties.mass
     assert not np.isfinite(again.diabolo).all() and np.isfinite(again.diabolo).any()  # with its dropouts
@@ -88,6 +91,10 @@ def test_a_bag_of_rosbag2_is_read_by_its_topics(swing: Recording, tmp_path: Path
     same(swing, found, places=1e-6)
     told = " ".join(found.warnings())
     assert "stamps of a clock" in told and "nothing in it says how long the string is" in told
+    calibrated = load_recording(bag, Calibration.plain(), topics=TOPICS)
+    assert "nothing in it says" not in " ".join(calibrated.warnings())
+    part = load_recording(next(bag.glob("*.db3")), topics=TOPICS)
+    same(found, part, places=0.0)
     with pytest.raises(RecordingError, match="no body '/nobody' for left; the file has '/mocap"):
         load_recording(bag, topics={**TOPICS, "left": "/nobody"})
 
@@ -176,8 +183,8 @@ def write_qualisys(path: Path, recording: Recording) -> None:
 
 def write_vicon(path: Path, recording: Recording) -> None:
     names = ("left", "right", "diabolo")
-    lines = ["Objects", f"{recording.rate:g}", ",," + ",".join(f"{name}:{name},,,,,," for name in names)[:-1]]
-    lines[2] = ",," + ",,,,,,".join(f"{name}:{name}" for name in names) + ",,,,,"
+    bodies = ",," + ",,,,,,".join(f"{name}:{name}" for name in names) + ",,,,,"
+    lines = ["Objects", f"{recording.rate:g}", bodies]
     lines.append("Frame,Sub Frame," + ",".join("RX,RY,RZ,TX,TY,TZ" for _ in names))
     lines.append(",," + ",".join("rad,rad,rad,mm,mm,mm" for _ in names))
     for i in range(len(recording)):
@@ -225,7 +232,8 @@ def test_the_commands_take_them(swing: Recording, tmp_path: Path, capsys: pytest
         ("take.tsv", b"NO_OF_FRAMES\t2\nFREQUENCY\t100\nBODY_NAMES\ta\nX\tY\n1\t2\n", "columns of 0 bodies"),
         ("take.csv", b"Objects\n100\n", "expected an export of Vicon"),
         ("take.csv", b"Objects\nfast\na\nRX\nrad\n1\n", "line 2: found ['fast']; expected the rate"),
-        ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad\n1,0,0,0,0\n", "expected a column TX of a"),
+        ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad\n1,0,0,0,0\n", "3 cells'; expected 5 units"),
+        ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad,,\n1,0,0,0,0\n", "expected a column TX of a"),
     ],
 )
 def test_a_broken_file_ends_in_one_sentence(
@@ -258,7 +266,106 @@ def test_what_cannot_be_meant_is_refused(tmp_path: Path, call: Callable[[Path], 
 def test_stamps_that_go_back_are_refused_with_the_body() -> None:
     body = Body("left", np.array([0, 2, 1]), np.zeros((3, 3)))
     with pytest.raises(RecordingError, match="left: stamp 1 ns does not come after the one before"):
-        together(Path("bag"), [body], {})
+        at_common_times(Path("bag"), [body], {})
+
+
+def test_bodies_of_other_rates_are_interpolated_and_others_left_alone() -> None:
+    fast, slow = np.arange(0, 101, 10), np.arange(0, 101, 20)
+    ramp = np.linspace(0.0, 1.0, len(slow))[:, None] * np.ones(3)
+    bodies = [
+        Body("left", slow, ramp),
+        Body("right", slow, ramp),
+        Body("diabolo", fast, np.ones((len(fast), 3))),
+        Body("odom", np.array([5, 5]), np.zeros((2, 3))),
+    ]
+    time, tracks, of_a_clock = at_common_times(Path("bag"), bodies, {})
+    assert not of_a_clock and [name for name, _, _ in tracks] == ["left", "right", "diabolo"]
+    np.testing.assert_allclose(time, fast * 1e-9)
+    np.testing.assert_allclose(tracks[0][1][:, 0], np.linspace(0.0, 1.0, len(fast)), atol=1e-12)
+
+
+def test_bodies_of_several_frames_are_refused() -> None:
+    one, other = (Body(name, np.arange(3), np.zeros((3, 3)), None, name) for name in ("left", "right"))
+    with pytest.raises(RecordingError, match="left is in the frame 'left', right in 'right'"):
+        at_common_times(Path("bag"), [one, other], {})
+
+
+def test_points_stay_points(swing: Recording, tmp_path: Path) -> None:
+    bare = Recording(swing.time, swing.left, swing.right, swing.diabolo, swing.rate)
+    save_recording(bare, tmp_path / "bare.mcap")
+    again = load_recording(tmp_path / "bare.mcap")
+    assert again.diabolo_orientation is None and again.left_orientation is None
+    same(bare, again)
+
+
+def test_messages_of_all_kinds_are_read(tmp_path: Path) -> None:
+    from diabolo.formats.bag import ROWS_OF
+    from rosbags.typesys import Stores, get_typestore
+
+    types = get_typestore(Stores.ROS2_HUMBLE).types
+    header = types["std_msgs/msg/Header"](types["builtin_interfaces/msg/Time"](1, 2), "world")
+    point, vector = (types[f"geometry_msgs/msg/{name}"](1.0, 2.0, 3.0) for name in ("Point", "Vector3"))
+    turn = types["geometry_msgs/msg/Quaternion"](0.0, 0.6, 0.0, 0.8)
+    pose, moved = (
+        types["geometry_msgs/msg/Pose"](point, turn),
+        types["geometry_msgs/msg/Transform"](vector, turn),
+    )
+    twist = types["geometry_msgs/msg/Twist"](vector, vector)
+    many = np.zeros(36)
+    covered = types["geometry_msgs/msg/PoseWithCovariance"](pose, many)
+    stamped = types["geometry_msgs/msg/TransformStamped"](header, "top", moved)
+    messages = {
+        "geometry_msgs/msg/PoseStamped": types["geometry_msgs/msg/PoseStamped"](header, pose),
+        "geometry_msgs/msg/PointStamped": types["geometry_msgs/msg/PointStamped"](header, point),
+        "geometry_msgs/msg/PoseWithCovarianceStamped": types["geometry_msgs/msg/PoseWithCovarianceStamped"](
+            header, covered
+        ),
+        "nav_msgs/msg/Odometry": types["nav_msgs/msg/Odometry"](
+            header, "top", covered, types["geometry_msgs/msg/TwistWithCovariance"](twist, many)
+        ),
+        "geometry_msgs/msg/TransformStamped": stamped,
+        "tf2_msgs/msg/TFMessage": types["tf2_msgs/msg/TFMessage"]([stamped]),
+    }
+    for kind, message in messages.items():
+        [(name, head, numbers)] = ROWS_OF[kind]("topic", message)
+        assert name == ("top" if kind.split("/")[-1] in ("TransformStamped", "TFMessage") else "topic")
+        assert head.frame_id == "world"
+        assert numbers == ((1.0, 2.0, 3.0) if "Point" in kind else (1.0, 2.0, 3.0, 0.0, 0.6, 0.0, 0.8))
+
+
+def test_a_bag_without_poses_says_so(tmp_path: Path) -> None:
+    from rosbags.rosbag2 import StoragePlugin, Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection("/talk", "std_msgs/msg/String", typestore=store)
+        text = store.types["std_msgs/msg/String"]("hello")
+        writer.write(connection, 1, store.serialize_cdr(text, "std_msgs/msg/String"))
+    with pytest.raises(RecordingError, match="no poses in it; expected messages of geometry_msgs"):
+        load_recording(tmp_path / "bag")
+
+
+def test_a_quarter_turn_of_qualisys_is_one_to_the_left(tmp_path: Path) -> None:
+    own = "X\tY\tZ\tRoll\tPitch\tYaw\tResidual\t" + "\t".join(f"Rot[{k}]" for k in range(9))
+    lines = ["NO_OF_FRAMES\t2", "FREQUENCY\t100", "BODY_NAMES\tleft", own]
+    row = "1000\t0\t0\t0\t0\t90\t0.1\t0\t1\t0\t-1\t0\t0\t0\t0\t1"  # the columns of the matrix, in turn
+    (tmp_path / "a.tsv").write_text("\n".join([*lines, row, row]) + "\n\n")
+    [body] = read_qualisys(tmp_path / "a.tsv")
+    np.testing.assert_allclose(body.position[0], [1.0, 0.0, 0.0])
+    np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-12)
+
+
+def test_vicon_may_give_degrees_or_a_quaternion_and_skip_frames(tmp_path: Path) -> None:
+    degrees = ["Objects", "100", ",,a:a", "Frame,Sub Frame,RX,RY,RZ,TX,TY,TZ", ",,deg,deg,deg,mm,mm,mm"]
+    quaternion = ["Objects", "100", ",,a:a", "Frame,Sub Frame,RX,RY,RZ,RW,TX,TY,TZ", ",,,,,,cm,cm,cm"]
+    for head, row in ((degrees, "0,0,0,90,100,0,0"), (quaternion, "0,0,0,0.70710678,0.70710678,10,0,0")):
+        rows = [f"{frame},{row}" for frame in (1, 2, 5)]
+        (tmp_path / "a.csv").write_text("\n".join([*head, *rows]) + "\n")
+        [body] = read_vicon(tmp_path / "a.csv")
+        np.testing.assert_allclose(np.diff(body.stamps), [10_000_000, 30_000_000])
+        np.testing.assert_allclose(body.position[0], [0.1, 0.0, 0.0])
+        np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-7)
 
 
 def test_a_point_cannot_have_a_tip_elsewhere() -> None:

@@ -69,6 +69,7 @@ def add_parser(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> None:
     check_library("diabolo play", "gymnasium", "envs")
     from .. import envs
+    from ..envs.spaces import limits_of
     from ..view import view_html
 
     check_task(arguments.task, envs.TASKS)
@@ -92,7 +93,7 @@ def run(arguments: argparse.Namespace) -> None:
         "task": arguments.task,
         "model": [read_model(name) for name in arguments.model] if arguments.model else None,
         "difficulty": arguments.difficulty,
-        "limits": envs.ur5e_limits() if arguments.limits == "ur5e" else None,
+        "limits": limits_of(arguments.limits) if arguments.limits != "player" else None,
     }
     poses: list[Pose] = []
     played = player_of(arguments.minari)

@@ -55,8 +55,8 @@ def add_parser(commands: Any) -> None:
         "--taught",
         type=float,
         metavar="SHARE",
-        help="of the episodes that begin so; default: 0.7 in tasks that the player knows: Hop, "
-        "Throw, ThrowAndCatch, Pass and Routine; else 0",
+        help="of the episodes that begin so; default: 0.7 in tasks that the player knows "
+        "(docs/agents.md), else 0",
     )
     parser.add_argument("--teacher", metavar="FILE", help="an agent's file, whose network it begins with")
     add_playing(parser, "train")

@@ -51,9 +51,20 @@ def sealed_models() -> list[Model]:
     return [Model.load(str(folder / name)) for name in names]
 
 
+LIMITS = ("player", "ur5e")
+
+
+def limits_of(name: str) -> HandLimits:
+    """Hands by a name of LIMITS: a player's, or those of the paper's two UR5e."""
+    if name not in LIMITS:
+        raise ValueError(f"limits: {shown(name)}; expected {' or '.join(LIMITS)}")
+    return ur5e_limits() if name == "ur5e" else HandLimits()
+
+
 @cache
 def ur5e_limits() -> HandLimits:
-    """Of the paper's two UR5e: their joints keep their speed and acceleration wherever the tips go."""
+    """Speed [m/s] and acceleration [m/s^2] of tips that two UR5e, where the paper has them, can move in a box
+    in front of them without a joint exceeding its own (robot.arm_hand_limits)."""
     arms = [StickArm(side) for side in ("left", "right")]
     left, right = (StickMap(arm, SeedGrid.build(arm)) for arm in arms)
     return arm_hand_limits(left, right)

@@ -11,13 +11,17 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from .. import _core
 from .._core import Calibration, Recording, RecordingError
 from ..checks import check_library, shown
+from .bodies import ROLES, Body
 
-ROLES = ("left", "right", "diabolo")
+OF_A_CLOCK = "the times are stamps of a clock: they are counted from the first one on"
+NO_SETUP = (
+    "nothing in it says how long the string is and what the diabolo is like: the paper's are taken for "
+    "granted (--calibration)"
+)
 WRITTEN = (".csv", ".mcap", ".parquet")
 """Suffixes of what save_recording() writes."""
 
@@ -37,15 +41,14 @@ def load_recording(
     `.bag`), `.c3d`, Vicon's CSV of objects and Qualisys' TSV of bodies hold bodies or points with names: by
     default these are the tips and the diabolo themselves, in a world frame with z up, told apart by names.
     topics: {"left": NAME, "right": NAME, "diabolo": NAME}, or "left=NAME,...", says which they are.
-    Raises RecordingError with the file, what was found and what was expected.
+    Raises RecordingError with the file, what was found and what was expected, and ValueError where a library
+    is not installed.
     """
     path, names = Path(os.fspath(path)), topics_of(topics)
     reader = reader_of(path)
+    if names and reader in (None, "parquet"):
+        raise RecordingError(f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only")
     if reader is None:
-        if topics is not None:
-            raise RecordingError(
-                f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only"
-            )
         return _core.load_recording(path, calibration or Calibration.published(), up=up, columns=columns)
     if reader == "parquet":
         from . import parquet
@@ -54,19 +57,29 @@ def load_recording(
         return _core.read_recording(text, path, calibration or Calibration.published(), up, columns)
     if columns is not None:
         raise RecordingError(f"{path}: columns are mapped, but it is no table; expected --topics")
+    return _recording_of_bodies(path, reader, calibration, up, names)
+
+
+def _recording_of_bodies(
+    path: Path, reader: str, calibration: Calibration | None, up: str | None, names: dict[str, str]
+) -> Recording:
+    """The recording of a file that holds bodies with names."""
     from . import bodies
 
-    found, notes, given = _bodies_of(reader, path)
+    found, setup = _bodies_of(reader, path)
     bodies.check_names(path, found, names)
-    time, tracks = bodies.together(path, found, names)
-    return _core.recording_of_bodies(
-        str(path), time, tracks, notes, (calibration or given).renamed(**names), up
-    )
+    time, tracks, of_a_clock = bodies.at_common_times(path, found, names)
+    notes = [OF_A_CLOCK] if of_a_clock else []
+    if calibration is None and setup is None:
+        notes.append(NO_SETUP)
+    used = (calibration or setup or Calibration.plain()).renamed(**names)
+    return _core.recording_of_bodies(str(path), time, tracks, notes, used, up)
 
 
 def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
     """Write it as its suffix says: `.csv` (tidy, with JSON beside it), `.mcap` (poses of ROS 2), or
-    `.parquet` (the tidy table, with JSON beside it)."""
+    `.parquet` (the tidy table, with JSON beside it). Raises RecordingError about another suffix, ValueError
+    where a library is not installed."""
     path = Path(os.fspath(path))
     if path.suffix == ".csv":
         recording.save(path)
@@ -114,6 +127,8 @@ def reader_of(path: Path) -> str | None:
     else:
         reader = READERS.get(path.suffix.lower())
     if reader is not None and os.path.exists(path):
+        if not os.path.isfile(path) and not os.path.isdir(path):
+            raise RecordingError(f"{path}: a device or a pipe; expected a file")
         check_library(f"reading {path.name}", LIBRARIES[reader], "formats")
         return reader
     if path.suffix.lower() in (".csv", ".tsv") and os.path.isfile(path):
@@ -126,17 +141,16 @@ def reader_of(path: Path) -> str | None:
     return None
 
 
-def _bodies_of(reader: str, path: Path) -> tuple[list[Any], list[str], Calibration]:
-    """The bodies of a file, what was changed, and the calibration that goes with it."""
+def _bodies_of(reader: str, path: Path) -> tuple[list[Body], Calibration | None]:
+    """The bodies of a file, and what it says of string and diabolo."""
     if reader == "bag":
         from . import bag
 
-        return bag.read(path)
+        return bag.read(path), bag.setup_of(path)
     if reader == "c3d":
         from . import c3d
 
-        return c3d.read(path), [], Calibration.plain()
+        return c3d.read(path), None
     from . import exports
 
-    read = exports.read_qualisys if reader == "qualisys" else exports.read_vicon
-    return read(path), [], Calibration.plain()
+    return (exports.read_qualisys if reader == "qualisys" else exports.read_vicon)(path), None

@@ -4,168 +4,165 @@
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .._core import Calibration, DiaboloProperties, Recording, RecordingError
+from ..checks import check_library
 from ..files import whole_file
-from .bodies import Body
+from .bodies import Body, Floats, unreadable
 
 SCHEMA = "diabolo.recording/1"
-POSE = "geometry_msgs/msg/PoseStamped"
+POSE, POINT = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"
 TOPICS = {"left": "/left_tip", "right": "/right_tip", "diabolo": "/diabolo"}
 """Of what is written."""
-Row = tuple[str, int, tuple[float, ...]]
-"""Name of a body, stamp [ns], and its place [m], of a body with its orientation x, y, z, w behind it."""
 
 
-def read(path: Path) -> tuple[list[Body], list[str], Calibration]:
+@dataclass
+class Rows:
+    """What a bag has of one body: stamps of headers and of the log [ns], places [m], of a body with its
+    orientation x, y, z, w behind it, and the frame."""
+
+    stamps: list[int] = field(default_factory=list)
+    logged: list[int] = field(default_factory=list)
+    numbers: list[tuple[float, ...]] = field(default_factory=list)
+    frames: set[str] = field(default_factory=set)
+
+
+Row = tuple[str, Any, tuple[float, ...]]
+"""Name of a body, header, and its numbers as in Rows."""
+
+
+def read(path: Path) -> list[Body]:
     """The bodies of a bag, each a topic with poses or points, or a frame of /tf."""
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
 
-    rows: dict[str, tuple[list[int], list[tuple[float, ...]]]] = {}
+    found: defaultdict[str, Rows] = defaultdict(Rows)
     try:
         with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as bag:
             known = [one for one in bag.connections if one.msgtype in ROWS_OF]
-            for connection, logged, raw in bag.messages(connections=known):
+            for connection, logged, raw in bag.messages(connections=known) if known else ():
                 message = bag.deserialize(raw, connection.msgtype)
-                for name, stamp, numbers in ROWS_OF[connection.msgtype](connection.topic, message):
-                    stamps, values = rows.setdefault(name, ([], []))
-                    stamps.append(stamp or logged)
-                    values.append(numbers)
+                for name, header, numbers in ROWS_OF[connection.msgtype](connection.topic, message):
+                    rows = found[name]
+                    rows.stamps.append(int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec))
+                    rows.logged.append(logged)
+                    rows.numbers.append(numbers)
+                    rows.frames.add(header.frame_id)
     except Exception as error:  # of files, archives, databases or messages: whatever a broken bag leads to
-        why = " ".join(str(error).split())[:200]
-        raise RecordingError(f"{path}: cannot be read as a bag of ROS ({why})") from error
-    found = [_body(path, name, *columns) for name, columns in rows.items()]
+        raise unreadable(path, "a bag of ROS", error) from error
     if not found:
         raise RecordingError(f"{path}: no poses in it; expected messages of {', '.join(sorted(ROWS_OF))}")
-    calibration, notes = _setup(path)
-    first = min(int(body.stamps[0]) for body in found)
-    if first > 10**18:
-        notes.append(
-            f"the times are stamps of a clock, from {first * 1e-9:.3f} s on: they are counted from there"
-        )
-    return found, notes, calibration
+    return [_body(path, name, rows) for name, rows in found.items()]
+
+
+def setup_of(path: Path) -> Calibration | None:
+    """String and diabolo of a bag that save() wrote; None of others."""
+    if path.suffix != ".mcap":
+        return None
+    check_library(f"reading {path.name}", "mcap", "formats")
+    from mcap.reader import make_reader
+
+    try:
+        with path.open("rb") as file:
+            kept = [one.metadata["setup"] for one in make_reader(file).iter_metadata() if one.name == SCHEMA]
+        if not kept:
+            return None
+        setup = json.loads(kept[0])
+        return Calibration.plain().of(DiaboloProperties(**setup["diabolo"]), setup["string_length"])
+    except Exception as error:  # of the library, or of somebody's own metadata
+        raise unreadable(path, f"a bag with metadata of {SCHEMA}", error) from error
 
 
 def save(recording: Recording, path: Path) -> None:
-    """Write the tips and the diabolo as poses of ROS 2, each a topic (TOPICS), in the frame "world". Dropouts
-    are left out; a track without orientations has those of the frame."""
+    """Write the tips and the diabolo, each a topic (TOPICS) in the frame "world": poses of ROS 2, or points
+    where no orientations are known. Dropouts are left out. An orientation that is not known is all zeros."""
     from mcap.writer import Writer
     from rosbags.typesys import Stores, get_typestore
 
     store = get_typestore(Stores.ROS2_HUMBLE)
-    make, stamp_of, header_of, point_of, turn_of, pose_of = (
-        store.types[name]
-        for name in (
-            POSE,
-            "builtin_interfaces/msg/Time",
-            "std_msgs/msg/Header",
-            "geometry_msgs/msg/Point",
-            "geometry_msgs/msg/Quaternion",
-            "geometry_msgs/msg/Pose",
-        )
-    )
-    definition, _ = store.generate_msgdef(POSE)
-    tracks = {
-        "left": (recording.left, recording.left_orientation),
-        "right": (recording.right, recording.right_orientation),
-        "diabolo": (recording.diabolo, recording.diabolo_orientation),
-    }
     stamps = np.rint(recording.time * 1e9).astype(np.int64)
     stamps -= min(0, int(stamps[0]))
     with whole_file(path) as temporary, temporary.open("wb") as file:
         writer = Writer(file)
         writer.start(profile="ros2", library="diabolo")
-        schema = writer.register_schema(POSE, "ros2msg", definition.encode())
-        for role, (places, turns) in tracks.items():
-            channel = writer.register_channel(TOPICS[role], "cdr", schema)
+        schemas = {
+            kind: writer.register_schema(kind, "ros2msg", store.generate_msgdef(kind)[0].encode())
+            for kind in (POSE, POINT)
+        }
+        for role, topic in TOPICS.items():
+            places, turns = getattr(recording, role), getattr(recording, f"{role}_orientation")
+            kind = POINT if turns is None else POSE
+            channel = writer.register_channel(topic, "cdr", schemas[kind])
             for i in np.flatnonzero(np.isfinite(places[:, 0])):
-                turn = turns[i] if turns is not None and np.isfinite(turns[i, 0]) else (0.0, 0.0, 0.0, 1.0)
-                stamp = int(stamps[i])
-                message = make(
-                    header_of(stamp_of(stamp // 10**9, stamp % 10**9), "world"),
-                    pose_of(point_of(*map(float, places[i])), turn_of(*map(float, turn))),
-                )
-                data = bytes(store.serialize_cdr(message, POSE))
-                writer.add_message(channel, log_time=stamp, data=data, publish_time=stamp)
-        writer.add_metadata(SCHEMA, {"setup": json.dumps(_setup_of(recording, tracks))})
+                turn = None if turns is None else np.nan_to_num(turns[i])
+                message = _message(store.types, int(stamps[i]), places[i], turn)
+                data = bytes(store.serialize_cdr(message, kind))
+                writer.add_message(channel, int(stamps[i]), data, int(stamps[i]))
+        writer.add_metadata(SCHEMA, {"setup": json.dumps(_setup(recording))})
         writer.finish()
 
 
-def _setup_of(recording: Recording, tracks: dict[str, Any]) -> dict[str, Any]:
+def _message(types: Any, stamp: int, place: Floats, turn: Floats | None) -> Any:
+    """A PoseStamped, or a PointStamped where there is no orientation."""
+    time = types["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9)
+    header = types["std_msgs/msg/Header"](time, "world")
+    point = types["geometry_msgs/msg/Point"](*place.tolist())
+    if turn is None:
+        return types[POINT](header, point)
+    turned = types["geometry_msgs/msg/Quaternion"](*turn.tolist())
+    return types[POSE](header, types["geometry_msgs/msg/Pose"](point, turned))
+
+
+def _setup(recording: Recording) -> dict[str, Any]:
     """What poses do not say of a recording."""
     names = ("mass", "diameter", "length", "axle_radius")
     return {
         "diabolo": {name: getattr(recording.properties, name) for name in names},
         "string_length": recording.string_length,
-        "points": [role for role, (_, turns) in tracks.items() if turns is None],
     }
 
 
-def _setup(path: Path) -> tuple[Calibration, list[str]]:
-    """String and diabolo, where save() has written them; and what was taken for granted."""
-    plain = Calibration.plain()
-    if path.suffix == ".mcap":
-        from mcap.reader import make_reader
-
-        with path.open("rb") as file:
-            for one in make_reader(file).iter_metadata():
-                if one.name == SCHEMA:
-                    try:
-                        kept = json.loads(one.metadata["setup"])
-                        return plain.of(DiaboloProperties(**kept["diabolo"]), kept["string_length"]), []
-                    except (KeyError, TypeError, ValueError) as error:
-                        raise RecordingError(f"{path}, metadata {SCHEMA}: {error}") from error
-    return plain, [
-        "nothing in it says how long the string is and what the diabolo is like: a string of 1.46 m and the "
-        "paper's red diabolo are taken for granted (--calibration)"
-    ]
+def _body(path: Path, name: str, rows: Rows) -> Body:
+    if len({len(one) for one in rows.numbers}) > 1 or len(rows.frames) > 1:
+        raise RecordingError(f"{path}, {name}: points and poses, or several frames; expected one kind")
+    stamps = np.array(rows.stamps if any(rows.stamps) else rows.logged, np.int64)
+    order = np.argsort(stamps, kind="stable")
+    numbers = np.array(rows.numbers, float)[order]
+    places, turns = numbers[:, :3], numbers[:, 3:] if numbers.shape[1] == 7 else None
+    places[~np.isfinite(places).all(axis=1)] = np.nan
+    if turns is not None:
+        turns[~np.isfinite(turns).all(axis=1) | (turns == 0.0).all(axis=1)] = np.nan
+    return Body(name, stamps[order], places, turns, min(rows.frames))
 
 
-def _body(path: Path, name: str, stamps: list[int], values: list[tuple[float, ...]]) -> Body:
-    if len({len(one) for one in values}) > 1:
-        raise RecordingError(f"{path}, {name}: points and poses on one topic; expected one kind of message")
-    order = np.argsort(np.array(stamps, np.int64), kind="stable")
-    numbers = np.array(values, float)[order]
-    numbers[~np.isfinite(numbers).all(axis=1)] = np.nan
-    turns = numbers[:, 3:] if numbers.shape[1] == 7 else None
-    return Body(name, np.array(stamps, np.int64)[order], numbers[:, :3], turns)
-
-
-def _stamp(header: Any) -> int:
-    """[ns]; 0 where nobody set it."""
-    return int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
-
-
-def _place(point: Any) -> tuple[float, ...]:
-    return point.x, point.y, point.z
-
-
-def _whole(place: Any, turn: Any) -> tuple[float, ...]:
+def _pose(place: Any, turn: Any) -> tuple[float, ...]:
     return place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w
 
 
 def _of_pose(topic: str, message: Any) -> Iterator[Row]:
-    yield topic, _stamp(message.header), _whole(message.pose.position, message.pose.orientation)
+    yield topic, message.header, _pose(message.pose.position, message.pose.orientation)
 
 
-def _of_nested_pose(topic: str, message: Any) -> Iterator[Row]:
+def _of_pose_with_covariance(topic: str, message: Any) -> Iterator[Row]:
     pose = message.pose.pose
-    yield topic, _stamp(message.header), _whole(pose.position, pose.orientation)
+    yield topic, message.header, _pose(pose.position, pose.orientation)
 
 
 def _of_point(topic: str, message: Any) -> Iterator[Row]:
-    yield topic, _stamp(message.header), _place(message.point)
+    point = message.point
+    yield topic, message.header, (point.x, point.y, point.z)
 
 
 def _of_transform(_: str, message: Any) -> Iterator[Row]:
     moved = message.transform
-    yield message.child_frame_id, _stamp(message.header), _whole(moved.translation, moved.rotation)
+    yield message.child_frame_id, message.header, _pose(moved.translation, moved.rotation)
 
 
 def _of_transforms(topic: str, message: Any) -> Iterator[Row]:
@@ -175,15 +172,14 @@ def _of_transforms(topic: str, message: Any) -> Iterator[Row]:
 
 def _of_rigid_bodies(_: str, message: Any) -> Iterator[Row]:
     for body in message.rigidbodies:
-        pose = body.pose
-        yield body.rigid_body_name, _stamp(message.header), _whole(pose.position, pose.orientation)
+        yield body.rigid_body_name, message.header, _pose(body.pose.position, body.pose.orientation)
 
 
 ROWS_OF: dict[str, Callable[[str, Any], Iterator[Row]]] = {
     POSE: _of_pose,
-    "geometry_msgs/msg/PoseWithCovarianceStamped": _of_nested_pose,
-    "nav_msgs/msg/Odometry": _of_nested_pose,
-    "geometry_msgs/msg/PointStamped": _of_point,
+    POINT: _of_point,
+    "geometry_msgs/msg/PoseWithCovarianceStamped": _of_pose_with_covariance,
+    "nav_msgs/msg/Odometry": _of_pose_with_covariance,
     "geometry_msgs/msg/TransformStamped": _of_transform,
     "tf2_msgs/msg/TFMessage": _of_transforms,
     "mocap4r2_msgs/msg/RigidBodies": _of_rigid_bodies,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bodies that were tracked, each with times of its own, brought to common times."""
+"""Bodies that were tracked, each with times of its own, resampled at common times."""
 
 from __future__ import annotations
 
@@ -14,20 +14,42 @@ from .._core import RecordingError
 from ..checks import shown
 
 Floats = NDArray[np.float64]
-Tracks = list[tuple[str, Floats, "Floats | None"]]
+Track = tuple[str, Floats, "Floats | None"]
+ROLES = ("left", "right", "diabolo")
+METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 ALIKE = 1.05  # as many different stamps as of one body, within this: the bodies have the same ones
+SAME_RATE = 1.5  # the largest median step over the smallest, if so
+CLOCK = 10**18  # stamps beyond are those of a clock that counts from 1970 [ns]
 LONGEST_STEP = 2.5  # that is interpolated, in a body's own median steps
 
 
 @dataclass(frozen=True)
 class Body:
     """A body or a point over n samples: stamps [ns], places [m], shape (n, 3), and orientations x, y, z, w,
-    shape (n, 4), None of a point. A row with NaN is a dropout."""
+    shape (n, 4), None of a point. A row with NaN is a dropout. frame: in which it was seen, where told."""
 
     name: str
     stamps: NDArray[np.int64]
     position: Floats
     orientation: Floats | None = None
+    frame: str = ""
+
+    @property
+    def step(self) -> float:
+        """The median one [ns]."""
+        return float(np.median(np.diff(self.stamps))) if len(self.stamps) > 1 else np.inf
+
+
+def unreadable(path: Path, kind: str, error: Exception) -> RecordingError:
+    """What a library said of a file that it cannot read, in one sentence."""
+    why = " ".join(str(error).split())[:200] or type(error).__name__
+    return RecordingError(f"{path}: cannot be read as {kind} ({why})")
+
+
+def even_stamps(size: int, rate: float, first: float = 0.0) -> NDArray[np.int64]:
+    """Of frames that follow each other, from frame number `first` on [ns]."""
+    stamps: NDArray[np.int64] = np.rint((np.arange(size) + first) / rate * 1e9).astype(np.int64)
+    return stamps
 
 
 def check_names(path: Path, bodies: Sequence[Body], names: Mapping[str, str]) -> None:
@@ -39,13 +61,15 @@ def check_names(path: Path, bodies: Sequence[Body], names: Mapping[str, str]) ->
             raise RecordingError(f"{path}: no body {shown(name)} for {role}; the file has {there}")
 
 
-def together(path: Path, bodies: Sequence[Body], names: Mapping[str, str]) -> tuple[Floats, Tracks]:
-    """Times [s] from the first stamp on, and all bodies at them. names: of bodies, by their role.
+def at_common_times(
+    path: Path, bodies: Sequence[Body], names: Mapping[str, str]
+) -> tuple[Floats, list[Track], bool]:
+    """Times [s], the bodies at them, and whether they are counted from the first stamp of a clock.
 
-    Bodies with the same stamps keep them. Otherwise the times are the diabolo's, and the others are
-    interpolated between their neighbours, not across dropouts.
+    names: of bodies, by their role. Bodies with the same stamps keep them. Otherwise the times are the
+    diabolo's, and the others are interpolated between their neighbours, not across dropouts.
     """
-    wanted = [body for body in bodies if body.name in names.values()] or bodies
+    wanted = _wanted(bodies, names)
     if not wanted or max(len(body.stamps) for body in wanted) < 2:
         raise RecordingError(f"{path}: no bodies with two samples; expected two tips and a diabolo")
     for body in wanted:
@@ -54,11 +78,29 @@ def together(path: Path, bodies: Sequence[Body], names: Mapping[str, str]) -> tu
             raise RecordingError(
                 f"{path}, {body.name}: stamp {body.stamps[back[0] + 1]} ns does not come after the one before"
             )
-    all_stamps = np.unique(np.concatenate([body.stamps for body in wanted]))
-    alike = len(all_stamps) <= ALIKE * max(len(body.stamps) for body in wanted)
-    times = all_stamps if alike else _leader(wanted, names).stamps
-    tracks = [_at(body, times, interpolates=not alike) for body in wanted]
-    return (times - times[0]) * 1e-9, tracks
+        if body.frame != wanted[0].frame:
+            raise RecordingError(
+                f"{path}: {wanted[0].name} is in the frame {shown(wanted[0].frame)}, {body.name} in "
+                f"{shown(body.frame)}; expected one frame"
+            )
+    stamps = np.unique(np.concatenate([body.stamps for body in wanted]))
+    steps = [body.step for body in wanted]
+    alike = len(stamps) <= ALIKE * max(len(body.stamps) for body in wanted)
+    alike = alike and max(steps) <= SAME_RATE * min(steps)
+    times = stamps if alike else _leader(wanted, names).stamps
+    of_a_clock = bool(times[0] > CLOCK)
+    tracks = [_spread(body, times) if alike else _interpolated(body, times) for body in wanted]
+    return (times - (times[0] if of_a_clock else 0)) * 1e-9, tracks, of_a_clock
+
+
+def _wanted(bodies: Sequence[Body], names: Mapping[str, str]) -> Sequence[Body]:
+    """Those that are named for all roles, or else whose names tell a role, where there are such of each."""
+    if len(names) == len(ROLES):
+        return [body for body in bodies if body.name in names.values()]
+    given = [body for body in bodies if body.name in names.values()]
+    telling = [body for body in bodies if sum(role in body.name.lower() for role in ROLES) == 1]
+    told = {role for role in ROLES for body in telling if role in body.name.lower()} | {*names}
+    return [*given, *(one for one in telling if one not in given)] if len(told) == len(ROLES) else bodies
 
 
 def _leader(bodies: Sequence[Body], names: Mapping[str, str]) -> Body:
@@ -68,20 +110,15 @@ def _leader(bodies: Sequence[Body], names: Mapping[str, str]) -> Body:
     return told[0] if len(told) == 1 else max(bodies, key=lambda body: len(body.stamps))
 
 
-def _at(body: Body, times: NDArray[np.int64], *, interpolates: bool) -> tuple[str, Floats, Floats | None]:
-    """The body at given stamps; NaN where it was not seen."""
-    if not interpolates:
-        rows = np.searchsorted(times, body.stamps)
-        turns = None if body.orientation is None else _spread(body.orientation, rows, len(times))
-        return body.name, _spread(body.position, rows, len(times)), turns
+def _interpolated(body: Body, times: NDArray[np.int64]) -> Track:
+    """The body at given stamps; NaN where its neighbours are farther apart than LONGEST_STEP."""
     count = len(body.stamps)
     after = np.searchsorted(body.stamps, times).clip(0, count - 1)
     exact = body.stamps[after] == times
     before = np.where(exact, after, (after - 1).clip(0))
     span = (body.stamps[after] - body.stamps[before]).astype(float)
     share = np.divide(times - body.stamps[before], span, out=np.zeros(len(times)), where=span > 0)
-    longest = LONGEST_STEP * np.median(np.diff(body.stamps)) if count > 1 else 0.0
-    inside = (share >= 0.0) & (share <= 1.0) & (span <= longest) & ((span > 0) | exact)
+    inside = (share >= 0.0) & (share <= 1.0) & (span <= LONGEST_STEP * body.step) & ((span > 0) | exact)
     weight = np.where(inside, share, np.nan)[:, None]
 
     def between(values: Floats) -> Floats:
@@ -90,14 +127,20 @@ def _at(body: Body, times: NDArray[np.int64], *, interpolates: bool) -> tuple[st
 
     if body.orientation is None:
         return body.name, between(body.position), None
-    near = np.sign((body.orientation[before] * body.orientation[after]).sum(axis=1, keepdims=True))
-    turned = (1.0 - weight) * body.orientation[before] + weight * near * body.orientation[after]
-    norm = np.linalg.norm(turned, axis=1, keepdims=True)
-    return body.name, between(body.position), turned / norm
+    turns = body.orientation
+    near = np.where((turns[before] * turns[after]).sum(axis=1, keepdims=True) < 0.0, -1.0, 1.0)
+    turned = (1.0 - weight) * turns[before] + weight * near * turns[after]
+    return body.name, between(body.position), turned / np.linalg.norm(turned, axis=1, keepdims=True)
 
 
-def _spread(values: Floats, rows: NDArray[np.intp], size: int) -> Floats:
-    """Values at rows of an array that has `size`; NaN elsewhere."""
-    spread = np.full((size, values.shape[1]), np.nan)
-    spread[rows] = values
-    return spread
+def _spread(body: Body, times: NDArray[np.int64]) -> Track:
+    """The body at stamps that include its own; NaN at the others."""
+    rows = np.searchsorted(times, body.stamps)
+
+    def at_rows(values: Floats) -> Floats:
+        spread = np.full((len(times), values.shape[1]), np.nan)
+        spread[rows] = values
+        return spread
+
+    turns = None if body.orientation is None else at_rows(body.orientation)
+    return body.name, at_rows(body.position), turns

@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 
 from .._core import RecordingError
 from ..checks import shown
-from .bodies import Body
-
-METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
+from .bodies import METRES, Body, even_stamps, unreadable
 
 
 def read(path: Path) -> list[Body]:
@@ -28,20 +26,19 @@ def read(path: Path) -> list[Body]:
         labels, unit = group["LABELS"]["value"], (group["UNITS"]["value"] or ["mm"])[0]
         rotations, rotation_labels, rotation_rate = _rotations(file, rate)
     except Exception as error:  # of the library: whatever a broken file leads to
-        why = " ".join(str(error).split())[:200]
-        raise RecordingError(f"{path}: cannot be read as C3D ({why})") from error
+        raise unreadable(path, "C3D", error) from error
     scale = METRES.get(unit.strip().lower())
     if scale is None:
         raise RecordingError(f"{path}: POINT:UNITS {shown(unit)}; expected {', '.join(METRES)}")
     if not rate > 0.0 or not rotation_rate > 0.0:
         raise RecordingError(f"{path}: {rate:g} frames per second; expected more than 0")
     bodies = [
-        Body(label, _stamps(points.shape[2], rate, first), _seen(points[:3, i].T * scale))
+        Body(label, even_stamps(points.shape[2], rate, first), _seen(points[:3, i].T * scale))
         for i, label in enumerate(labels[: points.shape[1]])
     ]
     for i, label in enumerate(rotation_labels[: rotations.shape[2]]):
         matrices = np.moveaxis(rotations[:, :, i], -1, 0)
-        stamps = _stamps(len(matrices), rotation_rate, first * rotation_rate / rate)
+        stamps = even_stamps(len(matrices), rotation_rate, first * rotation_rate / rate)
         bodies.append(
             Body(label, stamps, _seen(matrices[:, :3, 3] * scale), quaternions(matrices[:, :3, :3]))
         )
@@ -49,9 +46,11 @@ def read(path: Path) -> list[Body]:
 
 
 def quaternions(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Unit quaternions x, y, z, w, shape (n, 4), of rotations, shape (n, 3, 3); NaN where one is none."""
+    """Unit quaternions x, y, z, w, shape (n, 4), of matrices, body to world, shape (n, 3, 3); NaN where one
+    is no rotation."""
     off = np.abs(np.einsum("nij,nkj->nik", matrices, matrices) - np.eye(3)).max(axis=(1, 2))
-    m = np.where((off < 1e-3)[:, None, None], matrices, np.nan)
+    turns = (off < 1e-3) & (np.linalg.det(np.nan_to_num(matrices)) > 0.0)
+    m = np.where(turns[:, None, None], matrices, np.nan)
     back = np.swapaxes(m, 1, 2) - m
     trace = np.trace(m, axis1=1, axis2=2)
     # Four times the outer product of (x, y, z, w) with itself: its longest row is the most exact.
@@ -72,11 +71,6 @@ def _rotations(file: Any, rate: float) -> tuple[NDArray[np.float64], list[str], 
         return np.zeros((4, 4, 0, 0)), [], rate
     own = group["RATE"]["value"] if "RATE" in group else []
     return np.asarray(data), list(group["LABELS"]["value"]), float(own[0]) if len(own) else rate
-
-
-def _stamps(size: int, rate: float, first: float) -> NDArray[np.int64]:
-    stamps: NDArray[np.int64] = np.rint((np.arange(size) + first) / rate * 1e9).astype(np.int64)
-    return stamps
 
 
 def _seen(places: NDArray[np.float64]) -> NDArray[np.float64]:

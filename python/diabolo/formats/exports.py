@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from .._core import RecordingError, read_text
 from ..checks import shown
-from .bodies import Body
+from .bodies import METRES, Body, even_stamps
 from .c3d import quaternions
 
-METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 RADIANS = {"deg": np.pi / 180.0, "rad": 1.0}
 
 
@@ -26,9 +25,10 @@ def read_qualisys(path: Path) -> list[Body]:
     The residual -1, or zeros for everything, is a dropout."""
     lines = read_text(path).splitlines()
     facts: dict[str, list[str]] = {}
-    while lines and re.fullmatch(r"[A-Z_]{2,}", (cells := lines[0].split("\t"))[0]):
+    at_head = 0
+    while at_head < len(lines) and re.fullmatch(r"[A-Z_]{2,}", (cells := lines[at_head].split("\t"))[0]):
         facts[cells[0]] = [cell.strip() for cell in cells[1:]]
-        del lines[0]
+        at_head += 1
     names = [name for name in facts.get("BODY_NAMES", []) if name]
     if not names:
         raise RecordingError(f"{path}: no BODY_NAMES; expected an export of bodies (6D) of Qualisys")
@@ -38,16 +38,18 @@ def read_qualisys(path: Path) -> list[Body]:
         raise RecordingError(f"{path}: no FREQUENCY with a number; expected one") from None
     if not rate > 0.0:
         raise RecordingError(f"{path}: FREQUENCY {rate:g}; expected more than 0")
-    head, *rows = lines or [""]
-    columns = [cell.strip() for cell in head.split("\t")]
-    table = _numbers(path, rows, len(facts) + 2, "\t", len(columns))
+    columns = [cell.strip() for cell in (lines[at_head:] or [""])[0].split("\t")]
+    table = _numbers(path, lines[at_head + 1 :], at_head + 2, "\t", len(columns))
+    stamps = even_stamps(len(table), rate)
+    if "Time" in columns:
+        stamps = np.rint(table[:, columns.index("Time")] * 1e9).astype(np.int64)
     bodies = []
     for name, at in zip(names, _starts(path, columns, names), strict=True):
         places = table[:, at : at + 3] * 1e-3
         matrices = table[:, at + 7 : at + 16].reshape(-1, 3, 3).swapaxes(1, 2)
         gone = (table[:, at + 6] < 0.0) | (places == 0.0).all(axis=1)
         places[gone], matrices[gone] = np.nan, np.nan
-        bodies.append(Body(name, _stamps(len(table), rate), places, quaternions(matrices)))
+        bodies.append(Body(name, stamps, places, quaternions(matrices)))
     return bodies
 
 
@@ -68,8 +70,12 @@ def read_vicon(path: Path) -> list[Body]:
     if not rate > 0.0:
         fail(2, rate, "a rate of more than 0")
     names, columns, units = lines[2], [cell.strip() for cell in lines[3]], [cell.strip() for cell in lines[4]]
-    text = [",".join(row) for row in lines[5:] if any(cell.strip() for cell in row)]
-    table = _numbers(path, text, 6, ",", len(columns))
+    if not len(names) <= len(columns) <= len(units):
+        fail(5, f"{len(units)} cells", f"{len(columns)} units, one for each column, and no more names")
+    table = _numbers(path, [",".join(row) for row in lines[5:]], 6, ",", len(columns))
+    stamps = even_stamps(len(table), rate)
+    if columns[0] == "Frame" and np.isfinite(table[:, 0]).all():
+        stamps = np.rint(table[:, 0] / rate * 1e9).astype(np.int64)
     starts = [at for at, name in enumerate(names) if name.strip()]
     bodies = []
     for at, end in zip(starts, [*starts[1:], len(columns)], strict=True):
@@ -85,7 +91,7 @@ def read_vicon(path: Path) -> list[Body]:
         turns = turned if "RW" in own else _of_vectors(turned * RADIANS[turn_unit])
         gone = ~np.isfinite(places).all(axis=1) | ((places == 0.0).all(axis=1) & (turned == 0.0).all(axis=1))
         places[gone], turns[gone] = np.nan, np.nan
-        bodies.append(Body(names[at].strip().split(":")[-1], _stamps(len(table), rate), places, turns))
+        bodies.append(Body(names[at].strip().split(":")[-1], stamps, places, turns))
     return bodies
 
 
@@ -102,23 +108,28 @@ def _starts(path: Path, columns: list[str], names: list[str]) -> list[int]:
 
 
 def _numbers(path: Path, rows: list[str], first: int, mark: str, size: int) -> NDArray[np.float64]:
-    """Numbers of lines; empty cells are NaN. first: the number of the first line."""
-    table = np.full((len(rows), size), np.nan)
-    for i, row in enumerate(rows):
-        cells = row.split(mark)
-        if (len(cells) > size and any(cell.strip() for cell in cells[size:])) or len(cells) < size:
-            raise RecordingError(f"{path}, line {first + i}: {len(cells)} cells; expected {size}")
-        for k, cell in enumerate(cells[:size]):
-            if text := cell.strip():
-                try:
-                    table[i, k] = float(text)
-                except ValueError:
-                    raise RecordingError(
-                        f"{path}, line {first + i}, cell {k + 1}: found {shown(text)}; expected a number"
-                    ) from None
-    if not len(rows):
+    """Numbers of lines, of which `first` is the first one's number; empty cells are NaN, blank lines are left
+    out."""
+    table = []
+    for line, row in enumerate(rows, first):
+        cells = [cell.strip() for cell in row.split(mark)]
+        if not any(cells):
+            continue
+        if len(cells) < size or any(cells[size:]):
+            raise RecordingError(f"{path}, line {line}: {len(cells)} cells; expected {size}")
+        table.append([_number(path, line, k, cell) for k, cell in enumerate(cells[:size])])
+    if not table:
         raise RecordingError(f"{path}: no rows; expected at least two")
-    return table
+    return np.array(table)
+
+
+def _number(path: Path, line: int, at: int, text: str) -> float:
+    try:
+        return float(text) if text else np.nan
+    except ValueError:
+        raise RecordingError(
+            f"{path}, line {line}, cell {at + 1}: found {shown(text)}; expected a number"
+        ) from None
 
 
 def _of_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -126,7 +137,3 @@ def _of_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     angle = np.linalg.norm(vectors, axis=1, keepdims=True)
     half = np.sinc(angle / (2.0 * np.pi)) / 2.0  # sin(angle / 2) / angle
     return np.concatenate([vectors * half, np.cos(angle / 2.0)], axis=1)
-
-
-def _stamps(size: int, rate: float) -> NDArray[np.int64]:
-    return np.rint(np.arange(size) / rate * 1e9).astype(np.int64)

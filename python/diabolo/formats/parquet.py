@@ -6,8 +6,9 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from .._core import Recording, RecordingError
+from .._core import Recording
 from ..files import whole_file
+from .bodies import unreadable
 
 
 def csv_of(path: Path) -> str:
@@ -28,8 +29,7 @@ def csv_of(path: Path) -> str:
         plain = pyarrow.csv.WriteOptions(include_header=False, quoting_style="none")
         pyarrow.csv.write_csv(table, rows, plain)
     except (pyarrow.ArrowException, OSError) as error:
-        why = " ".join(str(error).split())[:200]
-        raise RecordingError(f"{path}: cannot be read as Parquet ({why})") from error
+        raise unreadable(path, "Parquet", error) from error
     text: bytes = rows.getvalue().to_pybytes()
     return ",".join(table.column_names) + "\n" + text.decode()
 

@@ -65,7 +65,9 @@ inline Calibration published_calibration() {
 /// which.
 inline Calibration plain_calibration() {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero(), x = Eigen::Vector3d::UnitX();
-  return {.left = {{"left"}, none, x}, .right = {{"right"}, none, x}, .diabolo = {{"diabolo"}, none, x}};
+  return {.left = {{"left", "/left_tip"}, none, x},
+          .right = {{"right", "/right_tip"}, none, x},
+          .diabolo = {{"diabolo", "/diabolo"}, none, x}};
 }
 
 /// For the take of 2020-11-12 with the blue diabolo, of which no calibration take exists.
@@ -141,24 +143,24 @@ inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
                              OrientationTrack& orientation) {
     // Any rotation that takes body x to the axis would do; this one turns least.
     const Eigen::Quaterniond to_axis = turn_from_x(part.axis);
-    const bool is_point = body.quaternion.cols() == 0;
-    if (is_point && !part.point.isZero())
+    const bool is_point = body.quaternion.cols() == 0, is_origin = part.point.isZero();
+    if (is_point && !is_origin)
       throw RecordingError(take.file_name + ": " + shown(body.name) +
                            " has no orientation, but the calibration has a point in it; expected 0, 0, 0");
     track = Track::missing(size);
-    track.valid = body.valid;
-    if (is_point) {
-      for (Eigen::Index i = 0; i < size; ++i)
-        if (body.valid[i]) track.position.col(i) = yaw * body.position.col(i) + calibration.world_offset;
-      return;
-    }
-    orientation = OrientationTrack::missing(size);
-    orientation.valid = body.valid;
+    if (!is_point) orientation = OrientationTrack::missing(size);
     for (Eigen::Index i = 0; i < size; ++i) {
-      if (!body.valid[i]) continue;
-      const Eigen::Quaterniond rotation(Eigen::Vector4d(body.quaternion.col(i)));
-      track.position.col(i) = yaw * (body.position.col(i) + rotation * part.point) + calibration.world_offset;
-      orientation.quaternion.col(i) = (yaw * rotation * to_axis).normalized().coeffs();
+      const bool is_turned = !is_point && body.quaternion.col(i).allFinite();
+      if (!body.valid[i] || !(is_turned || is_origin)) continue;
+      Eigen::Vector3d place = body.position.col(i);
+      if (is_turned) {
+        const Eigen::Quaterniond rotation(Eigen::Vector4d(body.quaternion.col(i)));
+        place += rotation * part.point;
+        orientation.quaternion.col(i) = (yaw * rotation * to_axis).normalized().coeffs();
+        orientation.valid[i] = true;
+      }
+      track.position.col(i) = yaw * place + calibration.world_offset;
+      track.valid[i] = true;
     }
   };
   Recording result;
