@@ -64,6 +64,7 @@ def run(given: argparse.Namespace) -> int:
     models: dict[str, diabolo.Model | str] = {
         "consistent": "consistent",
         "diagnosed": diabolo.model_for(found.model, takes[0]),
+        "diagnosed, caught by a slack string": slack_catcher(diabolo.model_for(found.model, takes[0])),
     }
     networks: list[PaperNetwork | StrongNetwork] = []
     for count, minutes in zip(plays, minutes_given, strict=True):
@@ -81,6 +82,12 @@ def run(given: argparse.Namespace) -> int:
     if given.png:
         draw_figure(errors, given.png)
     return 0
+
+
+def slack_catcher(model: diabolo.Model) -> diabolo.Model:
+    """The same, but a string that is slack under the diabolo catches it too."""
+    model.parameters.catch_slack = model.parameters.string_length
+    return model
 
 
 def played(file: Path, seeds: Sequence[int]) -> list[list[Track]]:
@@ -107,7 +114,7 @@ def draw_figure(errors: dict[str, list[NDArray[np.float64]]], path: Path) -> Non
         kind, _, play = name.rpartition(", ")
         amounts = [one.rpartition(", ")[2] for one in errors if one.startswith(kind + ", ")]
         shade = 0.35 + 0.65 * (amounts.index(play) + 1) / len(amounts) if kind in looks else 1.0
-        colour = looks.get(kind) or {"diagnosed": "black", "consistent": "tab:gray"}.get(name, "tab:olive")
+        colour = looks.get(kind) or {"diagnosed": "black", "consistent": "tab:gray"}.get(name, "tab:green")
         line = np.nanmedian(np.concatenate(values), axis=0)
         axes.semilogy(
             FINE, 1e3 * line, color=colour, alpha=shade, ls="-" if kind in looks else "--", label=name
