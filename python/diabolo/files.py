@@ -43,6 +43,8 @@ def check_outputs(
             raise ValueError(f"{path}: a device or a pipe; expected a file ({STDOUT} is standard output)")
         if path.parent != folder and not place.parent.is_dir():
             raise ValueError(f"{path}: there is no folder {place.parent} to write into")
+        if inside := next((read for read in taken if read.is_dir() and place.is_relative_to(read)), None):
+            raise ValueError(f"{path}: the folder {inside.name} is read; choose another place")
         if place in taken:
             raise ValueError(f"{path}: {taken[place]}; choose another name")
         taken[place] = "another output has this name"

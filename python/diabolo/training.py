@@ -29,6 +29,7 @@ PPO_OPTIONS: dict[str, Any] = {
 }
 """Of PPO (Schulman et al., arXiv:1707.06347), for some hundred environments."""
 SURE = -1.5  # log of the spread of actions where a training begins with an agent, not with nothing
+LARGEST_WEIGHT = 1e3  # of a teacher
 RECENT = 200  # episodes that the progress looks at
 
 
@@ -153,6 +154,8 @@ def _new_learner(env: DiaboloVecEnv, seed: int, teacher: Agent | None) -> PPO:
     """One that knows nothing, or what its teacher knows."""
     if teacher is None:
         return PPO("MlpPolicy", env, seed=seed, device="cpu", **PPO_OPTIONS)
+    if max(np.abs(numbers).max() for layer in teacher.layers for numbers in layer) > LARGEST_WEIGHT:
+        raise ValueError(f"teacher: weights beyond {LARGEST_WEIGHT:g}; expected those of a trained agent")
     usual = PPO_OPTIONS["policy_kwargs"]
     sizes = {"pi": [len(bias) for _, bias in teacher.layers[:-1]], "vf": usual["net_arch"]}
     own = {"policy_kwargs": {"net_arch": sizes, "log_std_init": SURE}}

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from diabolo import Calibration, Recording, RecordingError, load_recording, save_recording
 from diabolo.cli import main
+from diabolo.cli.diagnose import input_file
 from diabolo.formats.bodies import Body, at_common_times
 from diabolo.formats.c3d import quaternions
 from diabolo.formats.exports import read_qualisys, read_vicon
@@ -124,6 +125,9 @@ def test_points_of_c3d_are_tips_without_directions(swing: Recording, tmp_path: P
     file["data"]["points"] = points
     file.write(str(tmp_path / "swing.c3d"))
     found = load_recording(tmp_path / "swing.c3d")
+    (tmp_path / "cut.c3d").write_bytes((tmp_path / "swing.c3d").read_bytes()[:-600])
+    with pytest.raises(RecordingError, match=r"cut.c3d: \d+ bytes; expected \d+, as its header says"):
+        load_recording(tmp_path / "cut.c3d")
     same(swing, found, times=1e-6, places=1e-6, turned=False)
     assert found.diabolo_orientation is None
 
@@ -290,6 +294,37 @@ def test_bodies_of_several_frames_are_refused() -> None:
         at_common_times(Path("bag"), [one, other], {})
 
 
+def test_dropouts_of_all_three_stay_dropouts(swing: Recording, tmp_path: Path) -> None:
+    rng = np.random.default_rng(2531)
+    places = [getattr(swing, name).copy() for name in ("left", "right", "diabolo")]
+    for one in places:
+        one[rng.random(len(swing)) < 0.1] = np.nan
+    holed = Recording(swing.time, *places, swing.rate)
+    save_recording(holed, tmp_path / "holed.mcap")
+    again = load_recording(tmp_path / "holed.mcap")
+    seen = np.isfinite(np.hstack(places)).any(axis=1)  # of a row with nothing in it nothing is written
+    for name, one in zip(("left", "right", "diabolo"), places, strict=True):
+        np.testing.assert_array_equal(getattr(again, name), one[seen])
+
+
+def test_two_bodies_of_one_name_are_refused(tmp_path: Path) -> None:
+    head = ["Objects", "100", ",,left,,,,,,left", "Frame,Sub Frame," + ",".join(["RX,RY,RZ,TX,TY,TZ"] * 2)]
+    rows = [",," + ",".join(["rad,rad,rad,mm,mm,mm"] * 2), *(f"{k},0" + ",1" * 12 for k in range(3))]
+    (tmp_path / "a.csv").write_text("\n".join([*head, *rows]) + "\n")
+    with pytest.raises(RecordingError, match="two bodies are named 'left'"):
+        load_recording(tmp_path / "a.csv")
+
+
+def test_what_is_read_is_not_written_over(swing: Recording, tmp_path: Path) -> None:
+    bag = tmp_path / "bag"
+    write_bag(bag, swing, TOPICS, {})
+    [kept] = bag.glob("*.db3")
+    before = kept.read_bytes()
+    assert main(["convert", str(bag), str(bag / "take.mcap"), "--topics", GIVEN]) == 2
+    assert kept.read_bytes() == before and not (bag / "take.mcap").exists()
+    assert len(input_file(bag).sha256) == 64
+
+
 def test_points_stay_points(swing: Recording, tmp_path: Path) -> None:
     bare = Recording(swing.time, swing.left, swing.right, swing.diabolo, swing.rate)
     save_recording(bare, tmp_path / "bare.mcap")
@@ -351,7 +386,7 @@ def test_a_quarter_turn_of_qualisys_is_one_to_the_left(tmp_path: Path) -> None:
     lines = ["NO_OF_FRAMES\t2", "FREQUENCY\t100", "BODY_NAMES\tleft", own]
     row = "1000\t0\t0\t0\t0\t90\t0.1\t0\t1\t0\t-1\t0\t0\t0\t0\t1"  # the columns of the matrix, in turn
     (tmp_path / "a.tsv").write_text("\n".join([*lines, row, row]) + "\n\n")
-    [body] = read_qualisys(tmp_path / "a.tsv")
+    [body], _ = read_qualisys(tmp_path / "a.tsv")
     np.testing.assert_allclose(body.position[0], [1.0, 0.0, 0.0])
     np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-12)
 
@@ -362,7 +397,7 @@ def test_vicon_may_give_degrees_or_a_quaternion_and_skip_frames(tmp_path: Path) 
     for head, row in ((degrees, "0,0,0,90,100,0,0"), (quaternion, "0,0,0,0.70710678,0.70710678,10,0,0")):
         rows = [f"{frame},{row}" for frame in (1, 2, 5)]
         (tmp_path / "a.csv").write_text("\n".join([*head, *rows]) + "\n")
-        [body] = read_vicon(tmp_path / "a.csv")
+        [body], _ = read_vicon(tmp_path / "a.csv")
         np.testing.assert_allclose(np.diff(body.stamps), [10_000_000, 30_000_000])
         np.testing.assert_allclose(body.position[0], [0.1, 0.0, 0.0])
         np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-7)

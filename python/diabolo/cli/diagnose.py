@@ -16,7 +16,7 @@ from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import MOST_DRAWS, Comparison, Diagnosis, compare_simulator
 from ..diagnosis import diagnose as run_diagnosis
 from ..evaluation import DEFAULT_MODELS, Excerpt
-from ..formats import load_recording
+from ..formats import load_recording, reader_of
 from ..report import check as check_report
 from ..report import report_html
 from ..view import Replay, replay_of
@@ -194,7 +194,7 @@ def check_drawn(folder: Path, draws: int) -> None:
 
 def read_simulated(path: str, like: Recording) -> Recording:
     """What a simulator wrote: a tidy recording; without a JSON string and diabolo are those of `like`."""
-    if Path(path).with_suffix(".json").exists():
+    if Path(path).with_suffix(".json").exists() or reader_of(Path(path)) not in (None, "parquet"):
         return load_recording(path)
     bare = load_recording(path, columns="time=time")
     return Recording(
@@ -265,7 +265,12 @@ def _value(parameter: Estimate) -> str:
 
 
 def input_file(path: str | Path) -> InputFile:
-    return InputFile(file=Path(path).name, sha256=hashlib.sha256(Path(path).read_bytes()).hexdigest())
+    """A file, or a bag's folder, by its name and what is in it."""
+    path, digest = Path(path), hashlib.sha256()
+    for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
+        if file.is_file():
+            digest.update(file.read_bytes())
+    return InputFile(file=path.name, sha256=digest.hexdigest())
 
 
 def _texts(

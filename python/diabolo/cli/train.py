@@ -149,7 +149,8 @@ def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:
         before = _as_kept(Settings("")) | kept["settings"]  # of an older one, what it did not have
         for name, value in _as_kept(settings).items():
             if before[name] != value:
-                raise ValueError(f"{name} {before[name]} at first, {value} now; expected the same")
+                both = f"{shown(before[name])} at first, {shown(value)} now"
+                raise ValueError(f"{name} {both}; expected the same")
         for one in fields(Progress):
             known = progress[one.name]
             whole = isinstance(known, int) and known >= 0

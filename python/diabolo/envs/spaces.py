@@ -75,7 +75,7 @@ def models_of(given: AnyModels, difficulty: str | Camera = "easy") -> list[Model
     if difficulty == "sealed":
         if given is not None:
             raise ValueError("model: given, beside the difficulty 'sealed', which has its own; expected None")
-        return sealed_models()
+        return list(sealed_models())
     if given is None:
         return [usual_model()]
     models = list_of("model", given, (Model, Parameters), least=1)

@@ -8,6 +8,7 @@ Motive; a table of columns through those of a CSV.
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -66,14 +67,28 @@ def _recording_of_bodies(
     """The recording of a file that holds bodies with names."""
     from . import bodies
 
-    found, setup = _bodies_of(reader, path)
+    found, setup, notes = _bodies_of(reader, path, names)
     bodies.check_names(path, found, names)
+    names = names or _names_in(calibration, [body.name for body in found])
     time, tracks, of_a_clock = bodies.at_common_times(path, found, names)
-    notes = [OF_A_CLOCK] if of_a_clock else []
+    notes += [OF_A_CLOCK] if of_a_clock else []
     if calibration is None and setup is None:
         notes.append(NO_SETUP)
     used = (calibration or setup or Calibration.plain()).renamed(**names)
     return _core.recording_of_bodies(str(path), time, tracks, notes, used, up)
+
+
+def _names_in(calibration: Calibration | None, known: list[str]) -> dict[str, str]:
+    """The bodies that a calibration names, by their role, where a file has all of them."""
+    if calibration is None:
+        return {}
+    told = json.loads(calibration.to_json())
+    found: dict[str, str] = {}
+    for role in ROLES:
+        body = told[role]["body"]
+        named = [one for one in ([body] if isinstance(body, str) else body) if one in known]
+        found |= {role: named[0]} if named else {}
+    return found if len(found) == len(ROLES) else {}
 
 
 def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
@@ -106,7 +121,13 @@ def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:
         pairs = [item.partition("=") for item in given.split(",")]
         if any(not name for _, _, name in pairs):
             raise RecordingError(f"topics {shown(given)}; expected left=NAME,right=NAME,diabolo=NAME")
+        if len({role.strip() for role, _, _ in pairs}) < len(pairs):
+            raise RecordingError(f"topics {shown(given)}: a role is named twice; expected each once")
         given = {role.strip(): name.strip() for role, _, name in pairs}
+    if not isinstance(given, Mapping):
+        raise RecordingError(
+            f"topics: {shown(given)}; expected a mapping, or left=NAME,right=NAME,diabolo=NAME"
+        )
     if unknown := sorted({*given} - {*ROLES}):
         raise RecordingError(f"topics: found {shown(unknown[0])}; expected {', '.join(ROLES)}")
     return dict(given)
@@ -141,16 +162,20 @@ def reader_of(path: Path) -> str | None:
     return None
 
 
-def _bodies_of(reader: str, path: Path) -> tuple[list[Body], Calibration | None]:
-    """The bodies of a file, and what it says of string and diabolo."""
+def _bodies_of(
+    reader: str, path: Path, names: Mapping[str, str]
+) -> tuple[list[Body], Calibration | None, list[str]]:
+    """The bodies of a file, what it says of string and diabolo, and what was changed."""
     if reader == "bag":
         from . import bag
 
-        return bag.read(path), bag.setup_of(path)
+        wanted = names.values() if len(names) == len(ROLES) else ()
+        return bag.read(path, wanted), bag.setup_of(path), []
     if reader == "c3d":
         from . import c3d
 
-        return c3d.read(path), None
+        return c3d.read(path), None, []
     from . import exports
 
-    return (exports.read_qualisys if reader == "qualisys" else exports.read_vicon)(path), None
+    found, notes = exports.read_qualisys(path) if reader == "qualisys" else exports.read_vicon(path)
+    return found, None, notes

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -38,18 +38,25 @@ Row = tuple[str, Any, tuple[float, ...]]
 """Name of a body, header, and its numbers as in Rows."""
 
 
-def read(path: Path) -> list[Body]:
-    """The bodies of a bag, each a topic with poses or points, or a frame of /tf."""
+def read(path: Path, names: Collection[str] = ()) -> list[Body]:
+    """The bodies of a bag, each a topic with poses or points, or a frame of /tf: those of these names, or all
+    without them."""
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
 
     found: defaultdict[str, Rows] = defaultdict(Rows)
     try:
         with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as bag:
-            known = [one for one in bag.connections if one.msgtype in ROWS_OF]
+            known = [
+                one
+                for one in bag.connections
+                if one.msgtype in ROWS_OF and (not names or one.topic in names or one.msgtype in NAMED_INSIDE)
+            ]
             for connection, logged, raw in bag.messages(connections=known) if known else ():
                 message = bag.deserialize(raw, connection.msgtype)
                 for name, header, numbers in ROWS_OF[connection.msgtype](connection.topic, message):
+                    if names and name not in names:
+                        continue
                     rows = found[name]
                     rows.stamps.append(int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec))
                     rows.logged.append(logged)
@@ -89,6 +96,9 @@ def save(recording: Recording, path: Path) -> None:
     store = get_typestore(Stores.ROS2_HUMBLE)
     stamps = np.rint(recording.time * 1e9).astype(np.int64)
     stamps -= min(0, int(stamps[0]))
+    for role in TOPICS:
+        if np.isfinite(getattr(recording, role)[:, 0]).sum() < 2:
+            raise RecordingError(f"{path}: {role} is seen less than twice; expected two samples or more")
     with whole_file(path) as temporary, temporary.open("wb") as file:
         writer = Writer(file)
         writer.start(profile="ros2", library="diabolo")
@@ -185,3 +195,9 @@ ROWS_OF: dict[str, Callable[[str, Any], Iterator[Row]]] = {
     "mocap4r2_msgs/msg/RigidBodies": _of_rigid_bodies,
 }
 """What is read of messages, by their type."""
+NAMED_INSIDE = (
+    "geometry_msgs/msg/TransformStamped",
+    "tf2_msgs/msg/TFMessage",
+    "mocap4r2_msgs/msg/RigidBodies",
+)
+"""Types of messages that name their bodies, whatever the topic."""

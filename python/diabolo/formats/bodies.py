@@ -17,8 +17,8 @@ Floats = NDArray[np.float64]
 Track = tuple[str, Floats, "Floats | None"]
 ROLES = ("left", "right", "diabolo")
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-ALIKE = 1.05  # as many different stamps as of one body, within this: the bodies have the same ones
-SAME_RATE = 1.5  # the largest median step over the smallest, if so
+EVEN = 0.9  # the median step of all stamps over a body's, at least, where bodies have the same stamps
+SAME_RATE = 1.5  # the largest median step of a body over the smallest, at most, if so
 CLOCK = 10**18  # stamps beyond are those of a clock that counts from 1970 [ns]
 LONGEST_STEP = 2.5  # that is interpolated, in a body's own median steps
 
@@ -46,6 +46,12 @@ def unreadable(path: Path, kind: str, error: Exception) -> RecordingError:
     return RecordingError(f"{path}: cannot be read as {kind} ({why})")
 
 
+def check_rate(path: Path, rate: float) -> None:
+    """Raise RecordingError about a rate [Hz] that no camera has."""
+    if not 1e-3 <= rate <= 1e6:
+        raise RecordingError(f"{path}: {rate:g} frames per second; expected 0.001 to 1e6")
+
+
 def even_stamps(size: int, rate: float, first: float = 0.0) -> NDArray[np.int64]:
     """Of frames that follow each other, from frame number `first` on [ns]."""
     stamps: NDArray[np.int64] = np.rint((np.arange(size) + first) / rate * 1e9).astype(np.int64)
@@ -53,8 +59,12 @@ def even_stamps(size: int, rate: float, first: float = 0.0) -> NDArray[np.int64]
 
 
 def check_names(path: Path, bodies: Sequence[Body], names: Mapping[str, str]) -> None:
-    """Raise RecordingError where a body that is asked for is not there."""
+    """Raise RecordingError where a body that is asked for is not there, or there are two of its name."""
     known = [body.name for body in bodies]
+    for name in known:
+        telling = name in names.values() or any(role in name.lower() for role in ROLES)
+        if telling and known.count(name) > 1:
+            raise RecordingError(f"{path}: two bodies are named {shown(name)}; expected names of their own")
     for role, name in names.items():
         if name not in known:
             there = ", ".join(map(shown, known[:12])) or "none"
@@ -85,8 +95,7 @@ def at_common_times(
             )
     stamps = np.unique(np.concatenate([body.stamps for body in wanted]))
     steps = [body.step for body in wanted]
-    alike = len(stamps) <= ALIKE * max(len(body.stamps) for body in wanted)
-    alike = alike and max(steps) <= SAME_RATE * min(steps)
+    alike = bool(np.median(np.diff(stamps)) >= EVEN * min(steps) and max(steps) <= SAME_RATE * min(steps))
     times = stamps if alike else _leader(wanted, names).stamps
     of_a_clock = bool(times[0] > CLOCK)
     tracks = [_spread(body, times) if alike else _interpolated(body, times) for body in wanted]

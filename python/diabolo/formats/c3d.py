@@ -3,6 +3,10 @@
 
 from __future__ import annotations
 
+import struct
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -11,38 +15,91 @@ from numpy.typing import NDArray
 
 from .._core import RecordingError
 from ..checks import shown
-from .bodies import METRES, Body, even_stamps, unreadable
+from .bodies import METRES, Body, check_rate, even_stamps, unreadable
+
+LONGEST_READ = 60.0  # [s]
 
 
 def read(path: Path) -> list[Body]:
     """Each labelled point, and each labelled rotation (a 4 x 4 matrix) as a body with an orientation."""
-    import ezc3d
-
-    try:
-        file = ezc3d.c3d(str(path))
-        points, group = file["data"]["points"], file["parameters"]["POINT"]
-        header = file["header"]["points"]
-        rate, first = float(header["frame_rate"]), int(header["first_frame"])
-        labels, unit = group["LABELS"]["value"], (group["UNITS"]["value"] or ["mm"])[0]
-        rotations, rotation_labels, rotation_rate = _rotations(file, rate)
-    except Exception as error:  # of the library: whatever a broken file leads to
-        raise unreadable(path, "C3D", error) from error
+    check_whole(path)
+    found = _contents(path)
+    rate, first, unit = float(found["rate"]), float(found["first"]), str(found["unit"])
+    rotation_rate = float(found["rotation_rate"])
     scale = METRES.get(unit.strip().lower())
     if scale is None:
         raise RecordingError(f"{path}: POINT:UNITS {shown(unit)}; expected {', '.join(METRES)}")
-    if not rate > 0.0 or not rotation_rate > 0.0:
-        raise RecordingError(f"{path}: {rate:g} frames per second; expected more than 0")
+    check_rate(path, rate)
+    check_rate(path, rotation_rate)
+    points, rotations = found["points"], found["rotations"]
+    stamps = even_stamps(points.shape[2], rate, first)
     bodies = [
-        Body(label, even_stamps(points.shape[2], rate, first), _seen(points[:3, i].T * scale))
-        for i, label in enumerate(labels[: points.shape[1]])
+        Body(str(label), stamps, _seen(points[:3, i].T * scale))
+        for i, label in enumerate(found["labels"][: points.shape[1]])
     ]
-    for i, label in enumerate(rotation_labels[: rotations.shape[2]]):
+    stamps = even_stamps(rotations.shape[3], rotation_rate, first * rotation_rate / rate)
+    for i, label in enumerate(found["rotation_labels"][: rotations.shape[2]]):
         matrices = np.moveaxis(rotations[:, :, i], -1, 0)
-        stamps = even_stamps(len(matrices), rotation_rate, first * rotation_rate / rate)
-        bodies.append(
-            Body(label, stamps, _seen(matrices[:, :3, 3] * scale), quaternions(matrices[:, :3, :3]))
-        )
+        places, turns = _seen(matrices[:, :3, 3] * scale), quaternions(matrices[:, :3, :3])
+        bodies.append(Body(str(label), stamps, places, turns))
     return bodies
+
+
+def check_whole(path: Path) -> None:
+    """Raise RecordingError where a file is shorter than its header says (numbers of the Intel kind)."""
+    with path.open("rb") as file:
+        header = file.read(512)
+        if len(header) < 512 or header[1] != 0x50:
+            raise RecordingError(f"{path}: cannot be read as C3D (it does not begin as one)")
+        file.seek(512 * max(0, header[0] - 1) + 3)
+        if file.read(1) != b"T":  # 84: Intel
+            return
+    points, analog, first, last, _, scale, start = struct.unpack_from("<HHHHHfH", header, 2)
+    frames, size = last - first + 1, 4 if scale < 0.0 else 2
+    wanted = 512 * (start - 1) + frames * (4 * points + analog) * size
+    if last < 65535 and path.stat().st_size < wanted:
+        raise RecordingError(f"{path}: {path.stat().st_size} bytes; expected {wanted}, as its header says")
+
+
+def _contents(path: Path) -> dict[str, NDArray[Any]]:
+    """What the library finds. It runs in a process of its own, which a broken file may end or stall."""
+    with tempfile.TemporaryDirectory() as folder:
+        kept = Path(folder) / "found.npz"
+        program = "import sys; from diabolo.formats.c3d import keep_contents; keep_contents(*sys.argv[1:])"
+        try:
+            done = subprocess.run(
+                [sys.executable, "-c", program, str(path), str(kept)],
+                capture_output=True,
+                text=True,
+                timeout=LONGEST_READ,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise unreadable(path, "C3D", TimeoutError(f"no end in {LONGEST_READ:g} s")) from error
+        if done.returncode != 0 or not kept.exists():
+            why = (done.stderr.strip().splitlines() or ["the library ended"])[-1]
+            raise unreadable(path, "C3D", RuntimeError(why))
+        with np.load(kept) as found:
+            return dict(found)
+
+
+def keep_contents(path: str, kept: str) -> None:
+    """Write what a file holds as arrays: what _contents() runs."""
+    import ezc3d
+
+    file = ezc3d.c3d(path)
+    group, header = file["parameters"]["POINT"], file["header"]["points"]
+    rotations, labels, rate = _rotations(file, float(header["frame_rate"]))
+    np.savez(
+        kept,
+        points=np.asarray(file["data"]["points"]),
+        labels=np.array(group["LABELS"]["value"], str),
+        unit=(group["UNITS"]["value"] or ["mm"])[0],
+        rate=float(header["frame_rate"]),
+        first=int(header["first_frame"]),
+        rotations=rotations,
+        rotation_labels=np.array(labels, str),
+        rotation_rate=rate,
+    )
 
 
 def quaternions(matrices: NDArray[np.float64]) -> NDArray[np.float64]:

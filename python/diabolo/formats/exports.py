@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from .._core import RecordingError, read_text
 from ..checks import shown
-from .bodies import METRES, Body, even_stamps
+from .bodies import METRES, Body, check_rate, even_stamps
 from .c3d import quaternions
 
 RADIANS = {"deg": np.pi / 180.0, "rad": 1.0}
 
 
-def read_qualisys(path: Path) -> list[Body]:
+def read_qualisys(path: Path) -> tuple[list[Body], list[str]]:
     """Bodies of a TSV export, in mm: X, Y, Z and the rotation matrix Rot[0] to Rot[8], column after column.
-    The residual -1, or zeros for everything, is a dropout."""
-    lines = read_text(path).splitlines()
+    The residual -1, zeros for everything, or nothing is a dropout. Also what was left out."""
+    lines, notes = _whole_lines(path)
     facts: dict[str, list[str]] = {}
     at_head = 0
     while at_head < len(lines) and re.fullmatch(r"[A-Z_]{2,}", (cells := lines[at_head].split("\t"))[0]):
@@ -36,10 +36,14 @@ def read_qualisys(path: Path) -> list[Body]:
         rate = float(facts["FREQUENCY"][0])
     except (KeyError, IndexError, ValueError):
         raise RecordingError(f"{path}: no FREQUENCY with a number; expected one") from None
-    if not rate > 0.0:
-        raise RecordingError(f"{path}: FREQUENCY {rate:g}; expected more than 0")
+    check_rate(path, rate)
     columns = [cell.strip() for cell in (lines[at_head:] or [""])[0].split("\t")]
     table = _numbers(path, lines[at_head + 1 :], at_head + 2, "\t", len(columns))
+    declared = (facts.get("NO_OF_FRAMES") or [""])[0]
+    if declared.isdecimal() and int(declared) > len(table):
+        notes.append(
+            f"of the {declared} frames that its head tells of, {len(table)} are there: it is cut off"
+        )
     stamps = even_stamps(len(table), rate)
     if "Time" in columns:
         stamps = np.rint(table[:, columns.index("Time")] * 1e9).astype(np.int64)
@@ -50,13 +54,14 @@ def read_qualisys(path: Path) -> list[Body]:
         gone = (table[:, at + 6] < 0.0) | (places == 0.0).all(axis=1)
         places[gone], matrices[gone] = np.nan, np.nan
         bodies.append(Body(name, stamps, places, quaternions(matrices)))
-    return bodies
+    return bodies, notes
 
 
-def read_vicon(path: Path) -> list[Body]:
+def read_vicon(path: Path) -> tuple[list[Body], list[str]]:
     """Objects of a CSV export: RX, RY, RZ, a rotation vector, or with RW a quaternion, and TX, TY, TZ. Empty
-    cells, or zeros for everything, are a dropout."""
-    lines = list(csv.reader(read_text(path).splitlines()))
+    cells, or zeros for everything, are a dropout. Also what was left out."""
+    whole, notes = _whole_lines(path)
+    lines = list(csv.reader(whole))
 
     def fail(line: int, found: object, expected: str) -> NoReturn:
         raise RecordingError(f"{path}, line {line}: found {shown(found)}; expected {expected}")
@@ -67,8 +72,7 @@ def read_vicon(path: Path) -> list[Body]:
         rate = float(lines[1][0])
     except (ValueError, IndexError):
         fail(2, lines[1][:1], "the rate")
-    if not rate > 0.0:
-        fail(2, rate, "a rate of more than 0")
+    check_rate(path, rate)
     names, columns, units = lines[2], [cell.strip() for cell in lines[3]], [cell.strip() for cell in lines[4]]
     if not len(names) <= len(columns) <= len(units):
         fail(5, f"{len(units)} cells", f"{len(columns)} units, one for each column, and no more names")
@@ -92,7 +96,17 @@ def read_vicon(path: Path) -> list[Body]:
         gone = ~np.isfinite(places).all(axis=1) | ((places == 0.0).all(axis=1) & (turned == 0.0).all(axis=1))
         places[gone], turns[gone] = np.nan, np.nan
         bodies.append(Body(names[at].strip().split(":")[-1], stamps, places, turns))
-    return bodies
+    return bodies, notes
+
+
+def _whole_lines(path: Path) -> tuple[list[str], list[str]]:
+    """Lines of a text, without a last one that may be cut off, and a note of that."""
+    text = read_text(path)
+    if text.endswith(("\n", "\r")) or "\n" not in text:
+        return text.splitlines(), []
+    return text.splitlines()[:-1], [
+        "the last line has no line end and may be cut off inside a number: it is left out"
+    ]
 
 
 def _starts(path: Path, columns: list[str], names: list[str]) -> list[int]:
@@ -113,8 +127,8 @@ def _numbers(path: Path, rows: list[str], first: int, mark: str, size: int) -> N
     table = []
     for line, row in enumerate(rows, first):
         cells = [cell.strip() for cell in row.split(mark)]
-        if not any(cells):
-            continue
+        if not any(cells) and (mark == "," or len(cells) < size):
+            continue  # a blank line; of tabs alone it is a frame in which nothing was seen
         if len(cells) < size or any(cells[size:]):
             raise RecordingError(f"{path}, line {line}: {len(cells)} cells; expected {size}")
         table.append([_number(path, line, k, cell) for k, cell in enumerate(cells[:size])])

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from typing import Any
 
-from .._core import Recording
+from .._core import Recording, RecordingError
+from ..checks import shown
 from ..files import whole_file
 from .bodies import unreadable
 
@@ -19,7 +21,13 @@ def csv_of(path: Path) -> str:
     import pyarrow.parquet
 
     try:
+        names = pyarrow.parquet.read_schema(path).names
+        if twice := sorted({name for name in names if names.count(name) > 1}):
+            raise RecordingError(
+                f"{path}: two columns are named {shown(twice[0])}; expected names of their own"
+            )
         table = pyarrow.parquet.read_table(path)
+        table = table.select([one.name for one in table.schema if _is_number(one)])
         for at, column in enumerate(table.columns):
             if pyarrow.types.is_floating(column.type):
                 empty = pyarrow.scalar(None, column.type)
@@ -32,6 +40,17 @@ def csv_of(path: Path) -> str:
         raise unreadable(path, "Parquet", error) from error
     text: bytes = rows.getvalue().to_pybytes()
     return ",".join(table.column_names) + "\n" + text.decode()
+
+
+def _is_number(field: Any) -> bool:
+    """Whether it can be a column of a CSV: numbers, under a name without marks of CSV."""
+    import pyarrow
+
+    kind = field.type
+    numeric = (
+        pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_decimal(kind)
+    )
+    return numeric and not set(',"\r\n') & set(field.name)
 
 
 def save(recording: Recording, path: Path) -> None:
