@@ -64,6 +64,8 @@ def read(path: Path, names: Collection[str] = ()) -> list[Body]:
                     rows.frames.add(header.frame_id)
     except Exception as error:  # of files, archives, databases or messages: whatever a broken bag leads to
         raise unreadable(path, "a bag of ROS", error) from error
+    if not found.keys() >= {*names}:
+        return read(path)  # all, for the sentence about those that are not there
     if not found:
         raise RecordingError(f"{path}: no poses in it; expected messages of {', '.join(sorted(ROWS_OF))}")
     return [_body(path, name, rows) for name, rows in found.items()]

@@ -23,7 +23,7 @@ CLOCK = 10**18  # stamps beyond are those of a clock that counts from 1970 [ns]
 LONGEST_STEP = 2.5  # that is interpolated, in a body's own median steps
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Body:
     """A body or a point over n samples: stamps [ns], places [m], shape (n, 3), and orientations x, y, z, w,
     shape (n, 4), None of a point. A row with NaN is a dropout. frame: in which it was seen, where told."""
