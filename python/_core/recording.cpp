@@ -345,8 +345,7 @@ void bind_calibration(py::module_& module) {
                   "Of bodies that are the tips and the diabolo themselves, in the world frame.")
       .def("renamed", &renamed, "left"_a = "", "right"_a = "", "diabolo"_a = "",
            "The same for bodies of these names, where one is given.")
-      .def("of", &of_setup, "properties"_a, "string_length"_a,
-           "The same for a diabolo and a string [m].")
+      .def("of", &of_setup, "properties"_a, "string_length"_a, "The same for a diabolo and a string [m].")
       .def_static("blue", &blue_calibration, "Of the blue diabolo; its tips are only estimates.")
       .def_static("load", &load_calibration, "path"_a, Unlocked(),
                   "Reads a file of the schema diabolo.calibration/1.")
