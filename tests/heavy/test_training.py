@@ -149,6 +149,7 @@ def test_many_environments_are_what_stable_baselines_expects() -> None:
     [
         ("Fly --out d", "TASK 'Fly'; expected one of Hold, Swing"),
         ("Hold --out d --seconds 1 --steps 1", "--seconds, --steps: both are given"),
+        ("Hold --out d --teacher=", "--teacher '': expected the name of a file"),
         ("Hold --out d --seconds 0", "--seconds 0.0; expected 0.001 to 10000000.0"),
         ("Hold --out d --envs 1", "--envs 1; expected 32 to 65536"),
         ("Hold --out d --resume", "d: expected training.json and checkpoint.zip of a training to resume"),

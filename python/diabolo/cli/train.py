@@ -70,6 +70,8 @@ def run(arguments: argparse.Namespace) -> None:
     from ..training import Settings, Trainer
 
     check_task(arguments.task, TASKS)
+    if arguments.teacher == "":
+        raise ValueError("--teacher '': expected the name of a file")
     seconds = _check_numbers(arguments)
     models = [read_model(name) for name in arguments.model] if arguments.model else None
     teacher = Agent.load(arguments.teacher) if arguments.teacher is not None else None

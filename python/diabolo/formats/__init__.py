@@ -15,7 +15,7 @@ from pathlib import Path
 
 from .. import _core
 from .._core import Calibration, Recording, RecordingError
-from ..checks import check_library, shown
+from ..checks import check_library, instance_of, shown
 from .bodies import ROLES, Body
 
 OF_A_CLOCK = "the times are stamps of a clock: they are counted from the first one on"
@@ -96,6 +96,7 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
     `.parquet` (the tidy table, with JSON beside it). Raises RecordingError about another suffix, ValueError
     where a library is not installed."""
     path = Path(os.fspath(path))
+    instance_of("recording", recording, Recording)
     if path.suffix == ".csv":
         recording.save(path)
     elif path.suffix == ".mcap":
