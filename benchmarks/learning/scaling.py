@@ -64,7 +64,7 @@ def run(given: argparse.Namespace) -> int:
     models: dict[str, diabolo.Model | str] = {
         "consistent": "consistent",
         "diagnosed": diabolo.model_for(found.model, takes[0]),
-        "diagnosed, caught by a slack string": slack_catcher(diabolo.model_for(found.model, takes[0])),
+        "diagnosed, taut catches only": taut_catcher(diabolo.model_for(found.model, takes[0])),
     }
     networks: list[PaperNetwork | StrongNetwork] = []
     for count, minutes in zip(plays, minutes_given, strict=True):
@@ -84,9 +84,9 @@ def run(given: argparse.Namespace) -> int:
     return 0
 
 
-def slack_catcher(model: diabolo.Model) -> diabolo.Model:
-    """The same, but a string that is slack under the diabolo catches it too."""
-    model.parameters.catch_slack = model.parameters.string_length
+def taut_catcher(model: diabolo.Model) -> diabolo.Model:
+    """The same, but with the paper's rule for a catch."""
+    model.parameters.catch_slack = diabolo.Parameters().catch_slack
     return model
 
 

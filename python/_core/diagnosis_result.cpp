@@ -34,6 +34,7 @@ void bind_parts(py::module_& module) {
   bind_record<UnnamedStructure>(module);
   bind_record<LearntLawFound>(module);
   bind_record<ParametersAlone>(module);
+  bind_record<CatchRule>(module);
   bind_record<DifferingEffect>(module);
   bind_record<UpperLimit>(module);
   bind_record<HeldOutErrors>(module);

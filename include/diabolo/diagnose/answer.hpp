@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/adequacy.hpp"
+#include "diabolo/diagnose/catch_rule.hpp"
 #include "diabolo/diagnose/diagnosis_options.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/effects/law.hpp"
@@ -234,12 +235,13 @@ struct Diagnosis {
   Model model;
   HeldOut heldout;
   std::vector<Proposal> proposals;
-  Adequacy adequacy;                  ///< of what was found
-  double unexplained = 0.0;           ///< share of the windows that are far off after all
-  bool withdrawn = false;             ///< physics that stands out, but does not help on what was left out
-  std::optional<double> numerical;    ///< share of the base's error that its numerical rules make
-  std::vector<std::string> not_done;  ///< what the budget, or the base, kept from being asked
-  std::size_t windows_seen = 0;       ///< in the recordings, of which `windows` were fitted
+  Adequacy adequacy;                    ///< of what was found
+  std::optional<CatchRule> catch_rule;  ///< that the base's is too strict
+  double unexplained = 0.0;             ///< share of the windows that are far off after all
+  bool withdrawn = false;               ///< physics that stands out, but does not help on what was left out
+  std::optional<double> numerical;      ///< share of the base's error that its numerical rules make
+  std::vector<std::string> not_done;    ///< what the budget, or the base, kept from being asked
+  std::size_t windows_seen = 0;         ///< in the recordings, of which `windows` were fitted
   std::shared_ptr<const OwnCandidates> own;   ///< to which findings may point
   std::shared_ptr<const FinalFit> final_fit;  ///< that all of it was read from; null where nothing was fitted
 };

@@ -260,6 +260,7 @@ inline void conclude(Diagnosis& d) {
   }
   if (d.reason.empty() && d.headline != Headline::kNumerical && d.headline != Headline::kNothingMissing)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
+  d.sentence += catch_in_words(d.catch_rule);
   d.sentence += differing_in_words(d);
   for (std::size_t i = 0; i < d.not_done.size(); ++i)
     d.sentence += (i == 0 ? " Not done: " : "; ") + d.not_done[i] + (i + 1 == d.not_done.size() ? "." : "");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/adequacy.hpp"
+#include "diabolo/diagnose/catch_rule.hpp"
 #include "diabolo/diagnose/differing_effect.hpp"
 #include "diabolo/diagnose/location.hpp"
 #include "diabolo/diagnose/result.hpp"
@@ -61,6 +62,7 @@ struct DiagnosisResult {
   std::vector<UnnamedStructure> unnamed;
   std::vector<LearntLawFound> learnt;
   std::vector<DifferingEffect> differing;
+  std::optional<CatchRule> catch_rule;
   std::vector<UpperLimit> upper_limits;
   std::vector<Estimate> nuisances;
   HeldOutErrors fit;
@@ -89,6 +91,8 @@ struct DiagnosisResult {
     visit("learnt", &DiagnosisResult::learnt, "Laws that were learnt from it.");
     visit("differing", &DiagnosisResult::differing,
           "What recordings ask different values of, the surest first.");
+    visit("catch_rule", &DiagnosisResult::catch_rule,
+          "That the simulator's catches are too strict; null where nothing says so.");
     visit("upper_limits", &DiagnosisResult::upper_limits, "What may be there unseen.");
     visit("nuisances", &DiagnosisResult::nuisances, "What was measured on the way.");
     visit("fit", &DiagnosisResult::fit, "Errors on data that was not fitted.");

@@ -21,6 +21,7 @@
 #include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/noise_trial.hpp"
 #include "diabolo/diagnose/permuted_law.hpp"
+#include "diabolo/diagnose/slack_catch.hpp"
 
 namespace diabolo {
 
@@ -39,12 +40,16 @@ class Inquiry : public ClaimSearch<D> {
     if (!result_.reason.empty()) {
       result_.model = options_.base;
     } else {
+      ask_of_catches();
       settle();
       bool withdrawn = withdraw_what_does_not_help(result_);
       judge();
       withdrawn = learn_laws(withdrawn);
       withdrawn = withdrawn || withdraw_what_explains_too_little(result_);
-      if (withdrawn) result_.model = options_.base;
+      if (withdrawn) {
+        result_.model = options_.base;
+        result_.model.parameters.catch_slack = physics_.parameters.catch_slack;
+      }
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       compare_takes();
       finish();
@@ -59,6 +64,16 @@ class Inquiry : public ClaimSearch<D> {
  private:
   using Search::bank_, Search::before_, Search::budget_, Search::exchanged_, Search::fit_, Search::numerical_,
       Search::options_, Search::physics_, Search::recordings_, Search::result_, Search::set_, Search::step;
+
+  /// Widens the rule for a catch where predictions ask for it, before they judge anything else.
+  void ask_of_catches() {
+    const char* const asking = "asking whether slack strings catch";
+    if (!budget_.allows(asking, kFitsShare)) return;
+    const FitWatch looking = step(asking, 0.84, 0.85, kFitsShare);
+    result_.catch_rule = slack_catch(fit_, physics_, options_.seed, options_.threads, looking);
+    if (!result_.catch_rule) return;
+    physics_.parameters.catch_slack = result_.catch_rule->catch_slack_m;
+  }
 
   /// Claims what stands, and takes back, one after the other, what data that were left out deny.
   void settle() {

@@ -238,6 +238,7 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
     result.next_experiment.push_back({std::string(p.experiment->motion), std::string(p.experiment->plain),
                                       p.parts, p.odds, p.experiment->seconds});
   result.adequacy = d.adequacy;
+  result.catch_rule = d.catch_rule;
   result.not_done = d.not_done;
   result.locate = diagnose_detail::located(d, recordings);
   for (const auto& [name, noise] : d.noise) result.noise.push_back({name, noise.position, noise.spin});

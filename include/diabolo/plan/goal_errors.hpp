@@ -143,6 +143,10 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
   }
 }
 
+/// How much closer than the string is long the tips are meant to be in a catch [m]: hardly, even where a
+/// slack string would do.
+inline double meant_slack(double catch_slack) { return 0.5 * std::min(catch_slack, 0.03); }
+
 /// How far a flight misses the string: where the diabolo comes down through the plane of the tips, from the
 /// middle of their line, and how much the tips are too close there, which leaves the string too loose.
 template <class Scalar>
@@ -172,7 +176,7 @@ void add_catch(const Play<Scalar>& play, const Goals& goals, double string_lengt
     const Scalar along = dot<Scalar>(off, span) / distance;
     const Vector3<Scalar> across = off - span * Scalar(along / distance);
     error.parts = {across[0], across[1], across[2], Scalar(along * Scalar(0.3)),
-                   Scalar(distance - Scalar(string_length - 0.5 * slack))};
+                   Scalar(distance - Scalar(string_length - meant_slack(slack)))};
     break;
   }
   if (error.parts.empty())  // it never comes down through the plane

@@ -71,7 +71,7 @@ inline Action catch_action(const Seam& seam, const TipColumn<double>& home, doub
     highest = highest.cwiseMax(fall.place);
   }
   const Vector3<double> place = 0.5 * (lowest + highest);
-  const double half = 0.5 * (string_length - 0.5 * catch_slack);
+  const double half = 0.5 * (string_length - plan_detail::meant_slack(catch_slack));
   const auto pose = [&](double half_gap, double z) {
     return plan_detail::tips_column(place.x(), place.y() + half_gap, z, place.y() - half_gap, z);
   };

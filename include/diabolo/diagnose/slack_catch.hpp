@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "diabolo/diagnose/catch_rule.hpp"
+#include "diabolo/diagnose/conclude.hpp"
+#include "diabolo/diagnose/corrected.hpp"
+#include "diabolo/diagnose/fit.hpp"
+#include "diabolo/diagnose/heldout.hpp"
+
+namespace diabolo {
+
+namespace diagnose_detail {
+
+/// The recordings of a fit, predicted from many starts by models that differ in their catch alone.
+class CatchTrials {
+ public:
+  CatchTrials(const Fit& fit, const Model& physics, int threads, const Watch& watch)
+      : model_(augmented_model(physics, fit.at, "")), threads_(threads), watch_(watch) {
+    for (const FitTake& fit_take : fit.fit_takes)
+      recordings_.push_back({corrected(fit_take.take->recording, fit.at), fit.at, {}});
+    options_.starts_every = starts_every(recordings_, fit.most_windows);
+    options_.horizons = {0.25, 0.5, 1.0};
+  }
+
+  HorizonTask task(const HeldOutRecording& held, double slack) const {
+    Model model = model_;
+    model.parameters.catch_slack = slack;
+    return {held.recording, model, options_};
+  }
+
+  double longest_string() const {
+    double length = 0.0;
+    for (const HeldOutRecording& held : recordings_)
+      length = std::max(length, parameters_for(model_, held.recording).string_length);
+    return length;
+  }
+
+  /// Each start's errors, recording after recording.
+  std::vector<std::vector<WindowError>> errors(double slack) const {
+    std::vector<std::vector<WindowError>> result;
+    for (const HeldOutRecording& held : recordings_)
+      std::ranges::move(errors_of(task(held, slack), threads_, watch_), std::back_inserter(result));
+    return result;
+  }
+
+  /// What the noise of each start alone makes at each horizon [m].
+  std::vector<std::vector<double>> scatter(double slack, std::uint64_t seed) const {
+    std::vector<std::vector<double>> result;
+    for (const HeldOutRecording& held : recordings_) {
+      const HorizonTask starts = task(held, slack);
+      const StartNoise noise = start_noise(held.recording);
+      std::vector<std::vector<double>> some(starts.size());
+      for_each_index(some.size(), threads_, watch_,
+                     [&](std::size_t i) { some[i] = starts.scatter(i, noise, seed); });
+      std::ranges::move(some, std::back_inserter(result));
+    }
+    return result;
+  }
+
+ private:
+  Model model_;
+  std::vector<HeldOutRecording> recordings_;
+  HorizonOptions options_;
+  int threads_;
+  const Watch& watch_;
+};
+
+/// The last horizon at which a start was predicted both ways; none where there is none.
+inline std::optional<std::size_t> last_horizon(const std::vector<WindowError>& a,
+                                               const std::vector<WindowError>& b) {
+  for (std::size_t h = a.size(); h-- > 0;)
+    if (both_predicted(a[h], b[h])) return h;
+  return std::nullopt;
+}
+
+/// Mean error of `some` where it can be set beside `others` [m].
+inline double mean_beside(const std::vector<std::vector<WindowError>>& some,
+                          const std::vector<std::vector<WindowError>>& others) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < some.size(); ++i)
+    if (const std::optional<std::size_t> h = last_horizon(some[i], others[i]))
+      errors.push_back(some[i][*h].model);
+  return errors.empty() ? std::numeric_limits<double>::infinity() : mean_of(errors);
+}
+
+}  // namespace diagnose_detail
+
+/// Whether the rule for a catch is too strict: the paper's wants tips nearly a string length apart, where
+/// hands that give way catch with a string that hangs slack. No derivative tells, since a missed catch stays
+/// missed at any slight change; so a few values are tried, up to the string's length, which lets any slack
+/// string catch. A start speaks for or against where errors differ by kStrong times what its noise makes.
+/// None where not more starts speak for than against; else of the values that predict as well as any, the
+/// widest.
+inline std::optional<CatchRule> slack_catch(const Fit& fit, const Model& physics, std::uint64_t seed,
+                                            int threads, const Watch& watch = {}) {
+  namespace detail = diagnose_detail;
+  const detail::CatchTrials trials(fit, physics, threads, watch);
+  const double given = physics.parameters.catch_slack, length = trials.longest_string();
+  const auto taut = trials.errors(given), any = trials.errors(length);
+  CatchRule found{length, detail::mean_beside(taut, any), detail::mean_beside(any, taut)};
+  if (!(found.error_after_m < found.error_before_m)) return std::nullopt;
+  const auto scatter = trials.scatter(length, seed);
+  for (std::size_t i = 0; i < taut.size(); ++i) {
+    const std::optional<std::size_t> h = detail::last_horizon(taut[i], any[i]);
+    if (!h) continue;
+    const double gain = taut[i][*h].model - any[i][*h].model, enough = kStrong * scatter[i][*h];
+    found.starts_for += gain > enough ? 1 : 0;
+    found.starts_against += -gain > enough ? 1 : 0;
+  }
+  if (found.starts_for <= found.starts_against) return std::nullopt;
+  constexpr double kAsWell = 1.01;
+  for (double slack = 0.5 * length; slack > given; slack *= 0.5) {
+    const double mean = detail::mean_beside(trials.errors(slack), taut);
+    if (kAsWell * mean >= found.error_after_m) continue;
+    found.catch_slack_m = slack;
+    found.error_after_m = mean;
+  }
+  return found;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "diabolo/full_predictor.hpp"
+
+// Our string on a body of somebody else's simulator. The host integrates, and knows contacts, joints and all
+// else; in each step we say which force and torque make its body move as the predictor does, see
+// docs/hosts.md.
+namespace diabolo {
+
+/// How a host moves a body in a step of dt under a constant force, with a = force / mass + gravity.
+enum class HostMotion {
+  kNewVelocity,   ///< v' = v + a dt, x' = x + v' dt: semi-implicit Euler
+  kConstantForce  ///< v' = v + a dt, x' = x + v dt + a dt^2 / 2: RK4 and better
+};
+
+/// The free rigid body that plays the diabolo; SI units, world frame.
+struct HostBody {
+  Vector3<double> position = Vector3<double>::Zero(), velocity = Vector3<double>::Zero();  ///< of its centre
+  Vector3<double> axle = Vector3<double>::UnitX();  ///< forward, a unit vector
+  double axle_rate = 0.0;                           ///< angular velocity about it; the spin is -axle_rate
+};
+
+/// What a host has to apply over the next step, gravity apart; and what the string does in it.
+struct StringWrench {
+  Vector3<double> force = Vector3<double>::Zero(),
+                  torque = Vector3<double>::Zero();  ///< on the body's centre
+  Vector3<double> on_left = Vector3<double>::Zero(), on_right = Vector3<double>::Zero();  ///< on the tips [N]
+  double left_tension = 0.0, right_tension = 0.0;  ///< of the strands [N]
+  double slip = 0.0;  ///< of the string over the axle, towards the right tip [m/s]
+};
+
+/// What is kept from step to step, beside what the host keeps. To save, copy or reset a simulation, save,
+/// copy or reset this: `StringMemory{}` is a beginning.
+struct StringMemory {
+  Vector3<double> owed = Vector3<double>::Zero();  ///< velocity that the host has not got yet [m/s]
+  Vector3<double> string_acceleration = Vector3<double>::Zero();  ///< see State
+  StringState string_state = StringState::kLoose;
+};
+
+/// The string between two tips that a host moves, on a body that it integrates. Holds constants alone: one
+/// may serve any number of bodies and threads.
+class AttachedString {
+ public:
+  /// Mass [kg] and inertia about the axle [kg m^2] of the host's body, and the host's gravity [m/s^2]. What
+  /// the predictor's own gravity says more or less is part of the force. Throws std::invalid_argument where
+  /// mass or inertia is not positive.
+  AttachedString(FullPredictor<double> predictor, double mass, double axial_inertia,
+                 const Vector3<double>& gravity, HostMotion motion = HostMotion::kNewVelocity)
+      : predictor_(std::move(predictor)),
+        mass_(mass),
+        inertia_(axial_inertia),
+        gravity_(gravity),
+        motion_(motion) {
+    if (!(mass > 0.0) || !(axial_inertia > 0.0) || !std::isfinite(mass + axial_inertia))
+      throw std::invalid_argument("attached string: mass " + std::to_string(mass) + " kg, axial inertia " +
+                                  std::to_string(axial_inertia) + " kg m^2; both must be positive");
+  }
+
+  const FullPredictor<double>& predictor() const { return predictor_; }
+
+  /// The wrench for the step of `dt` [s] that begins now, while the tips move from `begin` to `end`. Changes
+  /// `memory` to what is to be given for the step after it; a host that asks twice about the same step gives
+  /// the same memory twice.
+  StringWrench step(const HostBody& body, const Tips<double>& begin, const Tips<double>& end, double dt,
+                    StringMemory& memory) const {
+    State<double> state;
+    state.position = body.position;
+    state.velocity = body.velocity + memory.owed;
+    state.spin = -body.axle_rate;
+    state.axis = body.axle;
+    state.string_state = memory.string_state;
+    state.string_acceleration = memory.string_acceleration;
+    const State<double> before = state;
+    predictor_.step(state, begin, end, dt);
+    const Vector3<double> reached = motion_ == HostMotion::kNewVelocity
+                                        ? Vector3<double>((state.position - body.position) / dt)
+                                        : state.velocity;
+    StringWrench wrench;
+    wrench.force = mass_ * ((reached - body.velocity) / dt - gravity_);
+    wrench.torque = body.axle * (-inertia_ * (state.spin - before.spin) / dt);
+    pull_strands(before, state, begin, end, dt, wrench);
+    memory = {state.velocity - reached, state.string_acceleration, state.string_state};
+    return wrench;
+  }
+
+ private:
+  /// Splits what the string gives the diabolo among its two strands, and gives it back to the tips.
+  void pull_strands(const State<double>& before, const State<double>& after, const Tips<double>& begin,
+                    const Tips<double>& end, double dt, StringWrench& wrench) const {
+    if (after.string_state != StringState::kOnString) return;
+    const Parameters<double>& parameters = predictor_.parameters();
+    const Vector3<double> others = predictor_.effects().acceleration(before, begin, dt, parameters);
+    const Vector3<double> pull = mass_ * ((after.velocity - before.velocity) / dt - others);
+    const Vector3<double> middle = 0.5 * (before.position + after.position),
+                          left = (0.5 * (begin.left + end.left) - middle).normalized(),
+                          right = (0.5 * (begin.right + end.right) - middle).normalized();
+    const double cosine = left.dot(right), to_left = left.dot(pull), to_right = right.dot(pull),
+                 determinant = 1.0 - cosine * cosine;
+    if (!(determinant > 1e-9)) return;  // straight: any tension would do
+    wrench.left_tension = std::max(0.0, (to_left - cosine * to_right) / determinant);
+    wrench.right_tension = std::max(0.0, (to_right - cosine * to_left) / determinant);
+    wrench.on_left = -wrench.left_tension * left;
+    wrench.on_right = -wrench.right_tension * right;
+    const double passed = (end.right - after.position).norm() - (begin.right - before.position).norm();
+    wrench.slip = passed / dt - parameters.axle_radius * after.spin;
+  }
+
+  FullPredictor<double> predictor_;
+  double mass_, inertia_;
+  Vector3<double> gravity_;
+  HostMotion motion_;
+};
+
+}  // namespace diabolo
