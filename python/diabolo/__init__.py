@@ -67,6 +67,7 @@ from .enums import (
 )
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
 from .formats import load_recording, save_recording
+from .headers import get_include
 from .player import best_guess, hang_at_rest, model_for, plan, plan_action, success_rate
 from .residual import fit_residual
 from .rollout import Rollout, RolloutGradient, RolloutWarning, rollout, rollout_gradient
@@ -142,6 +143,7 @@ __all__ = [
     "diagnose",
     "evaluate",
     "fit_residual",
+    "get_include",
     "hang_at_rest",
     "load_recording",
     "model_for",

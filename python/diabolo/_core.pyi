@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """Name, unit and range of a numeric parameter."""
     @property
@@ -54,27 +54,27 @@ class Parameters:
     def axle_radius(self) -> float:
         """radius of the axle [m]; within [0.0001, 0.1]"""
     @axle_radius.setter
-    def axle_radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def axle_radius(self, arg1: _Real) -> None: ...
     @property
     def cap_scale(self) -> float:
         """paper: part of the spheroid's motion that caps the pull [1]; within [0.0, 1.0]"""
     @cap_scale.setter
-    def cap_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def cap_scale(self, arg1: _Real) -> None: ...
     @property
     def catch_distance(self) -> float:
         """a catch needs the diabolo this close to the line of the tips [m]; within [0.0, 1.0]"""
     @catch_distance.setter
-    def catch_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def catch_distance(self, arg1: _Real) -> None: ...
     @property
     def catch_slack(self) -> float:
         """a catch needs tips no closer than the string length minus this [m]; within [0.0, 20.0]"""
     @catch_slack.setter
-    def catch_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def catch_slack(self, arg1: _Real) -> None: ...
     @property
     def dissipation_rate(self) -> float:
         """decay of the velocity while on the string [1/s]; within [0.0, 1000.0]"""
     @dissipation_rate.setter
-    def dissipation_rate(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def dissipation_rate(self, arg1: _Real) -> None: ...
     @property
     def flight_rule(self) -> str:
         """when the diabolo leaves the string and comes back to it, as in diabolo.FlightRule: 'published' 'paper' 'slack'"""
@@ -84,12 +84,12 @@ class Parameters:
     def flying_distance(self) -> float:
         """paper's c_F [m]; within [0.0, 1.0]"""
     @flying_distance.setter
-    def flying_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def flying_distance(self, arg1: _Real) -> None: ...
     @property
     def gravity(self) -> float:
         """acceleration of gravity, downwards [m/s^2]; within [0.0, 100.0]"""
     @gravity.setter
-    def gravity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def gravity(self, arg1: _Real) -> None: ...
     @property
     def integrator(self) -> str:
         """of the free motion, as in diabolo.Integrator: 'euler' 'parabolic'"""
@@ -99,22 +99,22 @@ class Parameters:
     def loose_distance(self) -> float:
         """paper's c_L [m]; within [0.0, 1.0]"""
     @loose_distance.setter
-    def loose_distance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def loose_distance(self, arg1: _Real) -> None: ...
     @property
     def mass(self) -> float:
         """mass of the diabolo [kg]; within [0.001, 10.0]"""
     @mass.setter
-    def mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def mass(self, arg1: _Real) -> None: ...
     @property
     def mu_acceleration(self) -> float:
         """paper: spin per growth of the right strand [rad/m]; within [0.0, 10000.0]"""
     @mu_acceleration.setter
-    def mu_acceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def mu_acceleration(self, arg1: _Real) -> None: ...
     @property
     def mu_deceleration(self) -> float:
         """paper: spin per shrinking of the right strand [rad/m]; within [0.0, 10000.0]"""
     @mu_deceleration.setter
-    def mu_deceleration(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def mu_deceleration(self, arg1: _Real) -> None: ...
     @property
     def normal_rule(self) -> str:
         """which direction counts as the spheroid's normal, as in diabolo.NormalRule: 'published' 'true'"""
@@ -131,10 +131,10 @@ class Parameters:
     @planar.setter
     def planar(self, arg1: bool) -> None: ...
     @property
-    def plane_normal(self) -> numpy.typing.NDArray[numpy.float64]:
+    def plane_normal(self) -> _Array:
         """unit vector, shape (3,)"""
     @plane_normal.setter
-    def plane_normal(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
+    def plane_normal(self, arg1: _Reals) -> None: ...
     @property
     def projection(self) -> str:
         """where a diabolo outside the spheroid is put back, as in diabolo.Projection: 'radial' 'closest_point'"""
@@ -144,17 +144,17 @@ class Parameters:
     def pull_scale(self) -> float:
         """paper: part of the correction that becomes velocity, before the cap [1]; within [0.0, 1.0]"""
     @pull_scale.setter
-    def pull_scale(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def pull_scale(self, arg1: _Real) -> None: ...
     @property
     def pull_scale_after_cap(self) -> float:
         """paper: damping of the pull after the cap, per reference step [1]; within [0.0, 1.0]"""
     @pull_scale_after_cap.setter
-    def pull_scale_after_cap(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def pull_scale_after_cap(self, arg1: _Real) -> None: ...
     @property
     def reference_step(self) -> float:
         """step that the per-step factors are stated for [s]; within [1e-06, 0.1]"""
     @reference_step.setter
-    def reference_step(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def reference_step(self, arg1: _Real) -> None: ...
     @property
     def release_when_overstretched(self) -> bool:
         """let go where the tips are farther apart than the string, instead of holding the diabolo"""
@@ -164,7 +164,7 @@ class Parameters:
     def spin_coupling(self) -> float:
         """rate at which slip on the axle is worn off [1/s]; within [0.0, 1000.0]"""
     @spin_coupling.setter
-    def spin_coupling(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def spin_coupling(self, arg1: _Real) -> None: ...
     @property
     def spin_rule(self) -> str:
         """how passing string drives the spin, as in diabolo.SpinRule: 'slip' 'length_change'"""
@@ -179,7 +179,7 @@ class Parameters:
     def string_length(self) -> float:
         """length of the string between the tips [m]; within [0.05, 20.0]"""
     @string_length.setter
-    def string_length(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def string_length(self, arg1: _Real) -> None: ...
     @property
     def thin_rule(self) -> str:
         """what happens to the pull when the spheroid is thin, as in diabolo.ThinRule: 'published' 'paper'"""
@@ -189,12 +189,12 @@ class Parameters:
     def thin_slack(self) -> float:
         """the spheroid is thin when the tips are farther apart than L minus this [m]; within [0.0, 20.0]"""
     @thin_slack.setter
-    def thin_slack(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def thin_slack(self, arg1: _Real) -> None: ...
     @property
     def wraps(self) -> float:
         """whole turns of the string around the axle beyond the pass under it [1]; within [0.0, 5.0]"""
     @wraps.setter
-    def wraps(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def wraps(self, arg1: _Real) -> None: ...
 class StringElasticity:
     """
     A string that stretches.
@@ -207,7 +207,7 @@ class StringElasticity:
     def fields() -> list:
         """Name, unit and range of every field (ParameterInfo)."""
     @staticmethod
-    def of_stiffness(stiffness: typing.SupportsFloat | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> StringElasticity:
+    def of_stiffness(stiffness: _Real, damping: _Real = 0.0) -> StringElasticity:
         """Stiffness [N/m] and damping [N s/m] of the path length."""
     def __eq__(self, other: typing.Any) -> bool: ...
     def __init__(self, **kwargs) -> None: ...
@@ -217,12 +217,12 @@ class StringElasticity:
     def compliance(self) -> float:
         """extension of the path length per tension [m/N]; within [0.0, 1.0]"""
     @compliance.setter
-    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def compliance(self, arg1: _Real) -> None: ...
     @property
     def damping(self) -> float:
         """tension per rate of the path length [N s/m]; within [0.0, 10000.0]"""
     @damping.setter
-    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def damping(self, arg1: _Real) -> None: ...
 class StringFriction:
     """
     A string that rubs on the axle: Euler's and Eytelwein's capstan law.
@@ -243,12 +243,12 @@ class StringFriction:
     def coefficient(self) -> float:
         """capstan coefficient of string on axle [1]; within [0.0, 3.0]"""
     @coefficient.setter
-    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def coefficient(self, arg1: _Real) -> None: ...
     @property
     def spin_gain(self) -> float:
         """mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]"""
     @spin_gain.setter
-    def spin_gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def spin_gain(self, arg1: _Real) -> None: ...
 class Air:
     """Air that holds the diabolo back: a = -(linear_drag + quadratic_drag |u|) u, u = v - wind."""
     __hash__: typing.ClassVar[None] = None
@@ -263,22 +263,22 @@ class Air:
     def linear_drag(self) -> float:
         """deceleration per speed [1/s]; within [0.0, 10.0]"""
     @linear_drag.setter
-    def linear_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def linear_drag(self, arg1: _Real) -> None: ...
     @property
     def quadratic_drag(self) -> float:
         """deceleration per squared speed [1/m]; within [0.0, 10.0]"""
     @quadratic_drag.setter
-    def quadratic_drag(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def quadratic_drag(self, arg1: _Real) -> None: ...
     @property
     def wind_x(self) -> float:
         """velocity of the air, forward [m/s]; within [-100.0, 100.0]"""
     @wind_x.setter
-    def wind_x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def wind_x(self, arg1: _Real) -> None: ...
     @property
     def wind_y(self) -> float:
         """velocity of the air, to the left [m/s]; within [-100.0, 100.0]"""
     @wind_y.setter
-    def wind_y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def wind_y(self, arg1: _Real) -> None: ...
 class MagnusLift:
     """Lift of a spinning diabolo: a = coefficient * omega x v, omega = -spin * axis."""
     __hash__: typing.ClassVar[None] = None
@@ -293,7 +293,7 @@ class MagnusLift:
     def coefficient(self) -> float:
         """acceleration per angular velocity and speed [1/rad]; within [-1.0, 1.0]"""
     @coefficient.setter
-    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def coefficient(self, arg1: _Real) -> None: ...
 class SpinLoss:
     """What slows the spin beside the string: dw/dt = -air w|w| - axle sign(w)."""
     __hash__: typing.ClassVar[None] = None
@@ -308,12 +308,12 @@ class SpinLoss:
     def air(self) -> float:
         """deceleration per squared spin [1/rad]; within [0.0, 1.0]"""
     @air.setter
-    def air(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def air(self, arg1: _Real) -> None: ...
     @property
     def axle(self) -> float:
         """constant deceleration [rad/s^2]; within [0.0, 10000.0]"""
     @axle.setter
-    def axle(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def axle(self, arg1: _Real) -> None: ...
 class GravityTilt:
     """Gravity along (x, y, -sqrt(1 - x^2 - y^2)) instead of -z: a frame that is not level."""
     __hash__: typing.ClassVar[None] = None
@@ -328,12 +328,12 @@ class GravityTilt:
     def x(self) -> float:
         """gravity's direction, forward [1]; within [-0.5, 0.5]"""
     @x.setter
-    def x(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def x(self, arg1: _Real) -> None: ...
     @property
     def y(self) -> float:
         """gravity's direction, to the left [1]; within [-0.5, 0.5]"""
     @y.setter
-    def y(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def y(self, arg1: _Real) -> None: ...
 class FiniteAxle:
     """An axle that is not thin: string lies around it, and the strands leave it along its tangents."""
     __hash__: typing.ClassVar[None] = None
@@ -348,7 +348,7 @@ class FiniteAxle:
     def radius(self) -> float:
         """of the axle, to the string's centre line [m]; within [0.0, 0.1]"""
     @radius.setter
-    def radius(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def radius(self, arg1: _Real) -> None: ...
 class StickFlex:
     """Sticks that bend: each tip gives by compliance times the string's pull, square to its stick."""
     __hash__: typing.ClassVar[None] = None
@@ -363,17 +363,17 @@ class StickFlex:
     def compliance(self) -> float:
         """of one tip, square to its stick [m/N]; within [0.0, 1.0]"""
     @compliance.setter
-    def compliance(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def compliance(self, arg1: _Real) -> None: ...
     @property
     def damping(self) -> float:
         """of one tip [N s/m]; within [0.0, 10000.0]"""
     @damping.setter
-    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def damping(self, arg1: _Real) -> None: ...
     @property
     def tip_mass(self) -> float:
         """that moves with one tip [kg]; within [0.0, 1.0]"""
     @tip_mass.setter
-    def tip_mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def tip_mass(self, arg1: _Real) -> None: ...
 class StringMass:
     """A string that weighs something: while it is loose, half of it hangs on the diabolo."""
     __hash__: typing.ClassVar[None] = None
@@ -388,7 +388,7 @@ class StringMass:
     def linear_density(self) -> float:
         """of the string [kg/m]; within [0.0, 0.1]"""
     @linear_density.setter
-    def linear_density(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def linear_density(self, arg1: _Real) -> None: ...
 class LandingRestitution:
     """A catch that bounces: of the rate at which a string that comes taut would stretch, so much is given back."""
     __hash__: typing.ClassVar[None] = None
@@ -403,7 +403,7 @@ class LandingRestitution:
     def coefficient(self) -> float:
         """of the string's rate of stretch that a catch gives back [1]; within [0.0, 1.0]"""
     @coefficient.setter
-    def coefficient(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def coefficient(self, arg1: _Real) -> None: ...
 class UnnamedForce:
     """
     A force without a name, as a diagnosis found it: accelerations times powers of speed and spin.
@@ -424,37 +424,37 @@ class UnnamedForce:
     def flight_against(self) -> float:
         """off the string, against the velocity [m/s^2]; within [-100.0, 100.0]"""
     @flight_against.setter
-    def flight_against(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def flight_against(self, arg1: _Real) -> None: ...
     @property
     def flight_lift(self) -> float:
         """off the string, along omega x v [m/s^2]; within [-100.0, 100.0]"""
     @flight_lift.setter
-    def flight_lift(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def flight_lift(self, arg1: _Real) -> None: ...
     @property
     def flight_vertical(self) -> float:
         """off the string, up [m/s^2]; within [-100.0, 100.0]"""
     @flight_vertical.setter
-    def flight_vertical(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def flight_vertical(self, arg1: _Real) -> None: ...
     @property
     def speed_exponent(self) -> float:
         """power of the speed over 1 m/s [1]; within [-4.0, 4.0]"""
     @speed_exponent.setter
-    def speed_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def speed_exponent(self, arg1: _Real) -> None: ...
     @property
     def spin_exponent(self) -> float:
         """power of the spin over 100 rad/s [1]; within [-4.0, 4.0]"""
     @spin_exponent.setter
-    def spin_exponent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def spin_exponent(self, arg1: _Real) -> None: ...
     @property
     def string_binormal(self) -> float:
         """on the string, square to its plane, forwards [m/s^2]; within [-100.0, 100.0]"""
     @string_binormal.setter
-    def string_binormal(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def string_binormal(self, arg1: _Real) -> None: ...
     @property
     def string_tangent(self) -> float:
         """on the string, along it towards the right tip, at 1 m/s and 100 rad/s [m/s^2]; within [-100.0, 100.0]"""
     @string_tangent.setter
-    def string_tangent(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def string_tangent(self, arg1: _Real) -> None: ...
 class GyroscopicTilt:
     """Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I."""
     __hash__: typing.ClassVar[None] = None
@@ -469,7 +469,7 @@ class GyroscopicTilt:
     def gain(self) -> float:
         """mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]"""
     @gain.setter
-    def gain(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def gain(self, arg1: _Real) -> None: ...
 class FormulaLaws:
     """
     Laws by formulas: somebody's own, or learnt by a diagnosis.
@@ -594,26 +594,26 @@ class State:
     string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
     is the axle's direction, which only GyroscopicTilt turns.
     """
-    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (0.0, 0.0, 0.0), spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, string_state: typing.Any = 'loose', axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = (1.0, 0.0, 0.0)) -> None: ...
-    def to_array(self) -> numpy.typing.NDArray[numpy.float64]:
+    def __init__(self, position: _Reals, velocity: _Reals = (0.0, 0.0, 0.0), spin: _Real = 0.0, string_state: typing.Any = 'loose', axis: _Reals = (1.0, 0.0, 0.0)) -> None: ...
+    def to_array(self) -> _Array:
         """Position, velocity and spin, shape (7,)."""
     @property
-    def axis(self) -> numpy.typing.NDArray[numpy.float64]:
+    def axis(self) -> _Array:
         """Direction of the axle, forward: a unit vector, shape (3,)."""
     @axis.setter
-    def axis(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
+    def axis(self, arg1: _Reals) -> None: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> _Array:
         """Centre [m], shape (3,)."""
     @position.setter
-    def position(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
+    def position(self, arg1: _Reals) -> None: ...
     @property
     def spin(self) -> float:
         """[rad/s]"""
     @spin.setter
-    def spin(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def spin(self, arg1: _Real) -> None: ...
     @property
-    def string_acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+    def string_acceleration(self) -> _Array:
         """Mean acceleration by the string over the last step [m/s^2], shape (3,)."""
     @property
     def string_state(self) -> int:
@@ -621,10 +621,10 @@ class State:
     @string_state.setter
     def string_state(self, arg1: typing.Any) -> None: ...
     @property
-    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+    def velocity(self) -> _Array:
         """[m/s], shape (3,)."""
     @velocity.setter
-    def velocity(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None: ...
+    def velocity(self, arg1: _Reals) -> None: ...
 class RecordingError(ValueError):
     """What is wrong with a recording, a calibration or one of their files."""
 class DiaboloProperties:
@@ -639,7 +639,7 @@ class DiaboloProperties:
     @staticmethod
     def red() -> DiaboloProperties:
         """The paper's red diabolo, without markers."""
-    def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex, diameter: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, axle_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0065) -> None: ...
+    def __init__(self, mass: _Real, diameter: _Real, length: _Real, axle_radius: _Real = 0.0065) -> None: ...
     @property
     def axle_radius(self) -> float:
         """Where the string runs [m]."""
@@ -666,7 +666,7 @@ class Calibration:
     @staticmethod
     def published() -> Calibration:
         """Of the red diabolo with the sticks of July 2020; the default."""
-    def of(self, properties: DiaboloProperties, string_length: typing.SupportsFloat | typing.SupportsIndex) -> Calibration:
+    def of(self, properties: DiaboloProperties, string_length: _Real) -> Calibration:
         """The same for a diabolo and a string [m]."""
     def renamed(self, left: str = '', right: str = '', diabolo: str = '') -> Calibration:
         """The same for bodies of these names, where one is given."""
@@ -679,10 +679,10 @@ class MotiveBody:
     @property
     def name(self) -> str: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> _Array:
         """Of the body's origin [m], shape (N, 3); NaN in a dropout."""
     @property
-    def quaternion(self) -> numpy.typing.NDArray[numpy.float64]:
+    def quaternion(self) -> _Array:
         """Body to capture frame, x, y, z, w, shape (N, 4); NaN in a dropout."""
 class MotiveTake:
     """A take as OptiTrack Motive exports it, with nothing interpreted."""
@@ -696,7 +696,7 @@ class MotiveTake:
     def rate(self) -> float:
         """[Hz]"""
     @property
-    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+    def time(self) -> _Array:
         """[s], shape (N,)."""
 class Recording:
     """
@@ -718,15 +718,15 @@ class Recording:
         Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
         it, string and diabolo are the calibration's.
         """
-    def __init__(self, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], diabolo: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, *, diabolo_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, left_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_orientation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.46) -> None: ...
+    def __init__(self, time: _Reals, left: _Reals, right: _Reals, diabolo: _Reals, rate: _Real, *, diabolo_orientation: _Reals | None = None, left_orientation: _Reals | None = None, right_orientation: _Reals | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: _Real = 1.46) -> None: ...
     def __len__(self) -> int: ...
-    def cut(self, first: typing.SupportsInt | typing.SupportsIndex, last: typing.SupportsInt | typing.SupportsIndex) -> Recording:
+    def cut(self, first: _Whole, last: _Whole) -> Recording:
         """Rows first to last, both included."""
-    def resample(self, rate: typing.SupportsFloat | typing.SupportsIndex) -> Recording:
+    def resample(self, rate: _Real) -> Recording:
         """The recording at another rate [Hz]; dropouts are not bridged."""
     def save(self, path: os.PathLike | str | bytes) -> None:
         """Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all."""
-    def spin(self, signed: bool = True) -> numpy.typing.NDArray[numpy.float64]:
+    def spin(self, signed: bool = True) -> _Array:
         """Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the published rule, which counts turning of the axle too."""
     def warnings(self) -> list[str]:
         """What its reader changed, and what is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each."""
@@ -734,10 +734,10 @@ class Recording:
     def clock(self) -> float:
         """What laws in time go by, at the first sample [s]: a part keeps that of the whole."""
     @property
-    def diabolo(self) -> numpy.typing.NDArray[numpy.float64]:
+    def diabolo(self) -> _Array:
         """Centre of the axle [m], shape (N, 3)."""
     @property
-    def diabolo_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
+    def diabolo_orientation(self) -> _Array | None:
         """Unit quaternions x, y, z, w, shape (N, 4), or None; body x is the spin axis."""
     @property
     def diabolo_valid(self) -> numpy.typing.NDArray[numpy.bool]:
@@ -746,10 +746,10 @@ class Recording:
     def frame(self) -> numpy.typing.NDArray[numpy.int64]:
         """Number of each sample in its take, shape (N,)."""
     @property
-    def left(self) -> numpy.typing.NDArray[numpy.float64]:
+    def left(self) -> _Array:
         """Left stick tip [m], shape (N, 3)."""
     @property
-    def left_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
+    def left_orientation(self) -> _Array | None:
         """Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards."""
     @property
     def left_valid(self) -> numpy.typing.NDArray[numpy.bool]:
@@ -765,10 +765,10 @@ class Recording:
     def rate(self) -> float:
         """Nominal sampling rate [Hz]."""
     @property
-    def right(self) -> numpy.typing.NDArray[numpy.float64]:
+    def right(self) -> _Array:
         """Right stick tip [m], shape (N, 3)."""
     @property
-    def right_orientation(self) -> numpy.typing.NDArray[numpy.float64] | None:
+    def right_orientation(self) -> _Array | None:
         """Unit quaternions x, y, z, w, shape (N, 4), or None; body x runs along the stick, outwards."""
     @property
     def right_valid(self) -> numpy.typing.NDArray[numpy.bool]:
@@ -777,7 +777,7 @@ class Recording:
     def string_length(self) -> float:
         """[m]"""
     @property
-    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+    def time(self) -> _Array:
         """[s], shape (N,)."""
 class Spheroid:
     """
@@ -787,36 +787,36 @@ class Spheroid:
     |p - left| + |p - right| == string_length. Methods take points of the shape (..., 3) [m] and give arrays of
     the shape (...) or (..., 3); a point with a NaN (a dropout) gives NaN.
     """
-    def __init__(self, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_length: typing.SupportsFloat | typing.SupportsIndex) -> None:
+    def __init__(self, left: _Reals, right: _Reals, string_length: _Real) -> None:
         """Tips, each of the shape (3,) [m], and string length [m]."""
-    def closest_point(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def closest_point(self, points: _Reals) -> _Array:
         """The closest points of the surface [m]."""
-    def normal(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def normal(self, points: _Reals) -> _Array:
         """Outward unit normals of the confocal surfaces through the points."""
-    def path_gradient(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def path_gradient(self, points: _Reals) -> _Array:
         """Derivative of the path length with respect to the point."""
-    def path_length(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def path_length(self, points: _Reals) -> _Array:
         """|p - left| + |p - right| [m]."""
-    def published_normal(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def published_normal(self, points: _Reals) -> _Array:
         """The unit vectors that the published program takes for the normals."""
-    def radial_point(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def radial_point(self, points: _Reals) -> _Array:
         """Where the rays from the centre leave the spheroid [m] (the published program's projection)."""
-    def signed_distance(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def signed_distance(self, points: _Reals) -> _Array:
         """Distance to the surface [m], positive inside (the paper's s)."""
     @property
-    def axis(self) -> numpy.typing.NDArray[numpy.float64]:
+    def axis(self) -> _Array:
         """Unit vector from the right tip to the left one, shape (3,)."""
     @property
-    def center(self) -> numpy.typing.NDArray[numpy.float64]:
+    def center(self) -> _Array:
         """Midpoint of the tips, shape (3,) [m]."""
     @property
-    def left(self) -> numpy.typing.NDArray[numpy.float64]:
+    def left(self) -> _Array:
         """Left tip, shape (3,) [m]."""
     @property
     def overstretched(self) -> bool:
         """Whether the tips are farther apart than the string is long."""
     @property
-    def right(self) -> numpy.typing.NDArray[numpy.float64]:
+    def right(self) -> _Array:
         """Right tip, shape (3,) [m]."""
     @property
     def semi_major(self) -> float:
@@ -843,11 +843,11 @@ class TipMotion:
     @staticmethod
     def of_recording(recording: Recording, interpolation: str = 'spline') -> TipMotion:
         """Motion of a recording's tips and sticks, time zero at its first row; gaps in a tip's track are filled, and rows before both tips are seen, or after, are left out."""
-    def __init__(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], interpolation: str = 'linear', left_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, right_directions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None: ...
+    def __init__(self, times: _Reals, left: _Reals, right: _Reals, interpolation: str = 'linear', left_directions: _Reals | None = None, right_directions: _Reals | None = None) -> None: ...
     def __len__(self) -> int: ...
-    def at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
+    def at(self, times: _Reals) -> tuple:
         """Left tips [m], right tips [m], left and right velocities [m/s] at times of any shape (...): four arrays of the shape (..., 3)."""
-    def directions_at(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
+    def directions_at(self, times: _Reals) -> tuple:
         """Directions of the left and of the right stick at times of any shape (...): two arrays of the shape (..., 3), zero where not known."""
     @property
     def begin(self) -> float:
@@ -858,19 +858,19 @@ class TipMotion:
     @property
     def interpolation(self) -> str: ...
     @property
-    def left(self) -> numpy.typing.NDArray[numpy.float64]:
+    def left(self) -> _Array:
         """Left tips [m], shape (M, 3)."""
     @property
-    def left_directions(self) -> numpy.typing.NDArray[numpy.float64]:
+    def left_directions(self) -> _Array:
         """Of the left stick, shape (M, 3); zero where not known."""
     @property
-    def right(self) -> numpy.typing.NDArray[numpy.float64]:
+    def right(self) -> _Array:
         """Right tips [m], shape (M, 3)."""
     @property
-    def right_directions(self) -> numpy.typing.NDArray[numpy.float64]:
+    def right_directions(self) -> _Array:
         """Of the right stick, shape (M, 3); zero where not known."""
     @property
-    def times(self) -> numpy.typing.NDArray[numpy.float64]:
+    def times(self) -> _Array:
         """Instants [s], shape (M,)."""
 class StepStatus:
     """What happened in one step."""
@@ -897,7 +897,7 @@ class Predictor:
     def __init__(self, parameters: Parameters, **kwargs) -> None: ...
     @typing.overload
     def __init__(self, model: Model, **kwargs) -> None: ...
-    def step(self, state: State, left0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], dt: typing.SupportsFloat | typing.SupportsIndex, velocities: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], "FixedSize(4)"] | None = None, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> StepStatus:
+    def step(self, state: State, left0: _Reals, right0: _Reals, left1: _Reals, right1: _Reals, dt: _Real, velocities: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(4)"] | None = None, time: _Real = 0.0) -> StepStatus:
         """
         Advances `state` in place by `dt` > 0 [s] while the tips move from left0, right0 to left1, right1,
         each of the shape (3,) [m].
@@ -1290,6 +1290,27 @@ class ParametersAlone:
     @property
     def recording(self) -> str:
         """By its name."""
+class CatchRule:
+    """The simulator catches with a taut string only, and these recordings show catches with a slack one."""
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def to_dict(self) -> dict:
+        """The same as its file has it."""
+    @property
+    def catch_slack_m(self) -> float:
+        """How much closer than the string is long the tips may be; it is in the model."""
+    @property
+    def error_after_m(self) -> float:
+        """The same with the wider rule."""
+    @property
+    def error_before_m(self) -> float:
+        """Mean position error up to 1 s ahead with what else was found, and the simulator's rule."""
+    @property
+    def starts_against(self) -> int:
+        """The same, worse."""
+    @property
+    def starts_for(self) -> int:
+        """Starts that are predicted better with it by ten times what their noise makes."""
 class DifferingEffect:
     """Something of which recordings ask for different values."""
     __hash__: typing.ClassVar[None] = None
@@ -1400,7 +1421,7 @@ class LadderRow:
     """A candidate, and what speaks for it."""
     __hash__: typing.ClassVar[None] = None
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __init__(self, name: str, estimate: typing.SupportsFloat | typing.SupportsIndex, z: typing.SupportsFloat | typing.SupportsIndex, claimed: bool) -> None: ...
+    def __init__(self, name: str, estimate: _Real, z: _Real, claimed: bool) -> None: ...
     def to_dict(self) -> dict:
         """The same as its file has it."""
     @property
@@ -1553,7 +1574,7 @@ class DiagnosisResult:
     def load(path: os.PathLike | str | bytes) -> DiagnosisResult:
         """Reads such a file."""
     def __eq__(self, other: typing.Any) -> bool: ...
-    def completed(self, seconds: typing.SupportsFloat | typing.SupportsIndex | None = None, inputs: collections.abc.Sequence[InputFile] = [], model: str | None = None) -> DiagnosisResult:
+    def completed(self, seconds: _Real | None = None, inputs: collections.abc.Sequence[InputFile] = [], model: str | None = None) -> DiagnosisResult:
         """The same with what only its caller knows; the rest as it is."""
     def to_dict(self) -> dict:
         """The same as its file has it."""
@@ -1565,6 +1586,9 @@ class DiagnosisResult:
     @property
     def base(self) -> str:
         """Name of the simulator that was asked about."""
+    @property
+    def catch_rule(self) -> CatchRule | None:
+        """That the simulator's catches are too strict; null where nothing says so."""
     @property
     def differing(self) -> list[DifferingEffect]:
         """What recordings ask different values of, the surest first."""
@@ -1724,15 +1748,15 @@ class HandLimits:
     string_margin [m]: the tips stay closer than the string is long by this; centre and half [m]: of the box, whose
     left half (along y) the left tip keeps to, and the right tip to the other.
     """
-    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 2.3, acceleration: typing.SupportsFloat | typing.SupportsIndex = 34.6, gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None: ...
+    def __init__(self, speed: _Real = 2.3, acceleration: _Real = 34.6, gap: _Real = 0.02, string_margin: _Real = 0.002, centre: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None: ...
     @property
     def acceleration(self) -> float: ...
     @property
-    def centre(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def centre(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @property
     def gap(self) -> float: ...
     @property
-    def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def half(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @property
     def speed(self) -> float: ...
     @property
@@ -1744,7 +1768,7 @@ class Camera:
     noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
     nothing is seen; least_delay to most_delay [frames]: each episode draws one.
     """
-    def __init__(self, noise: typing.SupportsFloat | typing.SupportsIndex = 0.001, spin_noise: typing.SupportsFloat | typing.SupportsIndex = 1.0, dropouts: typing.SupportsFloat | typing.SupportsIndex = 0.02, least_delay: typing.SupportsInt | typing.SupportsIndex = 1, most_delay: typing.SupportsInt | typing.SupportsIndex = 3) -> None: ...
+    def __init__(self, noise: _Real = 0.001, spin_noise: _Real = 1.0, dropouts: _Real = 0.02, least_delay: _Whole = 1, most_delay: _Whole = 3) -> None: ...
     @property
     def dropouts(self) -> float: ...
     @property
@@ -1757,19 +1781,19 @@ class Camera:
     def spin_noise(self) -> float: ...
 class EpisodeStart:
     """What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], the goal (None: it is drawn), the stage of a task that has several, and how many flights were caught."""
-    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, stage: typing.SupportsInt | typing.SupportsIndex = 0, flights: typing.SupportsInt | typing.SupportsIndex = 0) -> None: ...
+    def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[_Real] | None = None, stage: _Whole = 0, flights: _Whole = 0) -> None: ...
 class Arena:
     """Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites."""
-    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: typing.SupportsInt | typing.SupportsIndex = 1, period: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 10, autoreset: str = 'next_step', threads: typing.SupportsInt | typing.SupportsIndex = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None: ...
-    def model_of(self, environment: typing.SupportsInt | typing.SupportsIndex) -> int:
+    def __init__(self, task: str, models: collections.abc.Sequence[Model], count: _Whole = 1, period: _Real = 0.01, steps: _Whole = 10, autoreset: str = 'next_step', threads: _Whole = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: _Real = 0.0) -> None: ...
+    def model_of(self, environment: _Whole) -> int:
         """Number of the model that it plays with."""
-    def outcome(self, environment: typing.SupportsInt | typing.SupportsIndex) -> dict:
+    def outcome(self, environment: _Whole) -> dict:
         """What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
-    def pose(self, environment: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+    def pose(self, environment: _Whole) -> tuple:
         """State of the diabolo, left tip and right tip."""
-    def reset(self, environment: typing.SupportsInt | typing.SupportsIndex, state: State | None = None, goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None, model: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
+    def reset(self, environment: _Whole, state: State | None = None, goal: collections.abc.Sequence[_Real] | None = None, model: _Whole | None = None) -> None:
         """Begins its next episode, with what is given in place of what is drawn."""
-    def seed(self, environment: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex) -> None:
+    def seed(self, environment: _Whole, seed: _Whole) -> None:
         """Its episodes begin anew with this seed."""
     def step(self, actions: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> None:
         """Plays a period. actions: shares of the tips' accelerations, shape (count, 6)."""
@@ -1797,10 +1821,10 @@ class Agent:
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> Agent:
         """Reads a file of the schema diabolo.agent/1."""
-    def __init__(self, task: str, period: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None: ...
+    def __init__(self, task: str, period: _Real, steps: _Whole, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None: ...
     def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
         """Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each."""
-    def to_json(self, decimals: typing.SupportsInt | typing.SupportsIndex | None = None) -> str:
+    def to_json(self, decimals: _Whole | None = None) -> str:
         """The text of its file; with its numbers rounded to so many decimals (1 to 6) it is a third as large."""
     @property
     def layers(self) -> list: ...
@@ -1818,34 +1842,34 @@ class LiveAgent:
     gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed. Raises
     ValueError where the tips are not within the limits.
     """
-    def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], limits: HandLimits = ..., string_length: typing.SupportsFloat | typing.SupportsIndex = 1.45, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, camera: Camera | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> None: ...
-    def act(self, state: State) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+    def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[_Real] = [], limits: HandLimits = ..., string_length: _Real = 1.45, gravity: _Real = 9.80665, camera: Camera | None = None, seed: _Whole = 0) -> None: ...
+    def act(self, state: State) -> tuple[typing.Annotated[_Array, "[3, 1]"], typing.Annotated[_Array, "[3, 1]"], typing.Annotated[_Array, "[3, 1]"], typing.Annotated[_Array, "[3, 1]"]]:
         """Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant."""
     @property
     def agent(self) -> Agent: ...
 class Waypoint:
     """A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle."""
-    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0, velocity_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, direction_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None: ...
+    def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: _Real = 1.0, velocity_weight: _Real = 0.0, direction_weight: _Real = 0.0) -> None: ...
     @property
     def direction_weight(self) -> float: ...
     @direction_weight.setter
-    def direction_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def direction_weight(self, arg0: _Real) -> None: ...
     @property
-    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def position(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @position.setter
     def position(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def position_weight(self) -> float: ...
     @position_weight.setter
-    def position_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def position_weight(self, arg0: _Real) -> None: ...
     @property
-    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def velocity(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @velocity.setter
     def velocity(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def velocity_weight(self) -> float: ...
     @velocity_weight.setter
-    def velocity_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def velocity_weight(self, arg0: _Real) -> None: ...
 class Goals:
     """
     What a plan shall achieve; what is not given does not count.
@@ -1854,7 +1878,7 @@ class Goals:
     apex [m], above the tips, and landing [m] are those of the flight that the motion ends in; caught is the weight
     of missing a diabolo that flies.
     """
-    def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: typing.SupportsFloat | typing.SupportsIndex | None = None, spin_weight: typing.SupportsFloat | typing.SupportsIndex = 0.02, taut: typing.SupportsFloat | typing.SupportsIndex | None = None, apex: typing.SupportsFloat | typing.SupportsIndex | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None: ...
+    def __init__(self, waypoints: collections.abc.Sequence[Waypoint] = [], final_state: Waypoint | None = None, spin: _Real | None = None, spin_weight: _Real = 0.02, taut: _Real | None = None, apex: _Real | None = None, landing: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] | None = None, caught: _Real | None = None) -> None: ...
     @property
     def apex(self) -> float | None: ...
     @property
@@ -1862,7 +1886,7 @@ class Goals:
     @property
     def final_state(self) -> Waypoint | None: ...
     @property
-    def landing(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None: ...
+    def landing(self) -> typing.Annotated[_Array, "[3, 1]"] | None: ...
     @property
     def spin(self) -> float | None: ...
     @property
@@ -1871,11 +1895,11 @@ class Goals:
     def waypoints(self) -> list[Waypoint]: ...
 class TipPath:
     """Planned motion of the tips: piecewise cubics."""
-    def derivatives(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def derivatives(self, times: _Reals) -> _Array:
         """Tips, left over right [m], and their velocity, acceleration and jerk at times of the shape (N,): shape (4, N, 6)."""
     def followed_by(self, next: TipPath) -> TipPath:
         """This path and then another one, moved in time to this one's end, where their tips and velocities must meet."""
-    def tips(self, interval: typing.SupportsFloat | typing.SupportsIndex = 0.002) -> TipMotion:
+    def tips(self, interval: _Real = 0.002) -> TipMotion:
         """The same motion in samples [s], for predictions."""
     @property
     def begin(self) -> float:
@@ -1885,7 +1909,7 @@ class TipPath:
         """[s]"""
 class LimitUse:
     """How much of a limit a path uses: value, limit, and the excess, at most zero where it is kept, as a share or in metres."""
-    def __init__(self, name: str, value: typing.SupportsFloat | typing.SupportsIndex, limit: typing.SupportsFloat | typing.SupportsIndex, unit: str, time: typing.SupportsFloat | typing.SupportsIndex, excess: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def __init__(self, name: str, value: _Real, limit: _Real, unit: str, time: _Real, excess: _Real) -> None: ...
     @property
     def excess(self) -> float: ...
     @property
@@ -1907,24 +1931,24 @@ class TipLimits:
     highest [m]: corners of the workspace; others: called with a TipPath, returns a list of LimitUse, such as a
     robot's.
     """
-    def __init__(self, speed: typing.SupportsFloat | typing.SupportsIndex = 4.0, acceleration: typing.SupportsFloat | typing.SupportsIndex = 60.0, jerk: typing.SupportsFloat | typing.SupportsIndex = ..., string_margin: typing.SupportsFloat | typing.SupportsIndex = 0.002, least_gap: typing.SupportsFloat | typing.SupportsIndex = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: typing.Any = None) -> None: ...
+    def __init__(self, speed: _Real = 4.0, acceleration: _Real = 60.0, jerk: _Real = ..., string_margin: _Real = 0.002, least_gap: _Real = 0.02, lowest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., highest: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., others: typing.Any = None) -> None: ...
     @property
     def acceleration(self) -> float: ...
     @property
-    def highest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def highest(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @property
     def jerk(self) -> float: ...
     @property
     def least_gap(self) -> float: ...
     @property
-    def lowest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def lowest(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @property
     def speed(self) -> float: ...
     @property
     def string_margin(self) -> float: ...
 class Freedom:
     """What a solver may change of a seed: x too, durations, the last point; up to a reach [m] of each coordinate and a stretch of each duration, as a share."""
-    def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: typing.SupportsFloat | typing.SupportsIndex = 0.4, stretch: typing.SupportsFloat | typing.SupportsIndex = 0.25) -> None: ...
+    def __init__(self, forward: bool = False, times: bool = True, last_point: bool = True, reach: _Real = 0.4, stretch: _Real = 0.25) -> None: ...
     @property
     def forward(self) -> bool: ...
     @property
@@ -1943,15 +1967,15 @@ class StickSpline:
     acceleration of both tips that it goes on from, two arrays of the shape (6,), left over right; sticks: their
     directions, unit vectors, likewise, zero where not known; StickFlex alone looks at them.
     """
-    def __init__(self, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None: ...
+    def __init__(self, times: collections.abc.Sequence[_Real], left: _Reals, right: _Reals, loop: bool = False, start: tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]] | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None: ...
     def path(self) -> TipPath:
         """The TipPath through the points."""
     @property
-    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    def left(self) -> typing.Annotated[_Array, "[m, n]"]: ...
     @property
-    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    def right(self) -> typing.Annotated[_Array, "[m, n]"]: ...
     @property
-    def sticks(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]: ...
+    def sticks(self) -> typing.Annotated[_Array, "[6, 1]"]: ...
     @property
     def times(self) -> list[float]: ...
 class Action:
@@ -2010,9 +2034,9 @@ class Seam:
     def joined(self, seed: StickSpline) -> StickSpline:
         """A seed moved there, which goes on from the tips' motion."""
     @property
-    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def left(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @property
-    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def right(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
     @property
     def state(self) -> State: ...
     @property
@@ -2025,12 +2049,12 @@ class RecedingHorizon:
         piece = ...                      # a plan from seam.state, its seed seam.joined(...)
         horizon.join(seam, piece, now, planning_time)  # False where it comes too late
     """
-    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None: ...
-    def join(self, seam: Seam, plan: Plan, now: typing.SupportsFloat | typing.SupportsIndex, planning_time: typing.SupportsFloat | typing.SupportsIndex) -> bool: ...
-    def observe(self, time: typing.SupportsFloat | typing.SupportsIndex, state: State) -> None:
+    def __init__(self, model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], state: State, begin: _Real = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> None: ...
+    def join(self, seam: Seam, plan: Plan, now: _Real, planning_time: _Real) -> bool: ...
+    def observe(self, time: _Real, state: State) -> None:
         """Takes over an observed state; predictions begin with the latest one."""
-    def seam(self, now: typing.SupportsFloat | typing.SupportsIndex) -> Seam: ...
-    def seam_at(self, time: typing.SupportsFloat | typing.SupportsIndex) -> Seam: ...
+    def seam(self, now: _Real) -> Seam: ...
+    def seam_at(self, time: _Real) -> Seam: ...
     @property
     def path(self) -> TipPath: ...
 class PlannedPlay:
@@ -2044,7 +2068,7 @@ class PlannedPlay:
     def ended(self) -> str:
         """Why there are fewer cycles than were asked for; empty where there are not."""
     @property
-    def left(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    def left(self) -> typing.Annotated[_Array, "[m, n]"]:
         """Left tip [m], shape (N, 3)."""
     @property
     def path(self) -> TipPath:
@@ -2059,19 +2083,19 @@ class PlannedPlay:
     def reached(self) -> bool:
         """Whether every goal of every cycle is reached."""
     @property
-    def right(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    def right(self) -> typing.Annotated[_Array, "[m, n]"]:
         """Right tip [m], shape (N, 3)."""
     @property
     def start(self) -> State:
         """State of the diabolo."""
     @property
-    def states(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    def states(self) -> typing.Annotated[_Array, "[m, n]"]:
         """Position [m], velocity [m/s] and spin [rad/s], shape (N, 7)."""
     @property
     def string_states(self) -> typing.Annotated[numpy.typing.NDArray[numpy.uint8], "[m, 1]"]:
         """As in StringState, shape (N,)."""
     @property
-    def time(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    def time(self) -> typing.Annotated[_Array, "[m, 1]"]:
         """[s], shape (N,)."""
     @property
     def wanted(self) -> list[Goals]:
@@ -2084,57 +2108,57 @@ class StickArm:
     world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for each of the six links, shape
     (6, 6), as the ROS driver extracts it; None is the arm of the data sheet. Joints are [rad], base to last wrist.
     """
-    def __init__(self, side: str, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, spacing: typing.SupportsFloat | typing.SupportsIndex = 1.1, forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, calibration: typing.Any = None) -> None: ...
-    def flange(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def __init__(self, side: str, height: _Real = 0.7, spacing: _Real = 1.1, forward: _Real = 0.0, calibration: typing.Any = None) -> None: ...
+    def flange(self, joints: _Reals) -> _Array:
         """Poses of the flange in the controller's base frame, shape (..., 4, 4), of joints (..., 6)."""
-    def inverse(self, flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], seed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def inverse(self, flange: _Reals, seed: _Reals) -> _Array:
         """Joints, shape (6,), near `seed` that bring the flange to a pose in the controller's base frame, shape (4, 4). Raises ValueError where the arm does not reach it."""
-    def jacobian(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def jacobian(self, joints: _Reals) -> _Array:
         """Velocity of the tip (rows 0-2, [m/rad]) and rotation of the flange (rows 3-5) over the joints, controller's base frame, shape (..., 6, 6)."""
-    def tip_position(self, joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def tip_position(self, joints: _Reals) -> _Array:
         """The stick's tip [m, world], shape (..., 3), of joints (..., 6)."""
     @property
-    def base(self) -> numpy.typing.NDArray[numpy.float64]:
+    def base(self) -> _Array:
         """Pose of the controller's base frame in the world, shape (4, 4)."""
     @property
     def side(self) -> str: ...
     @property
-    def tip(self) -> numpy.typing.NDArray[numpy.float64]:
+    def tip(self) -> _Array:
         """The stick's tip in the frame of the flange [m], shape (3,)."""
 class SeedGrid:
     """Joint configurations at the key points of a box, and cubic splines between them."""
     @staticmethod
-    def build(arm: StickArm, lower: typing.Any = None, upper: typing.Any = None, knots: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(3)"] = [6, 7, 7]) -> SeedGrid:
+    def build(arm: StickArm, lower: typing.Any = None, upper: typing.Any = None, knots: typing.Annotated[collections.abc.Sequence[_Whole], "FixedSize(3)"] = [6, 7, 7]) -> SeedGrid:
         """For a box from `lower` to `upper` [m, world], each of the shape (3,); default: the paper's. Raises ValueError with the point that the arm does not reach."""
     @staticmethod
     def load(path: os.PathLike | str | bytes) -> SeedGrid:
         """What save() wrote."""
     def save(self, path: os.PathLike | str | bytes) -> None:
         """Write a CSV of x, y, z [m] and q1 to q6 [rad], a line for each key point."""
-    def seed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def seed(self, points: _Reals) -> _Array:
         """Interpolated joints [rad], shape (..., 6), at points (..., 3); outside, of the nearest point."""
     @property
-    def joints(self) -> numpy.typing.NDArray[numpy.float64]:
+    def joints(self) -> _Array:
         """Of the key points [rad], shape (x, y, z, 6)."""
     @property
     def knots(self) -> typing.Annotated[list[int], "FixedSize(3)"]:
         """Key points along x, y and z."""
     @property
-    def lower(self) -> numpy.typing.NDArray[numpy.float64]:
+    def lower(self) -> _Array:
         """[m, world], shape (3,)."""
     @property
-    def upper(self) -> numpy.typing.NDArray[numpy.float64]:
+    def upper(self) -> _Array:
         """[m, world], shape (3,)."""
 class StickMap:
     """The joints of an arm as a function of its stick's tip, without drift."""
     def __init__(self, arm: StickArm, grid: SeedGrid) -> None: ...
-    def slopes(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def slopes(self, points: _Reals) -> _Array:
         """How the joints follow the tip [rad/m], shape (..., 6, 3); NaN where solve() has a code."""
-    def slowest_tip_speed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def slowest_tip_speed(self, points: _Reals) -> _Array:
         """The same in the slowest direction: there one joint alone sets the pace."""
-    def solve(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple:
+    def solve(self, points: _Reals) -> tuple:
         """Joints [rad], shape (..., 6), with the tip at points [m, world], shape (..., 3), and a code for each, shape (...): 0 reached, 1 outside the grid's box, 2 out of reach, 3 outside a joint's range; there the joints are NaN."""
-    def tip_speed(self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    def tip_speed(self, points: _Reals, direction: _Reals) -> _Array:
         """How fast the tip may go in a direction of any length, shape (3,), before a joint exceeds pi rad/s [m/s], shape (...); NaN where solve() has a code."""
     @property
     def arm(self) -> StickArm: ...
@@ -2148,38 +2172,38 @@ class RobotLimits:
     what must stay between the arms [m]. Called with a TipPath, it returns a list of LimitUse.
     """
     def __call__(self, path: TipPath) -> list[LimitUse]: ...
-    def __init__(self, left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1, share: typing.SupportsFloat | typing.SupportsIndex = 0.97) -> None: ...
-def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex = 1.0, pace: typing.SupportsFloat | typing.SupportsIndex = 1.0, height: typing.SupportsFloat | typing.SupportsIndex = 0.5, sideways: typing.SupportsFloat | typing.SupportsIndex = 0.3, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
+    def __init__(self, left: StickMap, right: StickMap, speed: _Real = 2.9845130209103035, acceleration: _Real = 15.0, jerk: _Real = 500.0, least_clearance: _Real = 0.1, share: _Real = 0.97) -> None: ...
+def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: _Real, size: _Real = 1.0, pace: _Real = 1.0, height: _Real = 0.5, sideways: _Real = 0.3, spin_gain: _Real | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
     """The figure of that name from a pose of the tips and a state of the diabolo."""
-def arm_hand_limits(left: StickMap, right: StickMap, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, room: HandLimits | None = None) -> HandLimits:
+def arm_hand_limits(left: StickMap, right: StickMap, speed: _Real = 2.9845130209103035, acceleration: _Real = 15.0, room: HandLimits | None = None) -> HandLimits:
     """
     HandLimits of an agent under which no joint of two arms, each a StickMap, exceeds `speed` [rad/s] or
     `acceleration` [rad/s^2], wherever in its part of a box a tip is. The box is that of `room`, HandLimits whose speed and acceleration do not
     count; None is one in front of the paper's arms. Jerk is not limited. Raises ValueError where an arm does not
     reach its part.
     """
-def baseline(recording: Recording) -> numpy.typing.NDArray[numpy.float64]:
+def baseline(recording: Recording) -> _Array:
     """The lowest points of the spheroid [m], shape (N, 3): what every model has to beat."""
 def best_guess(model: Model, ladder: collections.abc.Sequence[LadderRow]) -> Model:
     """See diabolo.best_guess."""
-def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0, least_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> dict:
+def check_plan(left: StickMap, right: StickMap, motion: TipMotion, speed: _Real = 2.9845130209103035, acceleration: _Real = 15.0, jerk: _Real = 500.0, least_clearance: _Real = 0.1) -> dict:
     """Whether two arms, each a StickMap, can play a TipMotion from rest to rest, where not and why."""
-def compare_simulator(recordings: collections.abc.Sequence[Recording], simulated: collections.abc.Sequence[Recording], simulate: typing.Any, base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> tuple:
+def compare_simulator(recordings: collections.abc.Sequence[Recording], simulated: collections.abc.Sequence[Recording], simulate: typing.Any, base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: _Real, seed: _Whole, threads: _Whole, progress: typing.Any) -> tuple:
     """See diabolo.compare_simulator."""
-def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any, draws: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdout: collections.abc.Sequence[Recording], bank: collections.abc.Sequence[str], laws: FormulaLaws, budget: _Real, seed: _Whole, threads: _Whole, progress: typing.Any, draws: _Whole) -> tuple:
     """See diabolo.diagnose."""
 def diagnosis_schema() -> str:
     """The JSON schema of a diagnosis' file."""
-def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: typing.SupportsInt | typing.SupportsIndex) -> ResidualFit: ...
-def foresee(model: Model, start: State, path: TipPath, dt: typing.SupportsFloat | typing.SupportsIndex = 0.001, flight: typing.SupportsFloat | typing.SupportsIndex = 0.0, down_to: typing.SupportsFloat | typing.SupportsIndex = ...) -> tuple:
+def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: _Whole) -> ResidualFit: ...
+def foresee(model: Model, start: State, path: TipPath, dt: _Real = 0.001, flight: _Real = 0.0, down_to: _Real = ...) -> tuple:
     """What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`."""
-def hang_at_rest(model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], spin: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> State:
+def hang_at_rest(model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], spin: _Real = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> State:
     """See diabolo.hang_at_rest."""
-def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: typing.SupportsFloat | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> State:
+def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: _Real, spin: _Real = 0.0) -> State:
     """A diabolo that hangs at rest at the lowest point between the tips."""
-def home_pose(name: str, string_length: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+def home_pose(name: str, string_length: _Real) -> tuple[typing.Annotated[_Array, "[3, 1]"], typing.Annotated[_Array, "[3, 1]"]]:
     """Where the tips start a figure [m]: left and right."""
-def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], speed: typing.SupportsFloat | typing.SupportsIndex = 2.9845130209103035, acceleration: typing.SupportsFloat | typing.SupportsIndex = 15.0, jerk: typing.SupportsFloat | typing.SupportsIndex = 500.0) -> tuple:
+def keep_limits(joints: _Reals, speed: _Real = 2.9845130209103035, acceleration: _Real = 15.0, jerk: _Real = 500.0) -> tuple:
     """
     Play a path slowly enough.
     
@@ -2187,11 +2211,11 @@ def keep_limits(joints: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     curve, shape (M, 12), whose speed [rad/s], acceleration [rad/s^2] and jerk [rad/s^3] keep the limits, and the time
     of the path that each belongs to [s], shape (M,). Raises ValueError where no play is slow enough.
     """
-def largest_spin(rate: typing.SupportsFloat | typing.SupportsIndex) -> float:
+def largest_spin(rate: _Real) -> float:
     """Largest spin that a sampling rate [Hz] tells apart [rad/s]."""
 def lessons() -> list:
     """Tasks that the player teaches."""
-def limit_uses(path: TipPath, limits: TipLimits, string_length: typing.SupportsFloat | typing.SupportsIndex) -> list[LimitUse]:
+def limit_uses(path: TipPath, limits: TipLimits, string_length: _Real) -> list[LimitUse]:
     """How much a path uses of each limit, from its exact maxima."""
 def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ..., *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
     """The same as Recording.load."""
@@ -2201,15 +2225,15 @@ def model_for(model: Model, recording: Recording) -> Model:
     """See diabolo.model_for."""
 def observation_infos() -> list:
     """What an agent sees: name, unit, size and meaning."""
-def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: typing.SupportsInt | typing.SupportsIndex, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> Plan:
+def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: _Whole, seconds: _Real, random_seed: _Whole, dt: _Real) -> Plan:
     """See diabolo.plan."""
-def plan_action(action: str, models: collections.abc.Sequence[Model], start: State | None, cycles: typing.SupportsInt | typing.SupportsIndex, spin: typing.SupportsFloat | typing.SupportsIndex, size: typing.SupportsFloat | typing.SupportsIndex, pace: typing.SupportsFloat | typing.SupportsIndex, height: typing.SupportsFloat | typing.SupportsIndex | None, sideways: typing.SupportsFloat | typing.SupportsIndex | None, spin_gain: typing.SupportsFloat | typing.SupportsIndex | None, limits: TipLimits, solver: str, seconds: typing.SupportsFloat | typing.SupportsIndex, random_seed: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]) -> PlannedPlay:
+def plan_action(action: str, models: collections.abc.Sequence[Model], start: State | None, cycles: _Whole, spin: _Real, size: _Real, pace: _Real, height: _Real | None, sideways: _Real | None, spin_gain: _Real | None, limits: TipLimits, solver: str, seconds: _Real, random_seed: _Whole, dt: _Real, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]) -> PlannedPlay:
     """See diabolo.plan_action."""
-def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: StickSpline, goals: Goals, limits: TipLimits, dt: typing.SupportsFloat | typing.SupportsIndex = 0.004) -> float:
+def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: StickSpline, goals: Goals, limits: TipLimits, dt: _Real = 0.004) -> float:
     """The paper's residual of a motion; infinite where it breaks a limit."""
-def played_recording(name: str, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], states: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.SupportsFloat | typing.SupportsIndex, properties: DiaboloProperties, string_length: typing.SupportsFloat | typing.SupportsIndex) -> Recording:
+def played_recording(name: str, time: _Reals, left: _Reals, right: _Reals, states: _Reals, rate: _Real, properties: DiaboloProperties, string_length: _Real) -> Recording:
     """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin."""
-def predict(recording: Recording, model: Model, row: typing.SupportsInt | typing.SupportsIndex | None, start: str) -> tuple:
+def predict(recording: Recording, model: Model, row: _Whole | None, start: str) -> tuple:
     """See diabolo.predict."""
 def read_recording(text: str, path: os.PathLike | str | bytes, calibration: Calibration, up: str | None, columns: None | str | collections.abc.Mapping[str, str]) -> Recording:
     """The same of a text, as if it stood in a file."""
@@ -2217,19 +2241,19 @@ def read_text(path: os.PathLike | str | bytes) -> str:
     """A text file in UTF-8, without its byte order mark. Raises RecordingError."""
 def recorded_plan(recording: Recording) -> TipMotion:
     """The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow."""
-def recording_of_bodies(file: str, time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], bodies: collections.abc.Sequence[tuple[str, typing.Annotated[numpy.typing.ArrayLike, numpy.float64], typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None]], notes: collections.abc.Sequence[str], calibration: Calibration, up: str | None) -> Recording:
+def recording_of_bodies(file: str, time: _Reals, bodies: collections.abc.Sequence[tuple[str, _Reals, _Reals | None]], notes: collections.abc.Sequence[str], calibration: Calibration, up: str | None) -> Recording:
     """The recording of rigid bodies: times [s], shape (N,), and of each body its name, positions [m], shape (N, 3), and orientations x, y, z, w, shape (N, 4), or None where it is a point; a row with NaN is a dropout. `file` is what messages name, `notes` what its reader changed."""
-def rollout(models: collections.abc.Sequence[Model], initial: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, record_every: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+def rollout(models: collections.abc.Sequence[Model], initial: _Reals, string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: _Real, dt: _Real, steps: _Whole, record_every: _Whole, threads: _Whole) -> tuple:
     """See diabolo.rollout, which checks and broadcasts what it hands over."""
-def rollout_gradient(model: Model, initial: State, tips: TipMotion, with_respect_to: collections.abc.Sequence[str], begin: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, steps: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex) -> tuple:
+def rollout_gradient(model: Model, initial: State, tips: TipMotion, with_respect_to: collections.abc.Sequence[str], begin: _Real, dt: _Real, steps: _Whole, threads: _Whole) -> tuple:
     """See diabolo.rollout_gradient."""
 def score_excerpt(recording: Recording, model: Model) -> ExcerptScore:
     """See diabolo.evaluate."""
 def score_excerpts(recording: Recording, model: Model) -> list[ExcerptScore]:
     """See diabolo.evaluate."""
-def score_horizons(recordings: collections.abc.Sequence[Recording], model: Model, starts_every: typing.SupportsFloat | typing.SupportsIndex, horizons: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], start: str, seed: typing.SupportsInt | typing.SupportsIndex, threads: typing.SupportsInt | typing.SupportsIndex, progress: typing.Any) -> list[HorizonScore]:
+def score_horizons(recordings: collections.abc.Sequence[Recording], model: Model, starts_every: _Real, horizons: collections.abc.Sequence[_Real], start: str, seed: _Whole, threads: _Whole, progress: typing.Any) -> list[HorizonScore]:
     """See diabolo.evaluate."""
-def start_state(recording: Recording, row: typing.SupportsInt | typing.SupportsIndex, start: str = 'fair', signed_spin: bool = True) -> State:
+def start_state(recording: Recording, row: _Whole, start: str = 'fair', signed_spin: bool = True) -> State:
     """State at a row of a recording: 'fair', from the rows up to it, or 'published', by the rules of the authors' program."""
 def stretch_starts(recording: Recording) -> list:
     """Rows from which a simulator is asked to play, each with its state, shape (7,)."""
@@ -2237,13 +2261,17 @@ def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> 
     """See diabolo.success_rate."""
 def task_infos() -> list:
     """What can be played: name, meaning, reward, seconds, goal and first spin of each."""
-def taught_starts(task: str, models: collections.abc.Sequence[Model], plays: typing.SupportsInt | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex, limits: HandLimits) -> list[EpisodeStart]:
+def taught_starts(task: str, models: collections.abc.Sequence[Model], plays: _Whole, seed: _Whole, limits: HandLimits) -> list[EpisodeStart]:
     """See diabolo.envs.taught_starts."""
 def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list[Recording], list[str]]:
     """Recordings without the samples that they share with ones before, and what was trimmed."""
-def ur5e_inverse(flange: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+def ur5e_inverse(flange: _Reals) -> _Array:
     """Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4)."""
 AIMS: dict = {'height': ('hop', 'throw', 'side_throw', 'throw_and_catch'), 'sideways': ('swing', 'side_throw', 'throw_and_catch'), 'spin_gain': ('linear_acceleration', 'circular_acceleration')}
 DIAGNOSIS_SCHEMA: str = 'diabolo.diagnosis/1'
 PLANNED_ACTIONS: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'stop', 'throw_and_catch')
 __version__: str = '0.1.0'
+_Real: typing.TypeAlias = typing.SupportsFloat | typing.SupportsIndex
+_Whole: typing.TypeAlias = typing.SupportsInt | typing.SupportsIndex
+_Reals: typing.TypeAlias = numpy.typing.ArrayLike
+_Array: typing.TypeAlias = numpy.typing.NDArray[numpy.float64]

@@ -77,6 +77,7 @@ class AttachedString {
     state.axis = body.axle;
     state.string_state = memory.string_state;
     state.string_acceleration = memory.string_acceleration;
+    settle(state, begin);
     const State<double> before = state;
     predictor_.step(state, begin, end, dt);
     const Vector3<double> reached = motion_ == HostMotion::kNewVelocity
@@ -91,6 +92,13 @@ class AttachedString {
   }
 
  private:
+  /// Where a host goes by a constant force is off a rigid string by the third order of the step.
+  void settle(State<double>& state, const Tips<double>& begin) const {
+    const StringNow<double> string = predictor_.effects().string(predictor_.parameters());
+    if (state.string_state == StringState::kOnString && string.compliance == 0.0)
+      settle_on_string(state, begin, string.length, PlaneProjector<double>());
+  }
+
   /// Splits what the string gives the diabolo among its two strands, and gives it back to the tips.
   void pull_strands(const State<double>& before, const State<double>& after, const Tips<double>& begin,
                     const Tips<double>& end, double dt, StringWrench& wrench) const {

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+// The engine plugin diabolo.string of MuJoCo: our string between two sites, on a free body that is the
+// diabolo. docs/hosts.md has its attributes. All that changes stands in the plugin's state, so that copies,
+// saved states, resets and MuJoCo's own rollouts work as for any other part of a model.
+#include <mujoco/mjplugin.h>
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Core>
+#include <charconv>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "diabolo/hosts/attach.hpp"
+#include "diabolo/json/model_file.hpp"
+
+namespace {
+
+using diabolo::Vector3;
+using Seen = Eigen::Map<const Vector3<double>>;
+
+constexpr const char *kBody = "body of diabolo.string", *kTips[2] = {"left", "right"};
+
+/// Calls visit(key, number) for every number of a model that an attribute may give.
+template <class Visit>
+void for_each_number(diabolo::Model& model, Visit&& visit) {
+  diabolo::Parameters<double>::for_each(
+      model.parameters,
+      [&](const diabolo::ParameterInfo& info, double& value) { visit(std::string(info.name), value); });
+  const auto visit_effect = [&]<class Effect>(Effect& effect) {
+    if constexpr (!Effect::kHasText)
+      Effect::for_each(effect, [&](const diabolo::ParameterInfo& info, double& value) {
+        visit(std::string(Effect::kName) + "." + std::string(info.name), value);
+      });
+  };
+  std::apply([&](auto&... effect) { (visit_effect(effect), ...); }, model.effects.members);
+}
+
+/// Where the two tips are and how they move, and what the next step begins with.
+struct Memory {
+  double owed[3], string_acceleration[3], string_state;
+  double tip[2][3];   ///< of a mocap body, at the step's beginning [m]
+  double rate[2][3];  ///< its mean velocity in the last step; of other tips, the velocity last seen [m/s]
+};
+
+/// The plugin's state, numbers alone.
+struct Stored {
+  Memory now, next;  ///< of the step that is asked about, and of the one after it
+  double begun;      ///< whether a step has been made since the reset
+  double time;       ///< at which the step began that was asked about last [s], or kNoStep
+  double force[3], torque[3], on_tip[2][3];
+  double seen[5];  ///< what the sensor says
+};
+constexpr double kNoStep = -1e300;  ///< none has begun
+constexpr int kNumbers = sizeof(Stored) / sizeof(mjtNum);
+static_assert(sizeof(mjtNum) == sizeof(double));
+
+/// An attribute's text; empty where it is not given.
+std::string attribute(const mjModel* m, int instance, const std::string& key) {
+  const char* text = mj_getPluginConfig(m, instance, key.c_str());
+  return text == nullptr ? "" : text;
+}
+
+void put(double* to, const Vector3<double>& from) { std::memcpy(to, from.data(), 3 * sizeof(double)); }
+
+/// What an instance needs and never changes.
+class StringOnBody {
+ public:
+  StringOnBody(const mjModel* m, int instance)
+      : body_(body_of(m, instance)),
+        sites_{site_of(m, instance, 0), site_of(m, instance, 1)},
+        string_(made(m, instance)) {}
+
+  void pull(const mjModel* m, mjData* d, Stored& stored) const {
+    if (!is_later_stage(m, d, stored)) ask(m, d, stored);
+    mj_applyFT(m, d, stored.force, stored.torque, d->xipos + 3 * body_, body_, d->qfrc_passive);
+    constexpr mjtNum kNone[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < 2; ++k) {
+      const int tip = m->site_bodyid[sites_[k]];
+      if (m->body_treeid[tip] < 0) continue;  // nothing moves it
+      mj_applyFT(m, d, stored.on_tip[k], kNone, d->site_xpos + 3 * sites_[k], tip, d->qfrc_passive);
+    }
+  }
+
+  void draw(const mjData* d, mjvScene* scene) const {
+    for (const int site : sites_) {
+      if (scene->ngeom >= scene->maxgeom) return;
+      constexpr float kColour[4] = {0.95F, 0.95F, 0.95F, 1.0F};
+      mjvGeom* geom = scene->geoms + scene->ngeom++;
+      mjv_initGeom(geom, mjGEOM_CAPSULE, nullptr, nullptr, nullptr, kColour);
+      mjv_connector(geom, mjGEOM_CAPSULE, 0.002, d->site_xpos + 3 * site, d->xipos + 3 * body_);
+    }
+  }
+
+ private:
+  static int body_of(const mjModel* m, int instance) {
+    for (int b = 0; b < m->nbody; ++b) {
+      if (m->body_plugin[b] != instance) continue;
+      if (m->body_jntnum[b] != 1 || m->jnt_type[m->body_jntadr[b]] != mjJNT_FREE)
+        throw std::invalid_argument(std::string(kBody) +
+                                    ": has no free joint; the diabolo must be a free body");
+      return b;
+    }
+    throw std::invalid_argument(std::string(kBody) + ": none; expected <plugin instance=...> in one body");
+  }
+
+  static int site_of(const mjModel* m, int instance, int k) {
+    const std::string name = attribute(m, instance, kTips[k]);
+    const int site = mj_name2id(m, mjOBJ_SITE, name.c_str());
+    if (site < 0)
+      throw std::invalid_argument(std::string(kTips[k]) + ": \"" + name + "\"; expected the name of a site");
+    return site;
+  }
+
+  /// The string of the attributes, with the mass of the body and the gravity of the model.
+  diabolo::AttachedString made(const mjModel* m, int instance) const {
+    const Vector3<double> gravity = Seen(m->opt.gravity);
+    if (gravity.x() != 0.0 || gravity.y() != 0.0 || gravity.z() > 0.0)
+      throw std::invalid_argument("gravity: not along -z; the string knows no other");
+    const std::string file = attribute(m, instance, "model");
+    diabolo::Model model = file.empty()     ? diabolo::consistent_model()
+                           : file[0] == '{' ? diabolo::read_model(file, "model")
+                                            : diabolo::load_model(file);
+    for_each_number(model, [&](const std::string& key, double& value) {
+      const std::string text = attribute(m, instance, key);
+      if (text.empty()) return;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error != std::errc() || end != text.data() + text.size())
+        throw std::invalid_argument(key + ": \"" + text + "\"; expected a number");
+    });
+    model.parameters.mass = m->body_mass[body_];
+    model.parameters.gravity = -gravity.z();
+    const Vector3<double> axle = inertial_axle(m);
+    const double inertia = axle.dot(Seen(m->body_inertia + 3 * body_).asDiagonal() * axle);
+    return {diabolo::FullPredictor<double>(model.parameters, model.effects), m->body_mass[body_], inertia,
+            gravity,
+            m->opt.integrator == mjINT_RK4 ? diabolo::HostMotion::kConstantForce
+                                           : diabolo::HostMotion::kNewVelocity};
+  }
+
+  /// The body's x axis in the frame of its inertia.
+  Vector3<double> inertial_axle(const mjModel* m) const {
+    constexpr mjtNum kForward[3] = {1.0, 0.0, 0.0};
+    mjtNum back[4], axle[3];
+    mju_negQuat(back, m->body_iquat + 4 * body_);
+    mju_rotVecQuat(axle, kForward, back);
+    return Seen(axle);
+  }
+
+  /// Whether a Runge-Kutta step that has begun asks again.
+  static bool is_later_stage(const mjModel* m, const mjData* d, const Stored& stored) {
+    return m->opt.integrator == mjINT_RK4 && stored.time != kNoStep && d->time > stored.time &&
+           d->time < stored.time + 1.0001 * m->opt.timestep;
+  }
+
+  void ask(const mjModel* m, mjData* d, Stored& stored) const {
+    const double dt = m->opt.timestep;
+    mjtNum moves[6];
+    mj_objectVelocity(m, d, mjOBJ_BODY, body_, moves, 0);
+    diabolo::HostBody body;
+    body.position = Seen(d->xipos + 3 * body_);
+    body.velocity = Seen(moves + 3);
+    const mjtNum* frame = d->xmat + 9 * body_;
+    body.axle = Vector3<double>(frame[0], frame[3], frame[6]);
+    body.axle_rate = body.axle.dot(Seen(moves));
+
+    const bool first = stored.begun == 0.0;
+    Memory next = stored.now;
+    diabolo::Tips<double> begin, end;
+    begin.time = d->time;
+    end.time = d->time + dt;
+    Vector3<double>*const at[2][2] = {{&begin.left, &end.left}, {&begin.right, &end.right}},
+                          *const rate[2][2] = {{&begin.left_velocity, &end.left_velocity},
+                                               {&begin.right_velocity, &end.right_velocity}},
+                          *const along[2][2] = {{&begin.left_direction, &end.left_direction},
+                                                {&begin.right_direction, &end.right_direction}};
+    for (int k = 0; k < 2; ++k) {
+      const Memory& was = stored.now;
+      const int site = sites_[k];
+      const Vector3<double> here = Seen(d->site_xpos + 3 * site);
+      const mjtNum* stick = d->site_xmat + 9 * site;
+      *along[k][0] = *along[k][1] = Vector3<double>(stick[2], stick[5], stick[8]);
+      if (m->body_mocapid[m->body_rootid[m->site_bodyid[site]]] >=
+          0) {  // put where it is to be after the step
+        const Vector3<double> from = first ? here : Vector3<double>(Seen(was.tip[k])),
+                              mean = (here - from) / dt,
+                              last = first ? mean : Vector3<double>(Seen(was.rate[k]));
+        *at[k][0] = from;
+        *at[k][1] = here;
+        *rate[k][0] = 0.5 * (last + mean);
+        *rate[k][1] = 1.5 * mean - 0.5 * last;
+        put(next.tip[k], here);
+        put(next.rate[k], mean);
+      } else {  // as its velocity and the change of that say
+        mj_objectVelocity(m, d, mjOBJ_SITE, site, moves, 0);
+        const Vector3<double> now = Seen(moves + 3),
+                              before = first ? now : Vector3<double>(Seen(was.rate[k]));
+        *at[k][0] = here;
+        *rate[k][0] = now;
+        *rate[k][1] = 2.0 * now - before;
+        *at[k][1] = here + *rate[k][1] * dt;
+        put(next.rate[k], now);
+      }
+    }
+
+    diabolo::StringMemory memory;
+    memory.owed = Seen(stored.now.owed);
+    memory.string_acceleration = Seen(stored.now.string_acceleration);
+    memory.string_state =
+        first ? guessed(body.position, begin) : static_cast<diabolo::StringState>(stored.now.string_state);
+    const diabolo::StringWrench wrench = string_.step(body, begin, end, dt, memory);
+    put(next.owed, memory.owed);
+    put(next.string_acceleration, memory.string_acceleration);
+    next.string_state = static_cast<double>(memory.string_state);
+    stored.next = next;
+    stored.time = d->time;
+    put(stored.force, wrench.force);
+    put(stored.torque, wrench.torque);
+    put(stored.on_tip[0], wrench.on_left);
+    put(stored.on_tip[1], wrench.on_right);
+    const double seen[5] = {wrench.left_tension, wrench.right_tension, wrench.slip, -body.axle_rate,
+                            next.string_state};
+    std::memcpy(stored.seen, seen, sizeof(seen));
+  }
+
+  /// Above the tips and off the string it flies; else the step finds out whether the string is taut.
+  diabolo::StringState guessed(const Vector3<double>& position, const diabolo::Tips<double>& tips) const {
+    const bool slack = (position - tips.left).norm() + (position - tips.right).norm() <
+                       0.99 * string_.predictor().parameters().string_length;
+    return slack && diabolo::height_above_tips(position, tips.left, tips.right) > 0.0
+               ? diabolo::StringState::kFlying
+               : diabolo::StringState::kLoose;
+  }
+
+  int body_, sites_[2];
+  diabolo::AttachedString string_;
+};
+
+Stored read(const mjModel* m, const mjData* d, int instance) {
+  Stored stored;
+  std::memcpy(&stored, d->plugin_state + m->plugin_stateadr[instance], sizeof(stored));
+  return stored;
+}
+
+void write(const mjModel* m, mjData* d, int instance, const Stored& stored) {
+  std::memcpy(d->plugin_state + m->plugin_stateadr[instance], &stored, sizeof(stored));
+}
+
+const StringOnBody& string_on(const mjData* d, int instance) {
+  return *reinterpret_cast<const StringOnBody*>(d->plugin_data[instance]);
+}
+
+int init(const mjModel* m, mjData* d, int instance) {
+  std::string fault;
+  try {
+    d->plugin_data[instance] = reinterpret_cast<uintptr_t>(new StringOnBody(m, instance));
+    return 0;
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  mju_error("diabolo.string, %s", fault.c_str());
+  return -1;
+}
+
+void compute(const mjModel* m, mjData* d, int instance, int capability) {
+  if (capability == mjPLUGIN_PASSIVE) {
+    Stored stored = read(m, d, instance);
+    string_on(d, instance).pull(m, d, stored);
+    write(m, d, instance, stored);
+  } else {
+    const Stored stored = read(m, d, instance);
+    for (int s = 0; s < m->nsensor; ++s)
+      if (m->sensor_plugin[s] == instance)
+        std::memcpy(d->sensordata + m->sensor_adr[s], stored.seen, sizeof(stored.seen));
+  }
+}
+
+void advance(const mjModel* m, mjData* d, int instance) {
+  Stored stored = read(m, d, instance);
+  stored.now = stored.next;
+  stored.begun = 1.0;
+  stored.time = kNoStep;
+  write(m, d, instance, stored);
+}
+
+/// The attributes' names, which MuJoCo keeps by their address.
+const std::vector<const char*>& attributes() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"left", "right", "model"};
+    diabolo::Model model = diabolo::consistent_model();
+    for_each_number(model, [&](const std::string& key, double&) {
+      if (key != "mass" && key != "gravity") all.push_back(key);  // the body's and the model's
+    });
+    return all;
+  }();
+  static const std::vector<const char*> texts = [] {
+    std::vector<const char*> all;
+    for (const std::string& name : names) all.push_back(name.c_str());
+    return all;
+  }();
+  return texts;
+}
+
+}  // namespace
+
+mjPLUGIN_LIB_INIT(diabolo_string) {
+  mjpPlugin plugin;
+  mjp_defaultPlugin(&plugin);
+  plugin.name = "diabolo.string";
+  plugin.nattribute = static_cast<int>(attributes().size());
+  plugin.attributes = attributes().data();
+  plugin.capabilityflags = mjPLUGIN_PASSIVE | mjPLUGIN_SENSOR;
+  plugin.needstage = mjSTAGE_ACC;
+  plugin.nstate = [](const mjModel*, int) { return kNumbers; };
+  plugin.nsensordata = [](const mjModel*, int, int) { return 5; };
+  plugin.init = init;
+  plugin.destroy = [](mjData* d, int instance) { delete &string_on(d, instance); };
+  plugin.reset = [](const mjModel*, mjtNum* state, void*, int) {
+    Stored stored{};
+    stored.time = kNoStep;
+    std::memcpy(state, &stored, sizeof(stored));
+  };
+  plugin.compute = compute;
+  plugin.advance = advance;
+  plugin.visualize = [](const mjModel*, mjData* d, const mjvOption*, mjvScene* scene, int instance) {
+    string_on(d, instance).draw(d, scene);
+  };
+  mjp_registerPlugin(&plugin);
+}

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Our string inside other people's simulators (docs/hosts.md)."""
