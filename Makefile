@@ -31,7 +31,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco browser agents \
+.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco hosts browser agents \
   sanitize fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
@@ -157,7 +157,11 @@ prove-player: $(VENV)/.package plant ## Play a few plans on the independent plan
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test test-long mujoco browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: MuJoCo, a browser, the robots, proofs, sanitizers, fuzzing
+test-all: test test-long mujoco hosts browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
+
+hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
+	@$(pip) dartpy==6.20.0 drake==1.51.1
+	@$(VENV)/bin/python -m pytest -m hosts tests/heavy
 
 browser: $(VENV)/.package-with-tests ## Look at the report and the view as a person sees them
 	@$(packages) browser

@@ -35,7 +35,7 @@ DURATION = 5.0  # [s]
 
 
 def play() -> TipMotion:
-    """Tips that rest for a moment, swing and beat, go down until the diabolo lies on the floor, and come up."""
+    """Tips that rest, swing and beat, go down until the diabolo lies on the floor, and come up again."""
     times = np.linspace(0.0, DURATION, 501)
     t = np.maximum(times - 0.02, 0.0)
     sway = 0.05 * (1.0 - np.cos(2 * np.pi * 0.75 * t))

@@ -20,6 +20,7 @@ void bind_spheroid(pybind11::module_& module);
 void bind_tip_motion(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
 void bind_predictor(pybind11::module_& module);
+void bind_host(pybind11::module_& module);
 void bind_evaluation(pybind11::module_& module);
 void bind_rollout(pybind11::module_& module);
 void bind_gradient(pybind11::module_& module);

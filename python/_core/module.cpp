@@ -21,6 +21,7 @@ PYBIND11_MODULE(_core, module) {
   bind_spheroid(module);
   bind_tip_motion(module);
   bind_predictor(module);
+  bind_host(module);
   bind_rollout(module);
   bind_gradient(module);
   bind_evaluation(module);

@@ -365,7 +365,7 @@ void bind_stick_map(py::module_& module) {
            "The same in the slowest direction: there one joint alone sets the pace.");
 }
 
-void bind_limits(py::module_& module) {
+void bind_robot_limits(py::module_& module) {
   const JointLimits limits = JointLimits::uniform();
   py::class_<RobotLimits>(
       module, "RobotLimits",
@@ -422,7 +422,7 @@ void bind_robot(py::module_& module) {
   bind_arm(module);
   bind_seed_grid(module);
   bind_stick_map(module);
-  bind_limits(module);
+  bind_robot_limits(module);
 }
 
 }  // namespace diabolo::python

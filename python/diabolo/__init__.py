@@ -4,6 +4,7 @@
 from . import quiet_start  # noqa: F401
 from ._core import (
     Air,
+    AttachedString,
     Calibration,
     ClaimedEffect,
     DiaboloProperties,
@@ -41,6 +42,7 @@ from ._core import (
     StringElasticity,
     StringFriction,
     StringMass,
+    StringWrench,
     TipLimits,
     TipMotion,
     TipPath,
@@ -75,6 +77,7 @@ from .view import view_html
 
 __all__ = [
     "Air",
+    "AttachedString",
     "Calibration",
     "ClaimedEffect",
     "Comparison",
@@ -127,6 +130,7 @@ __all__ = [
     "StringElasticity",
     "StringFriction",
     "StringMass",
+    "StringWrench",
     "StringLaw",
     "StringState",
     "TableRow",

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
     """Name, unit and range of a numeric parameter."""
     @property
@@ -910,6 +910,54 @@ class Predictor:
     @property
     def parameters(self) -> Parameters:
         """A copy."""
+class StringWrench:
+    """What a host applies over a step, and what the string does."""
+    @property
+    def force(self) -> _Array:
+        """On the body's centre, gravity apart [N]."""
+    @property
+    def left_tension(self) -> float:
+        """[N]"""
+    @property
+    def on_left(self) -> _Array:
+        """On the left tip [N]."""
+    @property
+    def on_right(self) -> _Array:
+        """On the right tip [N]."""
+    @property
+    def right_tension(self) -> float:
+        """[N]"""
+    @property
+    def slip(self) -> float:
+        """Of the string over the axle, towards the right tip [m/s]."""
+    @property
+    def torque(self) -> _Array:
+        """On the body [N m]."""
+class AttachedString:
+    """
+    Our string on a body of somebody else's simulator, see docs/hosts.md.
+    
+    In each step it says which force and torque make a free body move as the predictor does. `mass` [kg] and
+    `axial_inertia` [kg m^2] are the body's, `gravity` [m/s^2] the host's. `motion` is how the host moves a body:
+    'new_velocity' by x' = x + v' dt, or 'constant_force' by x' = x + v dt + a dt^2 / 2. Raises ValueError.
+    """
+    def __init__(self, model: Model, mass: _Real, axial_inertia: _Real, gravity: _Reals = ..., motion: str = 'new_velocity') -> None: ...
+    def step(self, position: _Reals, velocity: _Reals, axle: _Reals, axle_rate: _Real, left0: _Reals, right0: _Reals, left1: _Reals, right1: _Reals, dt: _Real, velocities: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(4)"] | None = None, directions: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(4)"] | None = None, time: _Real = 0.0) -> StringWrench:
+        """
+        The wrench for the step of `dt` [s] that begins now; `memory` moves on to the next one.
+        
+        The body's centre [m], its velocity [m/s], its axle forward, a unit vector, and its angular velocity about
+        that [rad/s] (the spin is -axle_rate). The rest is as for Predictor.step. Raises FloatingPointError, and leaves
+        the memory as it was, where the result is not finite.
+        """
+    @property
+    def memory(self) -> typing.Annotated[list[float], "FixedSize(7)"]:
+        """
+        What is kept from step to step, seven numbers: save and restore it with the host's state. The last is
+        the string's state: 0 on the string, 1 loose (a new one's), 2 in flight.
+        """
+    @memory.setter
+    def memory(self, arg1: typing.Annotated[collections.abc.Sequence[_Real], "FixedSize(7)"]) -> None: ...
 class ExcerptScore:
     """Position error of one rollout over a recording, as the paper's table counts it."""
     @property
