@@ -31,7 +31,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco hosts browser agents \
+.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco hosts page browser agents \
   sanitize fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
@@ -163,7 +163,19 @@ hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
 	@$(pip) dartpy==6.20.0 drake==1.51.1
 	@$(VENV)/bin/python -m pytest -m hosts tests/heavy
 
-browser: $(VENV)/.package-with-tests ## Look at the report and the view as a person sees them
+# Debian's emscripten looks for its parser of scripts where Debian's Node.js does; others need to be told.
+page: ## Make one page to play with, without a network: our string and the published rules ($(BUILD)/page)
+	@$(packages) build page
+	@mkdir -p $(BUILD)/page/include && ln -sfn /usr/include/nlohmann $(BUILD)/page/include/nlohmann
+	@NODE_PATH=/usr/share/nodejs em++ -std=c++20 -O2 -DNDEBUG -include examples/web/old_library.hpp -Iinclude \
+	  -isystem /usr/include/eigen3 -isystem $(BUILD)/page/include examples/web/page.cpp -sSINGLE_FILE=1 \
+	  -sALLOW_MEMORY_GROWTH=1 -sDISABLE_EXCEPTION_CATCHING=0 -o $(BUILD)/page/diabolo.js \
+	  $(foreach agent,SpinUp ThrowAndCatch,--embed-file python/diabolo/agents/$(agent).json@$(agent).json)
+	@perl -0pe 'BEGIN { local $$/; open F, "<", shift @ARGV; $$s = <F>; } s/\{\{\{ SCRIPT \}\}\}/<script>$$s<\/script>/' \
+	  $(BUILD)/page/diabolo.js examples/web/page.html > $(BUILD)/page/diabolo.html
+	@echo $(BUILD)/page/diabolo.html
+
+browser: $(VENV)/.package-with-tests page ## Look at the report and the view as a person sees them
 	@$(packages) browser
 	@$(VENV)/bin/python -m pytest -m browser tests/heavy
 

@@ -4,13 +4,17 @@
     python docs/make_pictures.py --recordings FOLDER     # all; FOLDER holds the authors' recordings
     python docs/make_pictures.py                         # those that need none
 
-Needs the package with its `plot` extra, and Pillow, which matplotlib brings.
+Needs the package with its `plot` extra, and Pillow, which matplotlib brings. The page to play with is drawn
+where `make page` has made it and chromium is installed.
 """
 
 from __future__ import annotations
 
 import argparse
 import io
+import shutil
+import subprocess
+import tempfile
 import warnings
 from pathlib import Path
 from typing import Any
@@ -26,6 +30,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 IMAGES = Path(__file__).with_name("images")
+PAGE = Path(__file__).parents[1] / "build" / "page" / "diabolo.html"
 SHOWN = "2020-07-11_basic_physics/right_hand_extend_1.csv"  # in the moving picture; no fit sees it
 BEGIN, SECONDS, BETWEEN_FRAMES = 1.0, 3.0, 0.12  # real time: GIF counts in hundredths of a second
 ANEW = 1.0  # between the starts of its predictions [s]
@@ -45,6 +50,8 @@ def main() -> None:
     draw_prediction(IMAGES / "predict.png")
     draw_diagnosis(IMAGES / "diagnose.png")
     draw_plan(IMAGES / "play.png")
+    if PAGE.is_file() and shutil.which("chromium"):
+        draw_page(IMAGES / "page.png")
     if folder is not None:
         draw_take(IMAGES / "take.gif", folder)
 
@@ -78,6 +85,8 @@ def draw_take(path: Path, folder: Path) -> None:
         loop=0,
         optimize=True,
     )
+    if shutil.which("gifsicle"):  # the same frames in a fifth less
+        subprocess.run(["gifsicle", "-O3", "--batch", str(path)], check=True)
 
 
 def palette_of(frame: Image.Image) -> Image.Image:
@@ -229,6 +238,25 @@ def draw_plan(path: Path) -> None:
     height.set(title="height", xlabel="time [s]", ylabel="z [m]")
     height.legend(frameon=False)
     image_of(figure, 110).quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def draw_page(path: Path) -> None:
+    """The page to play with, while both tips are shaken."""
+    shake = """<script>
+    requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), 16);
+    setInterval(() => {
+      const up = 0.15 * Math.sin(performance.now() / 160);
+      [wanted.left, wanted.right] = [[0.4, 1.25 + up], [-0.4, 1.25 - up]];
+    }, 16);</script></body>"""
+    with tempfile.TemporaryDirectory() as folder:
+        page, shot = Path(folder) / "page.html", Path(folder) / "page.png"
+        page.write_text(PAGE.read_text(encoding="utf-8").replace("</body>", shake), encoding="utf-8")
+        options = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
+        options += ["--window-size=900,640", "--virtual-time-budget=9000"]
+        options += [f"--user-data-dir={folder}/profile", f"--screenshot={shot}"]
+        subprocess.run(["chromium", *options, page.as_uri()], check=True, capture_output=True, timeout=120)
+        image = Image.open(shot).convert("RGB")
+    image.quantize(64, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def panels() -> tuple[Figure, Any]:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Usage: system_packages.sh GROUP...   with groups build, test, plant, ur-rtde, bench, lint, mujoco, browser
+# Usage: system_packages.sh GROUP...   with groups build, test, plant, ur-rtde, bench, lint, mujoco, browser, page
 # Looks for what the groups need and installs with apt-get what is missing; asks for nothing when all is there.
 set -euo pipefail
 
@@ -64,8 +64,12 @@ missing_packages() {
       ;;
     mujoco) ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri ;;
     browser) has_command chromium || echo chromium ;;
+    page)
+      has_command em++ || echo emscripten
+      [ -d /usr/share/nodejs/acorn ] || echo node-acorn
+      ;;
     *)
-      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, ur-rtde, bench, lint, mujoco or browser" >&2
+      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, ur-rtde, bench, lint, mujoco, browser or page" >&2
       exit 2
       ;;
   esac

@@ -137,3 +137,52 @@ def test_a_replay_shows_each_prediction_in_its_color_beside_the_recording(tmp_pa
             for color in (own, other)
         ]
         assert near[0] > 50 and near[1] == 0, near
+
+
+PAGE = Path(__file__).resolve().parents[2] / "build" / "page" / "diabolo.html"
+# Moves the tips up and down against each other, then lets each agent play; by frames, since the page's clock
+# runs on while the browser compiles.
+PLAY = """<script>
+const say = (name, value) => document.documentElement.dataset[name] = Math.round(value);
+let highest = 0, flew = false, before = 0;
+setInterval(() => {
+  if (frames === before) return;
+  before = frames;
+  if (frames < 125) {
+    const up = 0.15 * Math.sin(frames / 10);
+    [wanted.left, wanted.right] = [[0.4, 1.25 + up], [-0.4, 1.25 - up]];
+  } else if (frames === 125) {
+    const box = canvas.getBoundingClientRect();
+    say("ratio", 100 * canvas.width / canvas.height * box.height / box.width);
+    say("apart", 1000 * Math.hypot(seen[0] - seen[6], seen[1] - seen[7]));
+    element("player").value = "0";
+    begin();
+  } else if (frames === 375) {
+    say("spin", seen[3]);
+    element("player").value = "1";
+    begin();
+  } else if (375 < frames && frames < 560) {
+    flew = flew || seen[2] === 2;
+    highest = Math.max(highest, seen[1]);
+    say("flew", flew);
+    say("highest", 100 * highest);
+    say("caught", flew && seen[2] !== 2);
+  }
+}, 4);</script></body>"""
+
+
+@pytest.mark.skipif(not PAGE.is_file(), reason="the page is not made: make page")
+def test_the_page_plays_by_pointers_and_by_agents(tmp_path: Path) -> None:
+    html = PAGE.read_text(encoding="utf-8")
+    assert len(html) < 2e6
+    assert "http" not in html.replace("http://www.w3.org", "").split("<script>")[1]  # of the page's own
+    page = tmp_path / "diabolo.html"
+    page.write_text(html.replace("</body>", FRAMES + PLAY), encoding="utf-8")
+    done = opened(page, 1100, "--virtual-time-budget=30000", "--dump-dom").stdout
+    assert seen(done, "frames") > 560
+    assert seen(done, "ratio") == 100, "circles are round"
+    assert seen(done, "apart") > 5, "the published rules go elsewhere"
+    assert seen(done, "spin") > 90, "from 60 rad/s"
+    assert seen(done, "flew") == seen(done, "caught") == 1
+    assert 150 < seen(done, "highest") < 200
+    assert colors(page, 1100) > 50
