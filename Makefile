@@ -27,7 +27,7 @@ test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUI
   -DDIABOLO_BUILD_PYTHON=OFF
 ctest := ctest --output-on-failure --no-tests=error -j $(JOBS)
 
-package_sources := pyproject.toml CMakeLists.txt LICENSE $(wildcard README.md) \
+package_sources := pyproject.toml CMakeLists.txt LICENSE examples/mujoco/plugin/string_plugin.cpp $(wildcard README.md) \
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
@@ -160,7 +160,7 @@ test-python: $(VENV)/.package-with-tests
 test-all: test test-long mujoco hosts browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
 
 hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
-	@$(pip) dartpy==6.20.0 drake==1.51.1
+	@$(install_package) '.[dart,drake,test]'
 	@$(VENV)/bin/python -m pytest -m hosts tests/heavy
 
 # Debian's emscripten looks for its parser of scripts where Debian's Node.js does; others need to be told.
@@ -175,7 +175,7 @@ page: ## Make one page to play with, without a network: our string and the publi
 	  $(BUILD)/page/diabolo.js examples/web/page.html > $(BUILD)/page/diabolo.html
 	@echo $(BUILD)/page/diabolo.html
 
-browser: $(VENV)/.package-with-tests page ## Look at the report and the view as a person sees them
+browser: $(VENV)/.package-with-tests page ## Look at the report, the view and the page to play with as a person sees them
 	@$(packages) browser
 	@$(VENV)/bin/python -m pytest -m browser tests/heavy
 

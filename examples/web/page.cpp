@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <optional>
 #include <string>
 
@@ -31,11 +30,12 @@ struct World {
   State<double> state, ghost;
   Hands hands;
   std::optional<LiveAgent> agent;
-  Hands next;           ///< of the agent, at the end of its period
-  double begun = 0.0;   ///< that period [s]
-  double time = 0.0;    ///< [s]
-  double turned = 0.0;  ///< by the spin [rad]
-  double tension = 0.0;
+  Hands next;            ///< of the agent, at the end of its period
+  double begun = 0.0;    ///< that period [s]
+  double time = 0.0;     ///< [s]
+  double turned = 0.0;   ///< by the spin [rad]
+  double tension = 0.0;  ///< of a strand, without friction [N]
+  double owed = 0.0;     ///< time that was asked for and not played, less than a step [s]
 
   void reset() {
     hands = {};
@@ -73,10 +73,12 @@ struct World {
       pull *= std::min(1.0, kHardest / std::max(pull.norm(), 1e-9));
       hands.velocity[side] += pull * kDt;
     }
-    const Vector3<double> apart =
-        hands.position[0] + hands.velocity[0] * kDt - hands.position[1] - hands.velocity[1] * kDt;
-    if (apart.norm() > 0.995 * model.parameters.string_length)
-      hands.velocity = {Vector3<double>::Zero(), Vector3<double>::Zero()};
+    const Vector3<double> apart = hands.position[0] - hands.position[1];
+    const double parting = apart.dot(hands.velocity[0] - hands.velocity[1]) / apart.squaredNorm();
+    if (parting > 0.0 && apart.norm() * (1.0 + parting * kDt) > 0.995 * model.parameters.string_length) {
+      hands.velocity[0] -= 0.5 * parting * apart;  // what would tear the string is taken out
+      hands.velocity[1] += 0.5 * parting * apart;
+    }
     for (std::size_t side = 0; side < 2; ++side) hands.position[side] += hands.velocity[side] * kDt;
   }
 
@@ -106,7 +108,9 @@ struct World {
     ours->step(state, begin, end, kDt);
     published->step(ghost, begin, end, kDt);
     turned += state.spin * kDt;
-    tension = 0.5 * model.parameters.mass * state.string_acceleration.norm();
+    const Vector3<double> strands =
+        (end.left - state.position).normalized() + (end.right - state.position).normalized();
+    tension = model.parameters.mass * state.string_acceleration.norm() / std::max(strands.norm(), 0.02);
   }
 };
 
@@ -157,8 +161,8 @@ EMSCRIPTEN_KEEPALIVE const double* diabolo_play(double seconds, double left_y, d
   World& the = world();
   const std::array<Vector3<double>, 2> wanted{Vector3<double>(0.0, left_y, left_z),
                                               Vector3<double>(0.0, right_y, right_z)};
-  for (int i = 0, steps = static_cast<int>(std::lround(std::clamp(seconds, 0.0, 0.1) / kDt)); i < steps; ++i)
-    the.step(wanted);
+  the.owed += std::clamp(seconds, 0.0, 0.1);
+  for (; the.owed >= kDt; the.owed -= kDt) the.step(wanted);
   const auto& [left, right] = the.hands.position;
   seen = {the.state.position.y(),
           the.state.position.z(),

@@ -22,6 +22,10 @@ using namespace py::literals;
 
 /// A string with what is kept from step to step.
 struct Attached {
+  Model model;
+  double mass, axial_inertia;
+  Vector3<double> gravity;
+  std::string motion;
   AttachedString string;
   StringMemory memory;
 };
@@ -30,8 +34,13 @@ Attached attach(const Model& model, double mass, double axial_inertia, const Arr
                 const std::string& motion) {
   if (motion != "new_velocity" && motion != "constant_force")
     throw std::invalid_argument("motion: '" + motion + "'; expected 'new_velocity' or 'constant_force'");
-  return {AttachedString(FullPredictor<double>(model.parameters, model.effects), mass, axial_inertia,
-                         to_vector3(gravity, "gravity"),
+  const Vector3<double> falls = to_vector3(gravity, "gravity");
+  return {model,
+          mass,
+          axial_inertia,
+          falls,
+          motion,
+          AttachedString(FullPredictor<double>(model.parameters, model.effects), mass, axial_inertia, falls,
                          motion == "new_velocity" ? HostMotion::kNewVelocity : HostMotion::kConstantForce),
           {}};
 }
@@ -43,6 +52,9 @@ StringWrench step_attached(Attached& attached, const Array& position, const Arra
                            const std::optional<std::array<Array, 4>>& directions, double time) {
   const HostBody body{to_vector3(position, "position"), to_vector3(velocity, "velocity"),
                       to_vector3(axle, "axle"), axle_rate};
+  if (!std::isfinite(axle_rate))
+    throw std::invalid_argument("axle_rate: " + std::to_string(axle_rate) +
+                                " rad/s; expected a finite number");
   if (!is_direction(body.axle) || !(squared_norm(body.axle) > 0.5))
     throw std::invalid_argument("axle: norm " + std::to_string(body.axle.norm()) +
                                 "; expected a unit vector");
@@ -57,7 +69,7 @@ StringWrench step_attached(Attached& attached, const Array& position, const Arra
   return wrench;
 }
 
-std::array<double, 7> to_numbers(const StringMemory& m) {
+std::array<double, 7> memory_numbers(const StringMemory& m) {
   return {m.owed.x(),
           m.owed.y(),
           m.owed.z(),
@@ -67,9 +79,10 @@ std::array<double, 7> to_numbers(const StringMemory& m) {
           static_cast<double>(m.string_state)};
 }
 
-StringMemory to_memory(const std::array<double, 7>& n) {
-  for (const double number : n)
-    if (!std::isfinite(number)) throw std::invalid_argument("memory: not finite");
+StringMemory memory_of(const Array& numbers) {
+  expect_shape(numbers, "memory", {7});
+  python::expect_finite(numbers, "memory");
+  const double* n = numbers.data();
   if (n[6] != 0.0 && n[6] != 1.0 && n[6] != 2.0)
     throw std::invalid_argument("memory[6]: " + std::to_string(n[6]) + "; expected a state 0, 1 or 2");
   return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, static_cast<StringState>(static_cast<int>(n[6]))};
@@ -102,10 +115,24 @@ In each step it says which force and torque make a free body move as the predict
       .def(py::init(&attach), "model"_a, "mass"_a, "axial_inertia"_a,
            "gravity"_a = from_vector3({0.0, 0.0, -kStandardGravity}), "motion"_a = "new_velocity")
       .def_property(
-          "memory", [](const Attached& a) { return to_numbers(a.memory); },
-          [](Attached& a, const std::array<double, 7>& numbers) { a.memory = to_memory(numbers); },
+          "memory", [](const Attached& a) { return memory_numbers(a.memory); },
+          [](Attached& a, const Array& numbers) { a.memory = memory_of(numbers); },
           R"(What is kept from step to step, seven numbers: save and restore it with the host's state. The last is
 the string's state: 0 on the string, 1 loose (a new one's), 2 in flight.)")
+      .def(py::pickle(
+          [](const Attached& a) {
+            return py::make_tuple(a.model, a.mass, a.axial_inertia, from_vector3(a.gravity), a.motion,
+                                  memory_numbers(a.memory));
+          },
+          [](const py::tuple& t) {
+            Attached a = attach(t[0].cast<Model>(), t[1].cast<double>(), t[2].cast<double>(),
+                                t[3].cast<Array>(), t[4].cast<std::string>());
+            a.memory = memory_of(t[5].cast<Array>());
+            return a;
+          }))
+      .def("__copy__", [](const Attached& a) { return a; })
+      .def(
+          "__deepcopy__", [](const Attached& a, const py::dict&) { return a; }, "memo"_a)
       .def("step", &step_attached, "position"_a, "velocity"_a, "axle"_a, "axle_rate"_a, "left0"_a, "right0"_a,
            "left1"_a, "right1"_a, "dt"_a, "velocities"_a = py::none(), "directions"_a = py::none(),
            "time"_a = 0.0,

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "diabolo/learn/arm_hands.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/robot/arm/build_seed_grid.hpp"
+#include "diabolo/robot/arm/gravity_torque.hpp"
 #include "diabolo/robot/arm/inverse_near.hpp"
 #include "diabolo/robot/arm/seed_grid_file.hpp"
 #include "diabolo/robot/motion/check_plan.hpp"
@@ -256,6 +258,26 @@ world frame. `calibration` has a row of x, y, z [m], roll, pitch, yaw [rad] for 
       .def_property_readonly(
           "tip", [](const StickArm& arm) { return from_vector3(arm.tip); },
           "The stick's tip in the frame of the flange [m], shape (3,).")
+      .def_property_readonly(
+          "links",
+          [](const StickArm& arm) {
+            std::vector<Array> poses;
+            for (const Pose<double>& link : arm.chain.links()) poses.push_back(from_pose(link));
+            return poses;
+          },
+          "How each of the six links stands against the one before while its joint, about z, is at zero: "
+          "poses of "
+          "the shape (4, 4).")
+      .def_property_readonly(
+          "link_masses",
+          [](const StickArm&) {
+            std::vector<std::array<double, 4>> masses;
+            for (const LinkMass<double>& link : ur5e_masses<double>())
+              masses.push_back({link.mass, link.center.x(), link.center.y(), link.center.z()});
+            return masses;
+          },
+          "Of each link its mass [kg] and the centre of that in the link's frame [m], as its maker publishes "
+          "them.")
       .def(
           "flange",
           [](const StickArm& arm, const Array& joints) {

@@ -63,7 +63,7 @@ TEST_CASE("a spin that is predicted worse takes back what is claimed of it, and 
   d.findings = {claim("spin_drag", 30.0, {}), claim("string_friction", 20.0, {})};
   d.heldout.position.improvement_ci95 = {Interval{1e-3, 2e-3}};
   d.heldout.spin.improvement_ci95 = {Interval{-2.0, -1.0}};
-  CHECK(withdraw_what_does_not_help(d));
+  CHECK(withdraw_what_does_not_help(d, d.heldout));
   CHECK_FALSE(stands(d, "spin_drag"));
   CHECK(stands(d, "string_friction"));
 }

@@ -55,9 +55,11 @@ Recording fall(double apart, double catch_slack, std::uint64_t seed) {
 }
 
 /// What is found of falls that a rule for catches decided.
-std::optional<CatchRule> found(double apart, double catch_slack) {
-  const Model physics = model_named("consistent");
-  const Fit fit = diagnose_detail::prepared({fall(apart, catch_slack, 1), fall(apart, catch_slack, 2)}, physics);
+std::optional<CatchRule> found(double apart, double catch_slack, double given = 0.03) {
+  Model physics = model_named("consistent");
+  physics.parameters.catch_slack = given;
+  const Fit fit =
+      diagnose_detail::prepared({fall(apart, catch_slack, 1), fall(apart, catch_slack, 2)}, physics);
   return slack_catch(fit, physics, 1, 1);
 }
 
@@ -79,6 +81,19 @@ TEST_CASE("a slack string that catches is seen, and what it is worth") {
 TEST_CASE("the rule stays where catches are taut, and where a slack string lets the diabolo through") {
   CHECK_FALSE(found(1.43, 0.03));
   CHECK_FALSE(found(0.9, 0.03));
+}
+
+TEST_CASE("a string that is too slack lets the diabolo through, and a base without any slack ends") {
+  // Tips 1.2 m apart are 0.25 m closer than the string is long, those 0.9 m apart 0.55 m.
+  const Model physics = model_named("consistent");
+  const Fit fit =
+      diagnose_detail::prepared({fall(1.2, 0.3, 1), fall(1.2, 0.3, 2), fall(0.9, 0.3, 3)}, physics);
+  const std::optional<CatchRule> rule = slack_catch(fit, physics, 1, 1);
+  REQUIRE(rule);
+  CHECK(rule->catch_slack_m > 0.25);
+  CHECK(rule->catch_slack_m < 0.55);
+  CHECK(rule->starts_against == 0);
+  CHECK(found(0.9, 1.45, 0.0));
 }
 
 TEST_CASE("a whole diagnosis predicts what a slack string catches") {

@@ -2,7 +2,7 @@
 """The plugin diabolo.string in MuJoCo: how far its body is from the plain predictor, and what a step costs.
 
 Tips swing and beat for two seconds, on mocap bodies, at steps of 1 ms. Times are medians over turns of the
-same scene without a string, with a plain one and with every effect.
+same scene without a string, with a plain one and with one of six effects.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ INTEGRATORS = ("Euler", "implicit", "implicitfast", "RK4")
 DT, STEPS = 1e-3, 2000
 MODELS = {
     "plain": Model(Parameters()),
-    "all effects": Model(
+    "six effects": Model(
         Parameters(),
-        name="all effects",
+        name="six effects",
         string_friction=StringFriction(coefficient=0.2),
         string_elasticity=StringElasticity(compliance=5e-4, damping=5.0),
         finite_axle=FiniteAxle(radius=0.0065),

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <string>
@@ -20,7 +21,7 @@ namespace {
 using diabolo::Vector3;
 using Seen = Eigen::Map<const Vector3<double>>;
 
-constexpr const char *kBody = "body of diabolo.string", *kTips[2] = {"left", "right"};
+constexpr const char* kTips[2] = {"left", "right"};
 
 /// Calls visit(key, number) for every number of a model that an attribute may give.
 template <class Visit>
@@ -69,8 +70,11 @@ class StringOnBody {
  public:
   StringOnBody(const mjModel* m, int instance)
       : body_(body_of(m, instance)),
-        sites_{site_of(m, instance, 0), site_of(m, instance, 1)},
-        string_(made(m, instance)) {}
+        sites_{site_of(m, instance, 0, body_), site_of(m, instance, 1, body_)},
+        made_(made_for(m)),
+        string_(string_of(m, instance)) {
+    if (sites_[0] == sites_[1]) throw std::invalid_argument("right: the same site as left; expected two");
+  }
 
   void pull(const mjModel* m, mjData* d, Stored& stored) const {
     if (!is_later_stage(m, d, stored)) ask(m, d, stored);
@@ -83,43 +87,89 @@ class StringOnBody {
     }
   }
 
-  void draw(const mjData* d, mjvScene* scene) const {
-    for (const int site : sites_) {
-      if (scene->ngeom >= scene->maxgeom) return;
+  /// The two strands; where the diabolo flies, the string from tip to tip.
+  void draw(const mjData* d, mjvScene* scene, bool flies) const {
+    const mjtNum *left = d->site_xpos + 3 * sites_[0], *right = d->site_xpos + 3 * sites_[1],
+                 *middle = flies ? right : d->xipos + 3 * body_;
+    for (const auto& [from, to] : {std::pair(left, middle), std::pair(middle, right)}) {
+      if (scene->ngeom >= scene->maxgeom || from == to) return;
       constexpr float kColour[4] = {0.95F, 0.95F, 0.95F, 1.0F};
       mjvGeom* geom = scene->geoms + scene->ngeom++;
       mjv_initGeom(geom, mjGEOM_CAPSULE, nullptr, nullptr, nullptr, kColour);
-      mjv_connector(geom, mjGEOM_CAPSULE, 0.002, d->site_xpos + 3 * site, d->xipos + 3 * body_);
+      mjv_connector(geom, mjGEOM_CAPSULE, 0.002, from, to);
     }
   }
 
  private:
   static int body_of(const mjModel* m, int instance) {
+    int found = -1;
     for (int b = 0; b < m->nbody; ++b) {
       if (m->body_plugin[b] != instance) continue;
-      if (m->body_jntnum[b] != 1 || m->jnt_type[m->body_jntadr[b]] != mjJNT_FREE)
-        throw std::invalid_argument(std::string(kBody) +
-                                    ": has no free joint; the diabolo must be a free body");
-      return b;
+      if (found >= 0)
+        throw std::invalid_argument("on the bodies " + name_of(m, found) + " and " + name_of(m, b) +
+                                    "; expected one, which is the diabolo");
+      found = b;
     }
-    throw std::invalid_argument(std::string(kBody) + ": none; expected <plugin instance=...> in one body");
+    if (found < 0) throw std::invalid_argument("on no body; expected <plugin instance=...> in the diabolo's");
+    if (m->body_jntnum[found] != 1 || m->jnt_type[m->body_jntadr[found]] != mjJNT_FREE)
+      throw std::invalid_argument("body " + name_of(m, found) +
+                                  " has no free joint; the diabolo must be a free body");
+    for (int b = found + 1; b < m->nbody; ++b)
+      if (m->body_parentid[b] == found)
+        throw std::invalid_argument("body " + name_of(m, found) + " holds the body " + name_of(m, b) +
+                                    "; expected the diabolo to be one body, of several geoms");
+    if (m->body_gravcomp[found] != 0.0)
+      throw std::invalid_argument("body " + name_of(m, found) + ": gravcomp " +
+                                  std::to_string(m->body_gravcomp[found]) + "; expected none");
+    return found;
   }
 
-  static int site_of(const mjModel* m, int instance, int k) {
+  static std::string name_of(const mjModel* m, int body) {
+    const char* name = mj_id2name(m, mjOBJ_BODY, body);
+    return name == nullptr ? "number " + std::to_string(body) : '"' + std::string(name) + '"';
+  }
+
+  static int site_of(const mjModel* m, int instance, int k, int body) {
     const std::string name = attribute(m, instance, kTips[k]);
     const int site = mj_name2id(m, mjOBJ_SITE, name.c_str());
     if (site < 0)
       throw std::invalid_argument(std::string(kTips[k]) + ": \"" + name + "\"; expected the name of a site");
+    if (m->site_bodyid[site] == body)
+      throw std::invalid_argument(std::string(kTips[k]) + ": \"" + name +
+                                  "\" is on the diabolo; expected another body");
     return site;
   }
 
+  /// What the host's world is like, and the body in it, that the string was made for.
+  struct Made {
+    double mass, inertia, integrator;
+    Vector3<double> gravity;
+
+    bool operator==(const Made&) const = default;
+  };
+
+  Made made_for(const mjModel* m) const {
+    const Vector3<double> axle = inertial_axle(m);
+    const bool weightless = (m->opt.disableflags & mjDSBL_GRAVITY) != 0;
+    return {m->body_mass[body_], axle.dot(Seen(m->body_inertia + 3 * body_).asDiagonal() * axle),
+            static_cast<double>(m->opt.integrator),
+            weightless ? Vector3<double>(Vector3<double>::Zero()) : Vector3<double>(Seen(m->opt.gravity))};
+  }
+
   /// The string of the attributes, with the mass of the body and the gravity of the model.
-  diabolo::AttachedString made(const mjModel* m, int instance) const {
-    const Vector3<double> gravity = Seen(m->opt.gravity);
-    if (gravity.x() != 0.0 || gravity.y() != 0.0 || gravity.z() > 0.0)
-      throw std::invalid_argument("gravity: not along -z; the string knows no other");
-    const std::string file = attribute(m, instance, "model");
+  diabolo::AttachedString string_of(const mjModel* m, int instance) const {
+    if (m->opt.enableflags & mjENBL_SLEEP)
+      throw std::invalid_argument("sleep is enabled; expected it off: the string wakes nobody");
+    const Vector3<double>& gravity = made_.gravity;
+    if (std::hypot(gravity.x(), gravity.y()) > 1e-9 || gravity.z() > 0.0)
+      throw std::invalid_argument("gravity: " + std::to_string(gravity.x()) + " " +
+                                  std::to_string(gravity.y()) + " " + std::to_string(gravity.z()) +
+                                  "; expected it along -z");
+    std::string file = attribute(m, instance, "model");
+    file.erase(0, file.find_first_not_of(" \t\r\n"));
+    const bool named = file == "consistent" || file == "paper" || file == "published";
     diabolo::Model model = file.empty()     ? diabolo::consistent_model()
+                           : named          ? diabolo::model_named(file)
                            : file[0] == '{' ? diabolo::read_model(file, "model")
                                             : diabolo::load_model(file);
     for_each_number(model, [&](const std::string& key, double& value) {
@@ -129,11 +179,9 @@ class StringOnBody {
       if (error != std::errc() || end != text.data() + text.size())
         throw std::invalid_argument(key + ": \"" + text + "\"; expected a number");
     });
-    model.parameters.mass = m->body_mass[body_];
+    model.parameters.mass = made_.mass;
     model.parameters.gravity = -gravity.z();
-    const Vector3<double> axle = inertial_axle(m);
-    const double inertia = axle.dot(Seen(m->body_inertia + 3 * body_).asDiagonal() * axle);
-    return {diabolo::FullPredictor<double>(model.parameters, model.effects), m->body_mass[body_], inertia,
+    return {diabolo::FullPredictor<double>(model.parameters, model.effects), made_.mass, made_.inertia,
             gravity,
             m->opt.integrator == mjINT_RK4 ? diabolo::HostMotion::kConstantForce
                                            : diabolo::HostMotion::kNewVelocity};
@@ -156,6 +204,11 @@ class StringOnBody {
 
   void ask(const mjModel* m, mjData* d, Stored& stored) const {
     const double dt = m->opt.timestep;
+    if (!(dt > 0.0)) mju_error("diabolo.string, timestep: %g s; expected more than 0", dt);
+    if (!(made_for(m) == made_))
+      mju_error(
+          "diabolo.string: mass, inertia, gravity or integrator has changed; expected new data (MjData) "
+          "after that");
     mjtNum moves[6];
     mj_objectVelocity(m, d, mjOBJ_BODY, body_, moves, 0);
     diabolo::HostBody body;
@@ -204,6 +257,9 @@ class StringOnBody {
       }
     }
 
+    if (!begin.left.allFinite() || !begin.right.allFinite() || !end.left.allFinite() ||
+        !end.right.allFinite())
+      mju_error("diabolo.string: a tip is not finite; expected numbers");
     diabolo::StringMemory memory;
     memory.owed = Seen(stored.now.owed);
     memory.string_acceleration = Seen(stored.now.string_acceleration);
@@ -234,6 +290,7 @@ class StringOnBody {
   }
 
   int body_, sites_[2];
+  Made made_;
   diabolo::AttachedString string_;
 };
 
@@ -259,7 +316,8 @@ int init(const mjModel* m, mjData* d, int instance) {
   } catch (const std::exception& error) {
     fault = error.what();
   }
-  mju_error("diabolo.string, %s", fault.c_str());
+  const char* name = mj_id2name(m, mjOBJ_PLUGIN, instance);
+  mju_error("diabolo.string \"%s\", %s", name == nullptr ? "" : name, fault.c_str());
   return -1;
 }
 
@@ -323,8 +381,9 @@ mjPLUGIN_LIB_INIT(diabolo_string) {
   };
   plugin.compute = compute;
   plugin.advance = advance;
-  plugin.visualize = [](const mjModel*, mjData* d, const mjvOption*, mjvScene* scene, int instance) {
-    string_on(d, instance).draw(d, scene);
+  plugin.visualize = [](const mjModel* m, mjData* d, const mjvOption*, mjvScene* scene, int instance) {
+    const double state = read(m, d, instance).seen[4];
+    string_on(d, instance).draw(d, scene, state == static_cast<double>(diabolo::StringState::kFlying));
   };
   mjp_registerPlugin(&plugin);
 }

@@ -16,9 +16,6 @@
 
 namespace diabolo {
 
-/// What stands out by so many standard deviations is there, whatever it is.
-inline constexpr double kStrong = 10.0;
-
 /// Why a claim fell that predicts nothing better.
 inline constexpr const char* kDenied = "does not help on data that were left out";
 
@@ -83,8 +80,8 @@ struct LeftOutSays {
 
 /// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim
 /// on the spin; any, where positions are. Returns whether that was so.
-inline bool withdraw_what_does_not_help(Diagnosis& d) {
-  const LeftOutSays position(d.heldout.position.improvement_ci95), spin(d.heldout.spin.improvement_ci95);
+inline bool withdraw_what_does_not_help(Diagnosis& d, const HeldOut& heldout) {
+  const LeftOutSays position(heldout.position.improvement_ci95), spin(heldout.spin.improvement_ci95);
   if (!position.against() && !spin.against()) return false;
   bool withdrawn = false;
   for (Finding& f : d.findings) {
@@ -256,7 +253,8 @@ inline void conclude(Diagnosis& d) {
                  " % of the windows are off by more than five times what the others are.";
   } else {
     d.headline = Headline::kNothingMissing;
-    d.sentence = "Nothing is missing that this recording could show.";
+    d.sentence = d.catch_rule ? "No physics is missing that this recording could show."
+                              : "Nothing is missing that this recording could show.";
   }
   if (d.reason.empty() && d.headline != Headline::kNumerical && d.headline != Headline::kNothingMissing)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);

@@ -40,9 +40,9 @@ class Inquiry : public ClaimSearch<D> {
     if (!result_.reason.empty()) {
       result_.model = options_.base;
     } else {
-      ask_of_catches();
+      widen_catch();
       settle();
-      bool withdrawn = withdraw_what_does_not_help(result_);
+      bool withdrawn = withdraw_what_does_not_help(result_, judged_);
       judge();
       withdrawn = learn_laws(withdrawn);
       withdrawn = withdrawn || withdraw_what_explains_too_little(result_);
@@ -66,11 +66,12 @@ class Inquiry : public ClaimSearch<D> {
       Search::options_, Search::physics_, Search::recordings_, Search::result_, Search::set_, Search::step;
 
   /// Widens the rule for a catch where predictions ask for it, before they judge anything else.
-  void ask_of_catches() {
+  void widen_catch() {
     const char* const asking = "asking whether slack strings catch";
     if (!budget_.allows(asking, kFitsShare)) return;
-    const FitWatch looking = step(asking, 0.84, 0.85, kFitsShare);
+    const FitWatch looking = step(asking, 0.85, 0.85, kFitsShare);
     result_.catch_rule = slack_catch(fit_, physics_, options_.seed, options_.threads, looking);
+    if (looking.is_enough()) budget_.leave(asking);
     if (!result_.catch_rule) return;
     physics_.parameters.catch_slack = result_.catch_rule->catch_slack_m;
   }
@@ -124,10 +125,19 @@ class Inquiry : public ClaimSearch<D> {
     std::vector<ActiveSet> without;
     for (const Finding& f : result_.findings)
       if (f.claimed) without.push_back(with(set_, *f.candidate, false));
-    const std::vector<HeldOutRecording> held =
-        leave_out(fit_, Evidence(fit_), set_, without, options_.holdout);
-    result_.heldout = compare_held_out(held, options_.base, physics_, options_.seed, fit_.most_windows,
-                                       options_.threads, step("comparing on data left out", 0.85, 0.9));
+    std::vector<HeldOutRecording> held = leave_out(fit_, Evidence(fit_), set_, without, options_.holdout);
+    const Watch comparing = step("comparing on data left out", 0.85, 0.9);
+    const auto against = [&](const Model& base) {
+      return compare_held_out(held, base, physics_, options_.seed, fit_.most_windows, options_.threads,
+                              comparing);
+    };
+    result_.heldout = judged_ = against(options_.base);
+    if (result_.catch_rule) {  // what a wider rule gains is no merit of the claims
+      Model base = options_.base;
+      base.parameters.catch_slack = physics_.parameters.catch_slack;
+      for (HeldOutRecording& one : held) one.without.clear();
+      judged_ = against(base);
+    }
     for (std::size_t i = 0; i < without.size() && !held.empty(); ++i) {  // claims come first
       result_.findings[i].worsening_ci95 = result_.heldout.position.worsening_ci95[i];
       result_.findings[i].spin_worsening_ci95 = result_.heldout.spin.worsening_ci95[i];
@@ -157,7 +167,7 @@ class Inquiry : public ClaimSearch<D> {
                                 .worsening_ci95 = std::move(law->worsening_ci95),
                                 .spin_worsening_ci95 = std::move(law->spin_worsening_ci95)});
       settle();
-      withdrawn = withdraw_what_does_not_help(result_);
+      withdrawn = withdraw_what_does_not_help(result_, judged_);
       judge();
       more = !result_.adequacy.adequate.value_or(true);
     }
@@ -200,6 +210,7 @@ class Inquiry : public ClaimSearch<D> {
     remember_directions(result_, before_, fit_);
     if (numerical_ && budget_.allows("comparing rules", kRulesShare)) {
       Model rules = options_.base;
+      rules.parameters.catch_slack = physics_.parameters.catch_slack;
       rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
       result_.numerical =
           compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.965, 0.97));
@@ -214,6 +225,7 @@ class Inquiry : public ClaimSearch<D> {
   }
 
   std::vector<const Candidate*> denied_;
+  HeldOut judged_;  ///< against the base with the rule for a catch that the model has
 };
 
 }  // namespace diagnose_detail

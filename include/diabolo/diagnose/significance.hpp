@@ -3,6 +3,9 @@
 
 namespace diabolo {
 
+/// What stands out by so many standard deviations is there, whatever it is.
+inline constexpr double kStrong = 10.0;
+
 /// An effect stays in the model above so many standard deviations: with a score of candidates about 1e-3 of
 /// recordings without any effect would show one. A fault needs more: what the model does not know ends up in
 /// the nuisances.

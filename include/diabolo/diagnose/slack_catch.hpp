@@ -7,13 +7,15 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/catch_rule.hpp"
-#include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/significance.hpp"
+#include "diabolo/diagnose/window_system.hpp"
 
 namespace diabolo {
 
@@ -22,7 +24,7 @@ namespace diagnose_detail {
 /// The recordings of a fit, predicted from many starts by models that differ in their catch alone.
 class CatchTrials {
  public:
-  CatchTrials(const Fit& fit, const Model& physics, int threads, const Watch& watch)
+  CatchTrials(const Fit& fit, const Model& physics, int threads, const FitWatch& watch)
       : model_(augmented_model(physics, fit.at, "")), threads_(threads), watch_(watch) {
     for (const FitTake& fit_take : fit.fit_takes)
       recordings_.push_back({corrected(fit_take.take->recording, fit.at), fit.at, {}});
@@ -70,7 +72,7 @@ class CatchTrials {
   std::vector<HeldOutRecording> recordings_;
   HorizonOptions options_;
   int threads_;
-  const Watch& watch_;
+  const FitWatch& watch_;
 };
 
 /// The last horizon at which a start was predicted both ways; none where there is none.
@@ -95,35 +97,38 @@ inline double mean_beside(const std::vector<std::vector<WindowError>>& some,
 
 /// Whether the rule for a catch is too strict: the paper's wants tips nearly a string length apart, where
 /// hands that give way catch with a string that hangs slack. No derivative tells, since a missed catch stays
-/// missed at any slight change; so a few values are tried, up to the string's length, which lets any slack
-/// string catch. A start speaks for or against where errors differ by kStrong times what its noise makes.
-/// None where not more starts speak for than against; else of the values that predict as well as any, the
-/// widest.
+/// missed at any slight change; so a few values are tried, from the string's length, which lets any slack
+/// string catch, by halves. A start speaks for or against where errors differ by kStrong times what its noise
+/// makes. None where not more starts speak for than against, or time is up; else of the values that predict
+/// as well as any, the widest. The errors are of recordings that were fitted, with all that was found until
+/// now.
 inline std::optional<CatchRule> slack_catch(const Fit& fit, const Model& physics, std::uint64_t seed,
-                                            int threads, const Watch& watch = {}) {
+                                            int threads, const FitWatch& watch = {}) {
   namespace detail = diagnose_detail;
+  constexpr double kAsWell = 1.01, kNarrowest = 0.02;  // [1], [m]
   const detail::CatchTrials trials(fit, physics, threads, watch);
   const double given = physics.parameters.catch_slack, length = trials.longest_string();
-  const auto taut = trials.errors(given), any = trials.errors(length);
-  CatchRule found{length, detail::mean_beside(taut, any), detail::mean_beside(any, taut)};
-  if (!(found.error_after_m < found.error_before_m)) return std::nullopt;
-  const auto scatter = trials.scatter(length, seed);
-  for (std::size_t i = 0; i < taut.size(); ++i) {
-    const std::optional<std::size_t> h = detail::last_horizon(taut[i], any[i]);
-    if (!h) continue;
-    const double gain = taut[i][*h].model - any[i][*h].model, enough = kStrong * scatter[i][*h];
-    found.starts_for += gain > enough ? 1 : 0;
-    found.starts_against += -gain > enough ? 1 : 0;
-  }
-  if (found.starts_for <= found.starts_against) return std::nullopt;
-  constexpr double kAsWell = 1.01;
-  for (double slack = 0.5 * length; slack > given; slack *= 0.5) {
-    const double mean = detail::mean_beside(trials.errors(slack), taut);
+  const auto by_given = trials.errors(given), by_widest = trials.errors(length);
+  CatchRule found{length, detail::mean_beside(by_given, by_widest), detail::mean_beside(by_widest, by_given)};
+  auto best = by_widest;
+  for (double slack = 0.5 * length; slack > std::max(given, kNarrowest) && !watch.is_enough(); slack *= 0.5) {
+    auto errors = trials.errors(slack);
+    const double mean = detail::mean_beside(errors, by_given);
     if (kAsWell * mean >= found.error_after_m) continue;
     found.catch_slack_m = slack;
     found.error_after_m = mean;
+    best = std::move(errors);
   }
-  return found;
+  if (!(found.error_after_m < found.error_before_m) || watch.is_enough()) return std::nullopt;
+  const auto scatter = trials.scatter(found.catch_slack_m, seed);
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    const std::optional<std::size_t> h = detail::last_horizon(by_given[i], best[i]);
+    if (!h) continue;
+    const double gain = by_given[i][*h].model - best[i][*h].model, enough = kStrong * scatter[i][*h];
+    found.starts_for += gain > enough ? 1 : 0;
+    found.starts_against += -gain > enough ? 1 : 0;
+  }
+  return found.starts_for > found.starts_against ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace diabolo

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "diabolo/full_predictor.hpp"
@@ -31,9 +32,11 @@ struct HostBody {
 struct StringWrench {
   Vector3<double> force = Vector3<double>::Zero(),
                   torque = Vector3<double>::Zero();  ///< on the body's centre
-  Vector3<double> on_left = Vector3<double>::Zero(), on_right = Vector3<double>::Zero();  ///< on the tips [N]
-  double left_tension = 0.0, right_tension = 0.0;  ///< of the strands [N]
-  double slip = 0.0;  ///< of the string over the axle, towards the right tip [m/s]
+  /// On the tips [N]: together the opposite of what the string adds to the body in this step of the host.
+  Vector3<double> on_left = Vector3<double>::Zero(), on_right = Vector3<double>::Zero();
+  double left_tension = 0.0, right_tension = 0.0;  ///< of the strands, as predicted [N]
+  double slip = 0.0;           ///< of the string over the axle, towards the right tip [m/s]
+  bool overstretched = false;  ///< the tips are farther apart than the string is long
 };
 
 /// What is kept from step to step, beside what the host keeps. To save, copy or reset a simulation, save,
@@ -79,14 +82,15 @@ class AttachedString {
     state.string_acceleration = memory.string_acceleration;
     settle(state, begin);
     const State<double> before = state;
-    predictor_.step(state, begin, end, dt);
+    StringWrench wrench;
+    wrench.overstretched = predictor_.step(state, begin, end, dt).overstretched;
     const Vector3<double> reached = motion_ == HostMotion::kNewVelocity
                                         ? Vector3<double>((state.position - body.position) / dt)
                                         : state.velocity;
-    StringWrench wrench;
     wrench.force = mass_ * ((reached - body.velocity) / dt - gravity_);
     wrench.torque = body.axle * (-inertia_ * (state.spin - before.spin) / dt);
-    pull_strands(before, state, begin, end, dt, wrench);
+    if (state.string_state == StringState::kOnString)
+      pull_strands(body, before, state, begin, end, dt, reached, wrench);
     memory = {state.velocity - reached, state.string_acceleration, state.string_state};
     return wrench;
   }
@@ -99,23 +103,37 @@ class AttachedString {
       settle_on_string(state, begin, string.length, PlaneProjector<double>());
   }
 
+  /// The two strands, from the middle of the diabolo's way over the step: unit vectors to the tips.
+  struct Strands {
+    Vector3<double> left, right;
+
+    /// Tensions that add up to a pull; both as large where the strands are all but in line.
+    std::pair<double, double> tensions(const Vector3<double>& pull) const {
+      const double cosine = left.dot(right), square = 1.0 - cosine * cosine;
+      if (!(square > 1e-6)) return {500.0 * pull.norm(), 500.0 * pull.norm()};
+      const double to_left = left.dot(pull), to_right = right.dot(pull);
+      return {std::max(0.0, (to_left - cosine * to_right) / square),
+              std::max(0.0, (to_right - cosine * to_left) / square)};
+    }
+  };
+
   /// Splits what the string gives the diabolo among its two strands, and gives it back to the tips.
-  void pull_strands(const State<double>& before, const State<double>& after, const Tips<double>& begin,
-                    const Tips<double>& end, double dt, StringWrench& wrench) const {
-    if (after.string_state != StringState::kOnString) return;
+  void pull_strands(const HostBody& body, const State<double>& before, const State<double>& after,
+                    const Tips<double>& begin, const Tips<double>& end, double dt,
+                    const Vector3<double>& reached, StringWrench& wrench) const {
     const Parameters<double>& parameters = predictor_.parameters();
-    const Vector3<double> others = predictor_.effects().acceleration(before, begin, dt, parameters);
-    const Vector3<double> pull = mass_ * ((after.velocity - before.velocity) / dt - others);
     const Vector3<double> middle = 0.5 * (before.position + after.position),
-                          left = (0.5 * (begin.left + end.left) - middle).normalized(),
-                          right = (0.5 * (begin.right + end.right) - middle).normalized();
-    const double cosine = left.dot(right), to_left = left.dot(pull), to_right = right.dot(pull),
-                 determinant = 1.0 - cosine * cosine;
-    if (!(determinant > 1e-9)) return;  // straight: any tension would do
-    wrench.left_tension = std::max(0.0, (to_left - cosine * to_right) / determinant);
-    wrench.right_tension = std::max(0.0, (to_right - cosine * to_left) / determinant);
-    wrench.on_left = -wrench.left_tension * left;
-    wrench.on_right = -wrench.right_tension * right;
+                          others = predictor_.effects().acceleration(before, begin, dt, parameters);
+    const Strands strands{(0.5 * (begin.left + end.left) - middle).normalized(),
+                          (0.5 * (begin.right + end.right) - middle).normalized()};
+    std::tie(wrench.left_tension, wrench.right_tension) =
+        strands.tensions(mass_ * ((after.velocity - before.velocity) / dt - others));
+    const Vector3<double> given = mass_ * ((reached - body.velocity) / dt - others);
+    const auto [left, right] = strands.tensions(given);
+    // What lies outside the strands' plane, or would push a tip, goes to both alike.
+    const Vector3<double> rest = 0.5 * (given - left * strands.left - right * strands.right);
+    wrench.on_left = -left * strands.left - rest;
+    wrench.on_right = -right * strands.right - rest;
     const double passed = (end.right - after.position).norm() - (begin.right - before.position).norm();
     wrench.slip = passed / dt - parameters.axle_radius * after.spin;
   }

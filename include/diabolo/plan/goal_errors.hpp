@@ -145,7 +145,9 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
 
 /// How much closer than the string is long the tips are meant to be in a catch [m]: hardly, even where a
 /// slack string would do.
-inline double meant_slack(double catch_slack) { return 0.5 * std::min(catch_slack, 0.03); }
+inline double meant_slack(double catch_slack) {
+  return 0.5 * std::min(catch_slack, Parameters<double>().catch_slack);
+}
 
 /// How far a flight misses the string: where the diabolo comes down through the plane of the tips, from the
 /// middle of their line, and how much the tips are too close there, which leaves the string too loose.
