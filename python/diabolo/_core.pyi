@@ -957,7 +957,7 @@ class AttachedString:
         the string's state: 0 on the string, 1 loose (a new one's), 2 in flight.
         """
     @memory.setter
-    def memory(self, arg1: typing.Annotated[collections.abc.Sequence[_Real], "FixedSize(7)"]) -> None: ...
+    def memory(self, arg1: _Reals) -> None: ...
 class ExcerptScore:
     """Position error of one rollout over a recording, as the paper's table counts it."""
     @property
@@ -1349,16 +1349,16 @@ class CatchRule:
         """How much closer than the string is long the tips may be; it is in the model."""
     @property
     def error_after_m(self) -> float:
-        """The same with the wider rule."""
+        """Mean position error of the same starts by the wider rule."""
     @property
     def error_before_m(self) -> float:
-        """Mean position error up to 1 s ahead with what else was found, and the simulator's rule."""
+        """Mean position error up to 1 s ahead by the simulator's rule, of recordings that were fitted, with what was found until then."""
     @property
     def starts_against(self) -> int:
-        """The same, worse."""
+        """Starts that are predicted worse by the wider rule, by ten times what their noise makes."""
     @property
     def starts_for(self) -> int:
-        """Starts that are predicted better with it by ten times what their noise makes."""
+        """Starts that are predicted better by the wider rule, by ten times what their noise makes."""
 class DifferingEffect:
     """Something of which recordings ask for different values."""
     __hash__: typing.ClassVar[None] = None
@@ -2168,6 +2168,12 @@ class StickArm:
     @property
     def base(self) -> _Array:
         """Pose of the controller's base frame in the world, shape (4, 4)."""
+    @property
+    def link_masses(self) -> list[typing.Annotated[list[float], "FixedSize(4)"]]:
+        """Of each link its mass [kg] and the centre of that in the link's frame [m], as its maker publishes them."""
+    @property
+    def links(self) -> list[_Array]:
+        """How each of the six links stands against the one before while its joint, about z, is at zero: poses of the shape (4, 4)."""
     @property
     def side(self) -> str: ...
     @property
