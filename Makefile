@@ -254,12 +254,13 @@ check-prose: # Sentences of the pages are short.
 	@$(packages) build
 	@git ls-files -co --exclude-standard '*.md' | grep -vx CHANGELOG.md | xargs $(PYTHON) tools/count_sentences.py
 
-# Less the methods that every object has, what fits on one line on one line, and long types by a name.
+# Less the methods that every object has, what fits on one line on one line, long types by a name, and indented by two.
 tidy_stubs = s/^ *def __(copy|deepcopy|getstate|setstate|repr)__\(.*\n.*\n//mg; \
   s/(:\n\s+""")\n\s+([^\n"\\]*)\n\s+"""/$$1$$2"""/g; s/:\n\s+\.\.\.\n/: ...\n/g; \
   s/typing\.SupportsFloat \| typing\.SupportsIndex/_Real/g; s/typing\.SupportsInt \| typing\.SupportsIndex/_Whole/g; \
   s/typing\.Annotated\[numpy\.typing\.ArrayLike, numpy\.float64\]/_Reals/g; \
   s/numpy\.typing\.NDArray\[numpy\.float64\]/_Array/g; \
+  s/^( +)/" " x (length($$1) \/ 2)/gme; \
   s/\z/_Real: typing.TypeAlias = typing.SupportsFloat | typing.SupportsIndex\n/; \
   s/\z/_Whole: typing.TypeAlias = typing.SupportsInt | typing.SupportsIndex\n/; \
   s/\z/_Reals: typing.TypeAlias = numpy.typing.ArrayLike\n/; s/\z/_Array: typing.TypeAlias = numpy.typing.NDArray[numpy.float64]\n/

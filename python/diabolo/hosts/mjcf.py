@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
@@ -94,7 +94,7 @@ def _place(pose: NDArray[np.float64]) -> str:
     return f'pos="{_numbers(pose[:3, 3])}" xyaxes="{_numbers(x)} {_numbers(y)}"'
 
 
-def _numbers(vector: NDArray[np.float64]) -> str:
+def _numbers(vector: Iterable[float]) -> str:
     return " ".join(repr(float(number)) for number in vector)
 
 
