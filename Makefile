@@ -164,7 +164,7 @@ hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
 	@$(VENV)/bin/python -m pytest -m hosts tests/heavy
 
 # Debian's emscripten looks for its parser of scripts where Debian's Node.js does; others need to be told.
-page: ## Make one page to play with, without a network: our string and the published rules ($(BUILD)/page)
+page: ## Make one page to play with, without a network: our string and the published rules (build/page)
 	@$(packages) build page
 	@mkdir -p $(BUILD)/page/include && ln -sfn /usr/include/nlohmann $(BUILD)/page/include/nlohmann
 	@NODE_PATH=/usr/share/nodejs em++ -std=c++20 -O2 -DNDEBUG -include examples/web/old_library.hpp -Iinclude \
