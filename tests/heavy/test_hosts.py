@@ -15,7 +15,7 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 @pytest.mark.parametrize("host", ["dart", "drake"])
 def test_the_host_s_body_goes_where_the_predictor_goes(host: str) -> None:
-    example = EXAMPLES / host / f"diabolo_in_{host}.py"
+    example = EXAMPLES / "hosts" / f"diabolo_in_{host}.py"
     done = subprocess.run([sys.executable, str(example)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     errors = [float(line.split(": ")[1].split()[0]) for line in done.stdout.splitlines()]

@@ -24,9 +24,8 @@ struct CatchRule {
     visit("catch_slack_m", &CatchRule::catch_slack_m,
           "How much closer than the string is long the tips may be; it is in the model.");
     visit("error_before_m", &CatchRule::error_before_m,
-          "Mean position error up to 1 s ahead by the simulator's rule, of recordings that were fitted, with "
-          "what "
-          "was found until then.");
+          "Mean position error up to 1 s ahead by the simulator's rule, of recordings that were fitted, "
+          "with what was found until then.");
     visit("error_after_m", &CatchRule::error_after_m,
           "Mean position error of the same starts by the wider rule.");
     visit("starts_for", &CatchRule::starts_for,

@@ -15,7 +15,7 @@
 #include "diabolo/diagnose/fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/significance.hpp"
-#include "diabolo/diagnose/window_system.hpp"
+#include "diabolo/diagnose/time_budget.hpp"
 
 namespace diabolo {
 

@@ -2,17 +2,17 @@
 """The diabolo in Drake: their multibody plant, our string as a system of its own (docs/hosts.md).
 
     pip install '.[drake]'
-    python examples/drake/diabolo_in_drake.py
+    python examples/hosts/diabolo_in_drake.py
 
 Tips swing and beat for two seconds. It prints how far Drake's body is from the plain predictor.
 """
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
-from diabolo import AttachedString, Model, Parameters, State, StringFriction, TipMotion, rollout
+from beside_the_predictor import DURATION, compare
+from diabolo import AttachedString, Model, State, TipMotion
+from diabolo.hosts.mjcf import INERTIA
 from pydrake.common.value import Value
 from pydrake.math import RigidTransform
 from pydrake.multibody.math import SpatialForce
@@ -21,9 +21,6 @@ from pydrake.multibody.tree import RigidBody, RotationalInertia, SpatialInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.framework import State as SystemState
-
-INERTIA = (5.6e-4, 6.6e-4, 6.6e-4)  # about and across the axle, which is the body's x axis [kg m^2]
-DURATION, SPIN = 2.0, 60.0  # [s], [rad/s]
 
 
 class StringSystem(LeafSystem):
@@ -101,25 +98,5 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarr
     return np.array(path)
 
 
-def play() -> TipMotion:
-    t = np.linspace(0.0, DURATION + 0.1, 211)
-    sway, beat = (0.05 * (1.0 - np.cos(2.0 * np.pi * rate * t)) for rate in (0.75, 1.5))
-    left = np.stack([sway, np.full_like(t, 0.4), 1.3 + beat], axis=1)
-    right = np.stack([-sway, np.full_like(t, -0.4), 1.3 - 0.5 * beat], axis=1)
-    return TipMotion(t, left, right, "spline")
-
-
-def main() -> int:
-    model, tips = Model(Parameters(), name="rubbing", string_friction=StringFriction(coefficient=0.2)), play()
-    drop = 0.5 * np.sqrt(model.parameters.string_length**2 - 0.8**2)
-    start = State([0.0, 0.0, 1.3 - drop], [0.3, 0.2, 0.0], SPIN, "loose")
-    for dt in (2e-3, 1e-3):
-        path = simulate(model, start, tips, dt)
-        plain = rollout(model, start.to_array(), tips, dt=dt, steps=len(path), string_state="loose").states
-        farthest = np.linalg.norm(path - plain[:, :3], axis=1).max()
-        print(f"dt {1e3 * dt:g} ms: {farthest:.1e} m from the predictor")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    compare(simulate)

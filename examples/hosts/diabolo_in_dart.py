@@ -2,7 +2,7 @@
 """The diabolo in DART: their rigid body and integrator, our string (docs/hosts.md).
 
     pip install '.[dart]'
-    python examples/dart/diabolo_in_dart.py
+    python examples/hosts/diabolo_in_dart.py
 
 Tips swing and beat for two seconds. It prints how far DART's body is from the plain predictor.
 """
@@ -10,22 +10,12 @@ Tips swing and beat for two seconds. It prints how far DART's body is from the p
 from __future__ import annotations
 
 import itertools
-import sys
 
 import dartpy as dart
 import numpy as np
-from diabolo import AttachedString, Model, Parameters, State, StringFriction, TipMotion, rollout
-
-INERTIA = (5.6e-4, 6.6e-4, 6.6e-4)  # about and across the axle, which is the body's x axis [kg m^2]
-DURATION, SPIN = 2.0, 60.0  # [s], [rad/s]
-
-
-def play() -> TipMotion:
-    t = np.linspace(0.0, DURATION, 201)
-    sway, beat = (0.05 * (1.0 - np.cos(2.0 * np.pi * rate * t)) for rate in (0.75, 1.5))
-    left = np.stack([sway, np.full_like(t, 0.4), 1.3 + beat], axis=1)
-    right = np.stack([-sway, np.full_like(t, -0.4), 1.3 - 0.5 * beat], axis=1)
-    return TipMotion(t, left, right, "spline")
+from beside_the_predictor import DURATION, compare
+from diabolo import AttachedString, Model, State, TipMotion
+from diabolo.hosts.mjcf import INERTIA
 
 
 def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarray:
@@ -74,17 +64,5 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarr
     return np.array(path)
 
 
-def main() -> int:
-    model, tips = Model(Parameters(), name="rubbing", string_friction=StringFriction(coefficient=0.2)), play()
-    drop = 0.5 * np.sqrt(model.parameters.string_length**2 - 0.8**2)
-    start = State([0.0, 0.0, 1.3 - drop], [0.3, 0.2, 0.0], SPIN, "loose")
-    for dt in (2e-3, 1e-3):
-        path = simulate(model, start, tips, dt)
-        plain = rollout(model, start.to_array(), tips, dt=dt, steps=len(path), string_state="loose").states
-        farthest = np.linalg.norm(path - plain[:, :3], axis=1).max()
-        print(f"dt {1e3 * dt:g} ms: {farthest:.1e} m from the predictor")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    compare(simulate)
