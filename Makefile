@@ -24,7 +24,7 @@ export CCACHE_SLOPPINESS ?= pch_defines,time_macros# else nothing with a precomp
 endif
 # Optimised a little, so that tests run fast, and with assertions; other groups of targets in trees of their own.
 test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF \
-  -DDIABOLO_BUILD_PYTHON=OFF
+  -DDIABOLO_BUILD_PYTHON=OFF -DCMAKE_UNITY_BUILD=ON
 ctest := ctest --output-on-failure --no-tests=error -j $(JOBS)
 
 package_sources := pyproject.toml CMakeLists.txt LICENSE examples/mujoco/plugin/string_plugin.cpp $(wildcard README.md) \
@@ -95,7 +95,7 @@ test-long: # Every header compiles alone, and every law keeps in every Scalar.
 test-core: # The predictor alone: the quick part of test-cpp.
 	@$(packages) build test
 	@$(cmake) -S . -B $(BUILD)/test $(test_flags) >/dev/null
-	@cmake --build $(BUILD)/test -j $(JOBS) --target tests_core tests_laws -- -k 0
+	@cmake --build $(BUILD)/test -j $(JOBS) --target test_core test_laws -- -k 0
 	@$(ctest) --test-dir $(BUILD)/test -L 'core|laws'
 
 test-plant: # The simulator behind the demonstration recordings is a CMake project of its own.

@@ -17,7 +17,7 @@ namespace {
 
 using Numbers = Parameters<double>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// The message that validation gives once field number `index` has been set; empty when it is content.
 std::string complaint(int index, double value) {
@@ -116,7 +116,7 @@ TEST_CASE("a number out of its range is refused by name, value and range") {
     const double below = info.minimum > 0.0 ? 0.5 * info.minimum : -1e-9, above = info.maximum * 1.001;
     CHECK_THAT(complaint(index, below), StartsWith(name + ": ") && Contains(range));
     CHECK_THAT(complaint(index, above), StartsWith(name + ": ") && Contains(range));
-    CHECK_THAT(complaint(index, kNaN), StartsWith(name + ": ") && Contains("nan"));
+    CHECK_THAT(complaint(index, kNoNumber), StartsWith(name + ": ") && Contains("nan"));
     CHECK_THAT(complaint(index, std::numeric_limits<double>::infinity()), StartsWith(name + ": "));
     // One limit of two fields is bound by their product; the others stand by themselves.
     if (name != "spin_coupling" && name != "reference_step") CHECK(complaint(index, info.maximum).empty());
@@ -140,7 +140,7 @@ TEST_CASE("a plane needs a unit normal") {
   CHECK_NOTHROW(parameters.validate());
   parameters.planar = true;
   CHECK_THROWS_WITH(parameters.validate(), Contains("plane_normal") && Contains("unit"));
-  parameters.plane_normal = {kNaN, 0.0, 0.0};
+  parameters.plane_normal = {kNoNumber, 0.0, 0.0};
   CHECK_THROWS_AS(parameters.validate(), std::invalid_argument);
   parameters.plane_normal = {0.6, 0.0, 0.8};
   CHECK_NOTHROW(parameters.validate());
@@ -151,7 +151,7 @@ TEST_CASE("one bad lane or one bad derivative's value is refused too") {
   packed.mass.set(3, -1.0);
   CHECK_THROWS_WITH(packed.validate(), StartsWith("mass: "));
   Parameters<Dual<double, 2>> dual;
-  dual.gravity.value = kNaN;
+  dual.gravity.value = kNoNumber;
   CHECK_THROWS_WITH(dual.validate(), StartsWith("gravity: "));
 }
 

@@ -55,7 +55,7 @@ Recording fall(double apart, double catch_slack, std::uint64_t seed) {
 }
 
 /// What is found of falls that a rule for catches decided.
-std::optional<CatchRule> found(double apart, double catch_slack, double given = 0.03) {
+std::optional<CatchRule> rule_found(double apart, double catch_slack, double given = 0.03) {
   Model physics = model_named("consistent");
   physics.parameters.catch_slack = given;
   const Fit fit =
@@ -66,7 +66,7 @@ std::optional<CatchRule> found(double apart, double catch_slack, double given = 
 }  // namespace
 
 TEST_CASE("a slack string that catches is seen, and what it is worth") {
-  const std::optional<CatchRule> rule = found(0.9, 1.45);
+  const std::optional<CatchRule> rule = rule_found(0.9, 1.45);
   REQUIRE(rule);
   CHECK(rule->starts_against == 0);
   CHECK(rule->starts_for >= 2);
@@ -79,8 +79,8 @@ TEST_CASE("a slack string that catches is seen, and what it is worth") {
 }
 
 TEST_CASE("the rule stays where catches are taut, and where a slack string lets the diabolo through") {
-  CHECK_FALSE(found(1.43, 0.03));
-  CHECK_FALSE(found(0.9, 0.03));
+  CHECK_FALSE(rule_found(1.43, 0.03));
+  CHECK_FALSE(rule_found(0.9, 0.03));
 }
 
 TEST_CASE("a string that is too slack lets the diabolo through, and a base without any slack ends") {
@@ -93,7 +93,7 @@ TEST_CASE("a string that is too slack lets the diabolo through, and a base witho
   CHECK(rule->catch_slack_m > 0.25);
   CHECK(rule->catch_slack_m < 0.55);
   CHECK(rule->starts_against == 0);
-  CHECK(found(0.9, 1.45, 0.0));
+  CHECK(rule_found(0.9, 1.45, 0.0));
 }
 
 TEST_CASE("a whole diagnosis predicts what a slack string catches") {

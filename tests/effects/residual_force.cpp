@@ -8,7 +8,7 @@ using namespace effect_scene;
 
 namespace {
 
-using Force = ResidualForce<double>;
+using Residual = ResidualForce<double>;
 
 /// Weights of either sign; ranges in which all of a scene lies, or as wide as usual in play.
 ResidualLaw random_law(Random& random, double weight, double wide) {
@@ -34,7 +34,7 @@ ResidualLaw unbounded_law(Random& random) {
 }
 
 Vector push(const ResidualLaw& law, const State<double>& state, const Tips<double>& tips) {
-  return Force(law).acceleration(state, tips, 1e-3, Numbers());
+  return Residual(law).acceleration(state, tips, 1e-3, Numbers());
 }
 
 struct Instant {
@@ -70,7 +70,7 @@ TEST_CASE("a residual without weights changes no bit") {
   const unsigned seed = 900;
   CAPTURE(seed);
   Full::Set set;
-  set.get<ResidualForce>() = Force(ResidualLaw());
+  set.get<ResidualForce>() = Residual(ResidualLaw());
   CHECK(differing_steps(set, seed) == 0);
   ResidualLaw law;
   law.on_string.weights[0] = law.off_string.weights[0] = 1e-3;
@@ -78,7 +78,7 @@ TEST_CASE("a residual without weights changes no bit") {
     part->low.fill(-100.0);
     part->high.fill(100.0);
   }
-  set.get<ResidualForce>() = Force(law);
+  set.get<ResidualForce>() = Residual(law);
   CHECK(differing_steps(set, seed) > 1000);
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("derivatives of a residual by the state are those of its values") {
     const ResidualLaw law = unbounded_law(random);
     const Instant at = random_instant(random);
     ResidualForce<D> force;
-    force.take_text(Force(law));
+    force.take_text(Residual(law));
     State<D> state = state_in<D>(at.state);
     for (int k = 0; k < 3; ++k) {
       state.position[k].gradient[k] = 1.0;
@@ -184,7 +184,7 @@ TEST_CASE("plays with a residual stay finite, and gain no more energy than it ma
   for (int play = 0; play < 60; ++play) {
     const Full model = [&] {
       Full::Set set;
-      set.get<ResidualForce>() = Force(random_law(random, 5.0, 3.0));
+      set.get<ResidualForce>() = Residual(random_law(random, 5.0, 3.0));
       return Full(Numbers(), set);
     }();
     Scene scene = hanging_scene(random);
@@ -204,8 +204,8 @@ TEST_CASE("plays with a residual stay finite, and gain no more energy than it ma
 TEST_CASE("a residual out of its range is refused") {
   ResidualLaw law;
   law.largest = 100.0;
-  CHECK_THROWS_WITH(Force(law), "residual largest: 100; must be within [1e-06, 20]");
+  CHECK_THROWS_WITH(Residual(law), "residual largest: 100; must be within [1e-06, 20]");
   law = {};
   law.off_string.low[2] = 1.0;
-  CHECK_THROWS_WITH(Force(law), "residual off_string high: 0; must be within [1, 1000]");
+  CHECK_THROWS_WITH(Residual(law), "residual off_string high: 0; must be within [1, 1000]");
 }

@@ -25,6 +25,11 @@ Full full(Change&& change, const Numbers& parameters = {}) {
   return Full(parameters, set);
 }
 
+/// Tips at rest at a height of 1 m, so far apart.
+inline Tips<double> level(double distance) {
+  return {{0.0, 0.5 * distance, 1.0}, {0.0, -0.5 * distance, 1.0}};
+}
+
 inline Numbers weightless() {
   Numbers parameters;
   parameters.gravity = 0.0;

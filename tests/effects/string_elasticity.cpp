@@ -23,13 +23,6 @@ Elastic elastic(double stiffness, double damping = 0.0, Numbers parameters = Num
   return Elastic(parameters, effects);
 }
 
-Tips<double> level(double distance) {
-  Tips<double> tips;
-  tips.left = Vector(0.0, 0.5 * distance, 1.0);
-  tips.right = Vector(0.0, -0.5 * distance, 1.0);
-  return tips;
-}
-
 double path_length(const Vector& p, const Tips<double>& tips) {
   return (p - tips.left).norm() + (p - tips.right).norm();
 }

@@ -11,13 +11,6 @@ Full rubbing(double coefficient, const Numbers& parameters = {}) {
   return full<StringFriction>([&](auto& friction) { friction.coefficient = coefficient; }, parameters);
 }
 
-Tips<double> level(double distance) {
-  Tips<double> tips;
-  tips.left = Vector(0.0, 0.5 * distance, 1.0);
-  tips.right = Vector(0.0, -0.5 * distance, 1.0);
-  return tips;
-}
-
 /// Where a diabolo rests whose tensions obey T_right / T_left = ratio(contact angle), by bisection along the
 /// ellipse for tensions without a horizontal sum.
 double resting_y(double distance, double length, const std::function<double(double)>& log_ratio) {

@@ -7,14 +7,14 @@ using namespace effect_scene;
 
 namespace {
 
-using Force = UnnamedForce<double>;
+using Unnamed = UnnamedForce<double>;
 
 template <class Change>
 Full pushing(Change&& change, const Numbers& parameters = {}) {
   return full<UnnamedForce>(change, parameters);
 }
 
-Vector push(const Force& force, const State<double>& state, const Tips<double>& tips = {}) {
+Vector push(const Unnamed& force, const State<double>& state, const Tips<double>& tips = {}) {
   return force.acceleration(state, tips, 1e-3, Numbers());
 }
 
@@ -37,7 +37,7 @@ TEST_CASE("on the string it acts along it and across its plane, off it along the
   state.position = Vector(0.0, 0.0, 0.3);
   state.velocity = Vector(0.0, 0.0, 2.0);
   state.spin = 50.0;
-  Force force;
+  Unnamed force;
   force.string_tangent = 1.0;
   force.string_binormal = 2.0;
   state.string_state = StringState::kOnString;
@@ -61,7 +61,7 @@ TEST_CASE("it grows by its powers of speed and spin, as far as its bounds") {
   CAPTURE(seed);
   Random random(seed);
   for (int i = 0; i < 50; ++i) {
-    Force force;
+    Unnamed force;
     force.flight_vertical = random.uniform(-2.0, 2.0);
     force.speed_exponent = random.uniform(-2.0, 3.0);
     force.spin_exponent = random.uniform(-2.0, 3.0);
@@ -77,8 +77,8 @@ TEST_CASE("it grows by its powers of speed and spin, as far as its bounds") {
       state.spin = spin;
       return push(force, state).z();
     };
-    CHECK(at(0.0, 0.0) == Approx(at(Force::kLeastSpeed, Force::kLeastSpin)));
-    CHECK(at(1e3, 1e5) == Approx(at(Force::kMostSpeed, Force::kMostSpin)));
+    CHECK(at(0.0, 0.0) == Approx(at(Unnamed::kLeastSpeed, Unnamed::kLeastSpin)));
+    CHECK(at(1e3, 1e5) == Approx(at(Unnamed::kMostSpeed, Unnamed::kMostSpin)));
   }
 }
 
@@ -96,8 +96,8 @@ TEST_CASE("against the velocity with the power two it is the drag of the air") {
 }
 
 TEST_CASE("no step takes more than the velocity, however a force against it grows") {
-  const Force force = [] {
-    Force f;
+  const Unnamed force = [] {
+    Unnamed f;
     f.flight_against = 20.0;
     f.speed_exponent = -2.0;
     return f;

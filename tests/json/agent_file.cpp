@@ -19,7 +19,7 @@ Agent drawn_agent() {
 }
 
 /// What is said of the file of an agent in which one piece of text stands for another.
-std::string complaint_about(const std::string& what, const std::string& by) {
+std::string agent_complaint(const std::string& what, const std::string& by) {
   std::string text = write_agent(drawn_agent());
   const std::size_t place = text.find(what);
   REQUIRE(place != std::string::npos);
@@ -46,21 +46,21 @@ TEST_CASE("an agent of few decimals is nearly the same, in a smaller file") {
   CHECK(write_agent(again, 3) == write_agent(agent, 3));
   CHECK(2 * write_agent(agent, 3).size() < write_agent(agent).size());
   CHECK_THROWS_WITH(write_agent(agent, 0), "decimals: 0; expected 1 to 6");
-  CHECK(complaint_about("\"layers\"", "\"unit\":0,\"layers\"").find("unit") != std::string::npos);
+  CHECK(agent_complaint("\"layers\"", "\"unit\":0,\"layers\"").find("unit") != std::string::npos);
 }
 
 TEST_CASE("what is no agent is told with its file and field") {
-  CHECK(complaint_about("SpinUp", "Fly").starts_with("a.json: task: found \"Fly\"; expected one of Hold"));
-  CHECK(complaint_about("0.02", "3") == "a.json: period: 3 s; expected 0.001 to 0.1 s");
-  CHECK(complaint_about("\"steps\":20", "\"steps\":2.5") ==
+  CHECK(agent_complaint("SpinUp", "Fly").starts_with("a.json: task: found \"Fly\"; expected one of Hold"));
+  CHECK(agent_complaint("0.02", "3") == "a.json: period: 3 s; expected 0.001 to 0.1 s");
+  CHECK(agent_complaint("\"steps\":20", "\"steps\":2.5") ==
         "a.json: field \"steps\" is 2.5; expected a whole number up to 1000");
-  CHECK(complaint_about("\"bias\":[", "\"bias\":[0.0,") ==
+  CHECK(agent_complaint("\"bias\":[", "\"bias\":[0.0,") ==
         "a.json: layer 0: 6 x " + std::to_string(kObservationSize) + " weights and 7 biases; expected " +
             std::to_string(kObservationSize) + " inputs, and a bias for each output");
-  CHECK(complaint_about("],[", ",0.0],[").find("expected rows of the same length") != std::string::npos);
-  CHECK(complaint_about("\"weights\":[[", "\"weights\":[[\"a\",").find("expected numbers") !=
+  CHECK(agent_complaint("],[", ",0.0],[").find("expected rows of the same length") != std::string::npos);
+  CHECK(agent_complaint("\"weights\":[[", "\"weights\":[[\"a\",").find("expected numbers") !=
         std::string::npos);
-  CHECK(complaint_about("\"bias\":[", "\"bias\":[null,").find("expected numbers") != std::string::npos);
-  CHECK(complaint_about("\"layers\"", "\"lairs\"") == "a.json: unknown field \"lairs\"");
+  CHECK(agent_complaint("\"bias\":[", "\"bias\":[null,").find("expected numbers") != std::string::npos);
+  CHECK(agent_complaint("\"layers\"", "\"lairs\"") == "a.json: unknown field \"lairs\"");
   CHECK(complaint([] { read_agent("{", "a.json"); }).starts_with("a.json"));
 }

@@ -16,7 +16,7 @@ const std::string kText = R"({"schema": "diabolo.calibration/1",
   "diabolo": {"body": "diabolo_red", "point": [-0.07, -0.006, -0.013], "axis": [-2, 0, 0]},
   "world": {"yaw_deg": -90, "offset": [0.1, -0.2, 0.3]}})";
 
-std::string says_of(const std::string& from, const std::string& to) {
+std::string calibration_complaint(const std::string& from, const std::string& to) {
   return complaint([&] { read_calibration(replaced(kText, from, to), "c.json"); });
 }
 
@@ -87,27 +87,28 @@ TEST_CASE("Calibration files are written whole and found by their path") {
 }
 
 TEST_CASE("Unknown, missing and wrong fields are named") {
-  CHECK(says_of("calibration/1", "calibration/2") ==
+  CHECK(calibration_complaint("calibration/1", "calibration/2") ==
         "c.json: field \"schema\" is \"diabolo.calibration/2\"; expected \"diabolo.calibration/1\"");
-  CHECK(says_of("\"left\"", "\"Left\"") == "c.json: unknown field \"Left\"");
-  CHECK(says_of("\"left\": {\"body\": \"stick_left\", \"point\": [0.1, 0.0, 0.0]},", "") ==
+  CHECK(calibration_complaint("\"left\"", "\"Left\"") == "c.json: unknown field \"Left\"");
+  CHECK(calibration_complaint("\"left\": {\"body\": \"stick_left\", \"point\": [0.1, 0.0, 0.0]},", "") ==
         "c.json: field \"left\" is missing");
-  CHECK(says_of("\"yaw_deg\"", "\"yaw\"") == "c.json: unknown field \"world.yaw\"");
-  CHECK(says_of("\"yaw_deg\": -90, ", "") == "c.json: field \"world.yaw_deg\" is missing");
-  CHECK(says_of("-90", "\"-90\"") == "c.json: field \"world.yaw_deg\" is \"-90\"; expected a number");
-  CHECK(says_of("\"stick_left\"", "7") ==
+  CHECK(calibration_complaint("\"yaw_deg\"", "\"yaw\"") == "c.json: unknown field \"world.yaw\"");
+  CHECK(calibration_complaint("\"yaw_deg\": -90, ", "") == "c.json: field \"world.yaw_deg\" is missing");
+  CHECK(calibration_complaint("-90", "\"-90\"") ==
+        "c.json: field \"world.yaw_deg\" is \"-90\"; expected a number");
+  CHECK(calibration_complaint("\"stick_left\"", "7") ==
         "c.json: field \"left.body\" is 7; expected a name, or a list of names");
-  CHECK(says_of("\"stick_left\"", "\"\"") ==
+  CHECK(calibration_complaint("\"stick_left\"", "\"\"") ==
         "c.json: field \"left.body\" is \"\"; expected a name, or a list of names");
-  CHECK(says_of("[0.1, 0.0, 0.0]", "[0.1, 0.0]") ==
+  CHECK(calibration_complaint("[0.1, 0.0, 0.0]", "[0.1, 0.0]") ==
         "c.json: field \"left.point\" is of type array; expected [x, y, z]");
-  CHECK(says_of("[0.1, 0.0, 0.0]", "[0.1, 0.0, 1e9]") ==
+  CHECK(calibration_complaint("[0.1, 0.0, 0.0]", "[0.1, 0.0, 1e9]") ==
         "c.json: left.point [m] must be finite and within 100 m");
-  CHECK(says_of(", \"axis\": [-2, 0, 0]", "") == "c.json: field \"diabolo.axis\" is missing");
-  CHECK(says_of("[-2, 0, 0]", "[0, 0, 0]") ==
+  CHECK(calibration_complaint(", \"axis\": [-2, 0, 0]", "") == "c.json: field \"diabolo.axis\" is missing");
+  CHECK(calibration_complaint("[-2, 0, 0]", "[0, 0, 0]") ==
         "c.json: field \"diabolo.axis\" is of type array; expected a direction of usable length");
-  CHECK(says_of("[-2, 0, 0]", "[-2, 0, 0], \"properties\": {\"mass\": 0}") ==
+  CHECK(calibration_complaint("[-2, 0, 0]", "[-2, 0, 0], \"properties\": {\"mass\": 0}") ==
         "c.json: field \"diabolo.properties.mass\" is 0; expected a number > 0");
-  CHECK(says_of("[-2, 0, 0]", "[-2, 0, 0], \"properties\": {\"weight\": 1}") ==
+  CHECK(calibration_complaint("[-2, 0, 0]", "[-2, 0, 0], \"properties\": {\"weight\": 1}") ==
         "c.json: unknown field \"diabolo.properties.weight\"");
 }

@@ -14,7 +14,7 @@ const std::string kCreep =
     R"([{"name": "creep", "acts": "string", "formula": "rate * t ^ p", "numbers": [{"name": "rate", "unit": "m/s",
     "value": 0.002}, {"name": "p", "usual": 0.5, "expected": 1.25, "minimum": 0, "maximum": 4}]}])";
 
-std::string complaint_about(const std::string& text) {
+std::string laws_complaint(const std::string& text) {
   return complaint([&] { read_laws(text, "l.json"); });
 }
 
@@ -35,21 +35,21 @@ TEST_CASE("laws read back as they were written, alone and in a model's file") {
 }
 
 TEST_CASE("what is no law is told with its file and field") {
-  CHECK(complaint_about(R"({"schema": "diabolo.laws/1", "laws": 3})") ==
+  CHECK(laws_complaint(R"({"schema": "diabolo.laws/1", "laws": 3})") ==
         "l.json: field \"laws\" is 3; expected a list");
-  CHECK(complaint_about(R"([3])") == "l.json: \"laws[0]\" is 3; expected an object");
-  CHECK(complaint_about(R"([{"name": "a"}])") == "l.json: field \"laws[0].numbers\" is missing");
-  CHECK(complaint_about(R"([{"name": "a", "numbers": [{"name": "k"}], "formula": "k"}])") ==
+  CHECK(laws_complaint(R"([3])") == "l.json: \"laws[0]\" is 3; expected an object");
+  CHECK(laws_complaint(R"([{"name": "a"}])") == "l.json: field \"laws[0].numbers\" is missing");
+  CHECK(laws_complaint(R"([{"name": "a", "numbers": [{"name": "k"}], "formula": "k"}])") ==
         "l.json: field \"laws[0].acts\" is missing");
-  CHECK(complaint_about(R"([{"name": "a", "numbers": [{"name": "k"}], "formula": "k", "acts": "down"}])")
+  CHECK(laws_complaint(R"([{"name": "a", "numbers": [{"name": "k"}], "formula": "k", "acts": "down"}])")
             .starts_with("l.json: field \"laws[0].acts\" is \"down\"; expected \"forward\", \"left\""));
-  CHECK(complaint_about(R"([{"name": "a", "numbers": [{"name": "k"}], "formula": "k *", "acts": "up"}])") ==
+  CHECK(laws_complaint(R"([{"name": "a", "numbers": [{"name": "k"}], "formula": "k *", "acts": "up"}])") ==
         "l.json: law \"a\": formula \"k *\", character 4: it ends; expected a number, a name or \"(\"");
   CHECK(
-      complaint_about(
+      laws_complaint(
           R"([{"name": "a", "numbers": [{"name": "k", "maximum": 1, "value": 2}], "formula": "k", "acts": "up"}])")
           .starts_with("l.json: laws k"));
-  CHECK(complaint_about(
+  CHECK(laws_complaint(
             R"([{"name": "a", "numbers": [{"name": "k", "size": 2}], "formula": "k", "acts": "up"}])") ==
         "l.json: unknown field \"laws[0].numbers[0].size\"");
 }

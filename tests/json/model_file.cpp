@@ -14,7 +14,7 @@ std::string file_with(const std::string& fields) {
   return R"({"schema": "diabolo.model/1", "base": "consistent")" + fields + "}";
 }
 
-std::string complaint_about(const std::string& text) {
+std::string model_complaint(const std::string& text) {
   return complaint([&] { read_model(text, "m.json"); });
 }
 
@@ -130,14 +130,14 @@ TEST_CASE("A compliance whose inverse is no double is written as it is") {
 }
 
 TEST_CASE("Every fault of a model file is said with file, field, what was found and what was expected") {
-  CHECK(complaint_about("{") == "m.json, line 1, column 2: this is not JSON (or the file is cut off)");
-  CHECK(complaint_about("[]") == "m.json: the file is of type array; expected an object");
-  CHECK(complaint_about("{}") == "m.json: field \"schema\" is missing");
-  CHECK(complaint_about(R"({"schema": "diabolo.model/2", "base": "paper"})") ==
+  CHECK(model_complaint("{") == "m.json, line 1, column 2: this is not JSON (or the file is cut off)");
+  CHECK(model_complaint("[]") == "m.json: the file is of type array; expected an object");
+  CHECK(model_complaint("{}") == "m.json: field \"schema\" is missing");
+  CHECK(model_complaint(R"({"schema": "diabolo.model/2", "base": "paper"})") ==
         "m.json: field \"schema\" is \"diabolo.model/2\"; expected \"diabolo.model/1\"");
-  CHECK(complaint_about(R"({"schema": "diabolo.model/1"})") == "m.json: field \"base\" is missing");
+  CHECK(model_complaint(R"({"schema": "diabolo.model/1"})") == "m.json: field \"base\" is missing");
   for (const char* base : {"\"mine\"", "7", "[\"paper\"]"})
-    CHECK(complaint_about(std::string(R"({"schema": "diabolo.model/1", "base": )") + base + "}")
+    CHECK(model_complaint(std::string(R"({"schema": "diabolo.model/1", "base": )") + base + "}")
               .ends_with("expected \"consistent\", \"paper\" or \"published\""));
   const std::vector<std::pair<const char*, const char*>> faults{
       {R"(, "colour": 1)", "unknown field \"colour\""},
@@ -170,7 +170,7 @@ TEST_CASE("Every fault of a model file is said with file, field, what was found 
        "field \"from_recording\" is of type array; expected a list of \"string_length\", \"mass\" and "
        "\"axle_radius\", or of some of them"}};
   for (const auto& [fields, expected] : faults)
-    CHECK(complaint_about(file_with(fields)) == "m.json: " + std::string(expected));
+    CHECK(model_complaint(file_with(fields)) == "m.json: " + std::string(expected));
 }
 
 TEST_CASE("A model that no file can hold is refused, and a file appears whole or not at all") {

@@ -20,7 +20,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-std::string says_of(const std::string& from, const std::string& to) {
+std::string metadata_complaint(const std::string& from, const std::string& to) {
   return complaint([&] { read_metadata(replaced(kMetadata, from, to), "play.json"); });
 }
 
@@ -40,16 +40,18 @@ TEST_CASE("Metadata is read as it stands and written back") {
 }
 
 TEST_CASE("Missing and wrong metadata are named") {
-  CHECK(says_of("recording/1", "calibration/1") ==
+  CHECK(metadata_complaint("recording/1", "calibration/1") ==
         "play.json: field \"schema\" is \"diabolo.calibration/1\"; expected \"diabolo.recording/1\"");
-  CHECK(says_of("\"SI\"", "\"mm\"") == "play.json: field \"units\" is \"mm\"; expected \"SI\"");
-  CHECK(says_of("y left", "y up") ==
+  CHECK(metadata_complaint("\"SI\"", "\"mm\"") == "play.json: field \"units\" is \"mm\"; expected \"SI\"");
+  CHECK(metadata_complaint("y left", "y up") ==
         "play.json: field \"frame\" is \"x forward, y up, z up\"; expected \"x forward, y left, z up\"");
-  CHECK(says_of("\"rate\": 100, ", "") == "play.json: field \"rate\" is missing");
-  CHECK(says_of("100", "\"fast\"") == "play.json: field \"rate\" is \"fast\"; expected a number");
-  CHECK(says_of("0.2845", "-1") == "play.json: field \"diabolo.mass\" is -1; expected a number > 0");
-  CHECK(says_of("\"mass\": 0.2845, ", "") == "play.json: field \"diabolo.mass\" is missing");
-  CHECK(says_of("\"mass\"", "\"length\": 1, \"mass\"") == "play.json: field \"length\" is there twice");
+  CHECK(metadata_complaint("\"rate\": 100, ", "") == "play.json: field \"rate\" is missing");
+  CHECK(metadata_complaint("100", "\"fast\"") == "play.json: field \"rate\" is \"fast\"; expected a number");
+  CHECK(metadata_complaint("0.2845", "-1") ==
+        "play.json: field \"diabolo.mass\" is -1; expected a number > 0");
+  CHECK(metadata_complaint("\"mass\": 0.2845, ", "") == "play.json: field \"diabolo.mass\" is missing");
+  CHECK(metadata_complaint("\"mass\"", "\"length\": 1, \"mass\"") ==
+        "play.json: field \"length\" is there twice");
   CHECK(complaint([] {
           write_metadata({kRedDiabolo, kNaN, 100.0});
         }) == "recording: string_length [m] nan; expected 0.05 to 20");

@@ -12,7 +12,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr double kDuration = 0.5, kLength = 1.45;
+constexpr double kHopDuration = 0.5, kLength = 1.45;
 
 /// A hop: slack at first, taut from `snap_time` on.
 struct Hop {
@@ -39,8 +39,8 @@ Hop random_hop(Random& random) {
     hop.velocity = random.vector(0.5) + Vector(0.0, 0.0, 0.5);
     if (path_length(hop, 0.0) > kLength - 0.02) continue;
     double low = 0.0, high = 0.0;
-    while (high < kDuration && path_length(hop, high) < kLength) low = high, high += 1e-3;
-    if (high >= kDuration - 0.1) continue;
+    while (high < kHopDuration && path_length(hop, high) < kLength) low = high, high += 1e-3;
+    if (high >= kHopDuration - 0.1) continue;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
       (path_length(hop, middle) < kLength ? low : high) = middle;
@@ -53,7 +53,7 @@ Hop random_hop(Random& random) {
         hop.position + hop.velocity * high - Vector(0.0, 0.0, 0.5 * kStandardGravity * high * high);
     reference.velocity = hop.velocity - Vector(0.0, 0.0, kStandardGravity * high);
     reference.make_consistent();  // an inelastic catch is this projection
-    if (reference.advance(kDuration, 1e-4) < 1.0) continue;
+    if (reference.advance(kHopDuration, 1e-4) < 1.0) continue;
     hop.end = reference;
     return hop;
   }
@@ -71,7 +71,7 @@ Outcome run(const Hop& hop, int steps) {
   state.position = hop.position;
   state.velocity = hop.velocity;
   Outcome outcome;
-  const double dt = kDuration / steps;
+  const double dt = kHopDuration / steps;
   for (int i = 0; i < steps; ++i) {
     const StepStatus<double> status =
         predictor.step(state, hop.tips.at(i * dt), hop.tips.at((i + 1) * dt), dt);
@@ -91,7 +91,7 @@ TEST_CASE("the string snaps taut once, in the right step") {
   for (int i = 0; i < 30; ++i) {
     const Hop hop = random_hop(random);
     for (const int steps : {100, 500, 1000}) {
-      const double dt = kDuration / steps;
+      const double dt = kHopDuration / steps;
       const Outcome outcome = run(hop, steps);
       // Caught at the very end of a step, the string may be some nm slack after it and snap in the next one
       // too.

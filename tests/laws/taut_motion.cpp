@@ -12,9 +12,9 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr double kDuration = 1.0;
+constexpr double kSwingDuration = 1.0;
 
-/// Tips and a start from which the string stays taut for kDuration, by the reference.
+/// Tips and a start from which the string stays taut for kSwingDuration, by the reference.
 struct Swing {
   SmoothTips tips;
   TautReference start, end;
@@ -32,9 +32,9 @@ Swing random_swing(Random& random, double distance, double amplitude) {
     swing.start.velocity = random.vector(1.5);
     swing.start.make_consistent();
     swing.end = swing.start;
-    if (swing.end.advance(kDuration, 1e-3) < 1.0) continue;  // the string nearly slack somewhere
+    if (swing.end.advance(kSwingDuration, 1e-3) < 1.0) continue;  // the string nearly slack somewhere
     swing.end = swing.start;
-    swing.end.advance(kDuration, 1e-4);
+    swing.end.advance(kSwingDuration, 1e-4);
     return swing;
   }
 }
@@ -46,7 +46,7 @@ struct Errors {
 /// Largest errors over the motion with the given number of steps.
 Errors errors_of(const Swing& swing, int steps) {
   const Predictor<double> predictor(Parameters<double>::consistent());
-  const double dt = kDuration / steps;
+  const double dt = kSwingDuration / steps;
   State<double> state;
   state.position = swing.start.position;
   state.velocity = swing.start.velocity;
@@ -77,11 +77,11 @@ Errors errors_of(const Swing& swing, int steps) {
 TEST_CASE("the reference keeps the string's length and converges") {
   Random random(100);
   const Swing swing = random_swing(random, 0.4, 0.1);
-  const Tips<double> tips = swing.tips.at(kDuration);
+  const Tips<double> tips = swing.tips.at(kSwingDuration);
   CHECK((swing.end.position - tips.left).norm() + (swing.end.position - tips.right).norm() ==
         Approx(1.45).epsilon(0).margin(1e-10));
   TautReference coarse = swing.start;
-  coarse.advance(kDuration, 1e-3);
+  coarse.advance(kSwingDuration, 1e-3);
   CHECK((coarse.position - swing.end.position).norm() < 1e-8);
 }
 
@@ -137,8 +137,8 @@ TEST_CASE("the spin converges with the second order of the step") {
       state.velocity = swing.start.velocity;
       state.spin = 50.0;
       for (int i = 0; i < steps; ++i)
-        predictor.step(state, swing.tips.at(i * kDuration / steps),
-                       swing.tips.at((i + 1) * kDuration / steps), kDuration / steps);
+        predictor.step(state, swing.tips.at(i * kSwingDuration / steps),
+                       swing.tips.at((i + 1) * kSwingDuration / steps), kSwingDuration / steps);
       return std::abs(state.spin - exact);
     };
     const double coarse = error(250), fine = error(500), finest = error(1000);

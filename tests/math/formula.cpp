@@ -59,7 +59,7 @@ TEST_CASE("a formula is finite wherever it is asked") {
 }
 
 TEST_CASE("its derivatives are those of its values") {
-  using D = Dual<double, 3>;
+  using ThreeDual = Dual<double, 3>;
   const unsigned seed = 51;
   CAPTURE(seed);
   std::mt19937 generator(seed);
@@ -69,8 +69,8 @@ TEST_CASE("its derivatives are those of its values") {
     CAPTURE(text);
     const Formula formula(text, kNames);
     const std::array<double, 3> x{draw(generator), draw(generator), draw(generator)};
-    const D dual = formula.value<D>([&](std::size_t i) {
-      D d(x[i]);
+    const ThreeDual dual = formula.value<ThreeDual>([&](std::size_t i) {
+      ThreeDual d(x[i]);
       d.gradient[static_cast<Eigen::Index>(i)] = 1.0;
       return d;
     });

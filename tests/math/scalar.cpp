@@ -9,17 +9,17 @@
 #include "diabolo/math/pack.hpp"
 
 using namespace diabolo;
-using D = Dual<double, 1>;
+using OneDual = Dual<double, 1>;
 using P = Pack<double, 4>;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("the contract's choices are made on the value", "", double, float, D, P) {
+TEMPLATE_TEST_CASE("the contract's choices are made on the value", "", double, float, OneDual, P) {
   const TestType a(-2.0), b(3.0);
   CHECK(all(minimum(a, b) == a));
   CHECK(all(minimum(b, a) == a));
@@ -31,7 +31,7 @@ TEMPLATE_TEST_CASE("the contract's choices are made on the value", "", double, f
   CHECK(all(select(Mask<TestType>(false), a, b) == b));
 }
 
-TEMPLATE_TEST_CASE("a vector is chosen whole", "", double, float, D, P) {
+TEMPLATE_TEST_CASE("a vector is chosen whole", "", double, float, OneDual, P) {
   const Vector3<TestType> a(TestType(1), TestType(2), TestType(3)), b(TestType(4), TestType(5), TestType(6));
   const Vector3<TestType> first = select<TestType>(Mask<TestType>(true), a, b);
   const Vector3<TestType> second = select<TestType>(Mask<TestType>(false), a, b);
@@ -52,11 +52,11 @@ TEMPLATE_TEST_CASE("positive_sqrt is finite and nearly zero where its argument i
 }
 
 TEST_CASE("norm and positive_sqrt have finite derivatives at zero") {
-  const D zero = D::variable(0.0, 0);
+  const OneDual zero = OneDual::variable(0.0, 0);
   CHECK(std::isfinite(positive_sqrt(zero).gradient[0]));
-  const Vector3<D> nothing(zero, zero, zero);
-  CHECK(std::isfinite(norm<D>(nothing).gradient[0]));
-  CHECK(norm<D>(nothing).value < 1e-150);
+  const Vector3<OneDual> nothing(zero, zero, zero);
+  CHECK(std::isfinite(norm<OneDual>(nothing).gradient[0]));
+  CHECK(norm<OneDual>(nothing).value < 1e-150);
 }
 
 TEST_CASE("norm agrees with Pythagoras to rounding") {
@@ -65,11 +65,11 @@ TEST_CASE("norm agrees with Pythagoras to rounding") {
 }
 
 TEST_CASE("is_finite sees every fault") {
-  for (const double x : {kNaN, kInfinity, -kInfinity}) {
+  for (const double x : {kNoNumber, kInfinity, -kInfinity}) {
     CHECK_FALSE(is_finite(x));
     CHECK_FALSE(is_finite(static_cast<float>(x)));
-    CHECK_FALSE(is_finite(D(x)));
-    CHECK_FALSE(is_finite(D(1.0, D::Gradient::Constant(x))));
+    CHECK_FALSE(is_finite(OneDual(x)));
+    CHECK_FALSE(is_finite(OneDual(1.0, OneDual::Gradient::Constant(x))));
     P pack(1.0);
     pack.set(2, x);
     CHECK_FALSE(all(is_finite(pack)));
@@ -77,7 +77,7 @@ TEST_CASE("is_finite sees every fault") {
     CHECK_FALSE(is_finite(pack)[2]);
   }
   CHECK(is_finite(1e308));
-  CHECK(is_finite(D(1.0)));
+  CHECK(is_finite(OneDual(1.0)));
   CHECK(all(is_finite(P(-1e308))));
 }
 
@@ -85,9 +85,9 @@ TEST_CASE("a constant zero has neither a lane nor a derivative that differs from
   CHECK(is_constant_zero(0.0));
   CHECK(is_constant_zero(-0.0F));
   CHECK_FALSE(is_constant_zero(1e-300));
-  CHECK(is_constant_zero(D(0.0)));
-  CHECK_FALSE(is_constant_zero(D(1e-300)));
-  CHECK_FALSE(is_constant_zero(D::variable(0.0, 0)));
+  CHECK(is_constant_zero(OneDual(0.0)));
+  CHECK_FALSE(is_constant_zero(OneDual(1e-300)));
+  CHECK_FALSE(is_constant_zero(OneDual::variable(0.0, 0)));
   P pack(0.0);
   CHECK(is_constant_zero(pack));
   pack.set(3, 1.0);
@@ -95,13 +95,13 @@ TEST_CASE("a constant zero has neither a lane nor a derivative that differs from
 }
 
 TEST_CASE("value_of drops derivatives") {
-  CHECK(value_of(D::variable(3.0, 0)) == 3.0);
+  CHECK(value_of(OneDual::variable(3.0, 0)) == 3.0);
   CHECK(value_of(2.0F) == 2.0F);
 }
 
 TEST_CASE("the constraint is solved more coarsely in single precision, above its rounding") {
   CHECK(constraint_tolerance<double>() == constraint_tolerance<P>());
-  CHECK(constraint_tolerance<double>() == constraint_tolerance<D>());
+  CHECK(constraint_tolerance<double>() == constraint_tolerance<OneDual>());
   CHECK(constraint_tolerance<float>() > 4.0 * double(std::numeric_limits<float>::epsilon()));
   CHECK(constraint_tolerance<float>() == constraint_tolerance<Pack<float, 8>>());
 }

@@ -9,11 +9,11 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr double kLength = 1.45, kStep = 1e-3;
+constexpr double kWhole = 1.45, kStep = 1e-3;
 
 Spheroid<double> spheroid_at(const Vector& center, double distance) {
   const Vector half(0.0, 0.5 * distance, 0.0);
-  return {center + half, center - half, kLength};
+  return {center + half, center - half, kWhole};
 }
 
 const Vector kOrigin(0.0, 0.0, 1.0), kDown(0.0, 0.0, -1.0);

@@ -4,14 +4,12 @@
 #include "catch.hpp"
 #include "diabolo/plan/motions.hpp"
 #include "diabolo/plan/random_walk.hpp"
-#include "random.hpp"
+#include "plan/splines.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr double kLength = 1.45;
 
 PlanProblem<> problem_of(const std::string& name, const ActionOptions& options = {}) {
   const TipColumn<double> home = home_pose(name, kLength);

@@ -10,8 +10,6 @@ using namespace diabolo;
 
 namespace {
 
-constexpr double kLength = 1.45;
-
 std::map<std::string, LimitUse> by_name(const TipPath<double>& path, const TipLimits& limits) {
   std::map<std::string, LimitUse> uses;
   for (const LimitUse& use : limit_uses(path, limits, kLength)) uses.emplace(use.name, use);

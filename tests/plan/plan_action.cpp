@@ -4,14 +4,12 @@
 #include "catch.hpp"
 #include "diabolo/effects/string_friction.hpp"
 #include "diabolo/plan/success_rate.hpp"
-#include "splines.hpp"
+#include "plan/splines.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr double kLength = 1.45;
 
 Predictor<double> model_of(double string_length) {
   Parameters<double> parameters = Parameters<double>::consistent();

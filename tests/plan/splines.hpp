@@ -8,6 +8,8 @@
 #include "diabolo/plan/tip_path.hpp"
 #include "random.hpp"
 
+constexpr double kLength = 1.45;  ///< of the string in these tests [m]
+
 /// A spline through random points near a player's hands, in random times.
 inline diabolo::StickSpline<double> random_spline(Random& random, diabolo::SplineEnds ends, int count = 6) {
   diabolo::StickSpline<double> spline;

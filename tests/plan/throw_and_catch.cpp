@@ -9,7 +9,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr double kLength = 1.45;
 const Predictor<double> kModel{Parameters<double>::consistent()};
 
 PlanProblem<> throwing(const std::string& name, double height) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "diabolo/robot/arm/ik_seed_grid.hpp"
 #include "diabolo/robot/arm/inverse.hpp"
 #include "diabolo/robot/arm/ur5e.hpp"
 #include "random.hpp"
@@ -48,4 +50,20 @@ inline diabolo::Ur5eCalibration random_calibration(Random& random) {
     for (double* angle : {&link.roll, &link.pitch, &link.yaw}) *angle += random.uniform(-1e-3, 1e-3);
   }
   return calibration;
+}
+
+inline diabolo::Vector3<double> random_point(Random& random, const diabolo::GridBox& box) {
+  return {random.uniform(box.lower.x(), box.upper.x()), random.uniform(box.lower.y(), box.upper.y()),
+          random.uniform(box.lower.z(), box.upper.z())};
+}
+
+/// What an error of this kind says; other exceptions pass, so that a test fails on them.
+template <class Error, class Work>
+std::string message_of(const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }

@@ -13,12 +13,12 @@ using test::replaced;
 
 namespace {
 
-std::string says(const std::string& text) {
+std::string motive_says(const std::string& text) {
   return complaint([&] { read_motive(text, "take.csv"); });
 }
 
-std::string says_of(const std::string& from, const std::string& to) {
-  return says(replaced(motive_text(), from, to));
+std::string motive_says_of(const std::string& from, const std::string& to) {
+  return motive_says(replaced(motive_text(), from, to));
 }
 
 std::string replace_all(std::string text, const std::string& from, const std::string& to) {
@@ -114,41 +114,41 @@ TEST_CASE("Rounded quaternions are normalised, wrong ones refused") {
   const MotiveTake take =
       read_motive(replaced(motive_text(), ",0.6,0.8,0,0,", ",0.6,0.8004,0,0,"), "take.csv");
   CHECK(take.bodies[1].quaternion.col(2).norm() == Approx(1.0).epsilon(1e-15));
-  CHECK(says_of(",0.6,0.8,0,0,", ",0.3,0.4,0,0,") ==
+  CHECK(motive_says_of(",0.6,0.8,0,0,", ",0.3,0.4,0,0,") ==
         "take.csv, line 10: \"diabolo_red\": quaternion of norm 0.5; expected 1 within 0.001");
-  CHECK(says_of(",0.6,0.8,0,0,", ",0,0,0,0,") ==
+  CHECK(motive_says_of(",0.6,0.8,0,0,", ",0,0,0,0,") ==
         "take.csv, line 10: \"diabolo_red\": quaternion of norm 0; expected 1 within 0.001");
-  CHECK(says_of(",0.6,0.8,0,0,", ",1e300,0,0,0,") ==
+  CHECK(motive_says_of(",0.6,0.8,0,0,", ",1e300,0,0,0,") ==
         "take.csv, line 10: \"diabolo_red\": quaternion of norm inf; expected 1 within 0.001");
 }
 
 TEST_CASE("What is no Motive export is refused") {
-  CHECK(says("") == "take.csv: the file is empty");
-  CHECK(says("time,left_x\n") ==
+  CHECK(motive_says("") == "take.csv: the file is empty");
+  CHECK(motive_says("time,left_x\n") ==
         "take.csv, line 1: starts with \"time\"; expected \"Format Version\", as Motive exports it");
-  CHECK(says("\n") ==
+  CHECK(motive_says("\n") ==
         "take.csv, line 1: starts with \"\"; expected \"Format Version\", as Motive exports it");
-  CHECK(says("\xff\xfe" + motive_text()) == "take.csv: the text is UTF-16; expected UTF-8");
-  CHECK(says(replace_all(motive_text(), "\n", "\r")) ==
+  CHECK(motive_says("\xff\xfe" + motive_text()) == "take.csv: the text is UTF-16; expected UTF-8");
+  CHECK(motive_says(replace_all(motive_text(), "\n", "\r")) ==
         "take.csv: lines end with CR only (old Mac); expected LF or CRLF");
 }
 
 TEST_CASE("Other units, rotations and spaces are refused") {
-  CHECK(says_of("Meters", "Inches") ==
+  CHECK(motive_says_of("Meters", "Inches") ==
         "take.csv, line 1: \"Length Units\" is \"Inches\"; expected Meters, Centimeters or Millimeters");
-  CHECK(says_of("Rotation Type,Quaternion", "Rotation Type,XYZ") ==
+  CHECK(motive_says_of("Rotation Type,Quaternion", "Rotation Type,XYZ") ==
         "take.csv, line 1: \"Rotation Type\" is \"XYZ\"; expected \"Quaternion\"");
-  CHECK(says_of("Coordinate Space,Global", "Coordinate Space,Local") ==
+  CHECK(motive_says_of("Coordinate Space,Global", "Coordinate Space,Local") ==
         "take.csv, line 1: \"Coordinate Space\" is \"Local\"; expected \"Global\"");
-  CHECK(says_of("Length Units,Meters,", "") ==
+  CHECK(motive_says_of("Length Units,Meters,", "") ==
         "take.csv, line 1: \"Length Units\" is missing; expected it with a value, as Motive exports it");
-  CHECK(says_of("Export Frame Rate,120.000000", "Export Frame Rate,fast") ==
+  CHECK(motive_says_of("Export Frame Rate,120.000000", "Export Frame Rate,fast") ==
         "take.csv, line 1: \"Export Frame Rate\" is \"fast\"; expected a number");
-  CHECK(says_of("Export Frame Rate,120.000000", "Export Frame Rate,0") ==
+  CHECK(motive_says_of("Export Frame Rate,120.000000", "Export Frame Rate,0") ==
         "take.csv: rate 0 Hz; expected more than 0, at most 1e6");
-  CHECK(says_of("Export Frame Rate,120.000000", "Export Frame Rate,60")
+  CHECK(motive_says_of("Export Frame Rate,120.000000", "Export Frame Rate,60")
             .starts_with("take.csv: rate 60 Hz, but the times step by 0.0083"));
-  CHECK(says_of("-0.25,0.5,1.02", "-250,500,1020") ==
+  CHECK(motive_says_of("-0.25,0.5,1.02", "-250,500,1020") ==
         "take.csv, line 10: \"stick_left\": position -250 m; expected within 100 m (other units?)");
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("Of a file that is cut off the whole lines are read, with one note") {
     INFO("cut off after " << length << " bytes");
     const std::string part = text.substr(0, length);
     if (length < second) {
-      CHECK(says(part).starts_with("take.csv"));
+      CHECK(motive_says(part).starts_with("take.csv"));
       continue;
     }
     const MotiveTake take = read_motive(part, "take.csv");
@@ -173,74 +173,77 @@ TEST_CASE("Of a file that is cut off the whole lines are read, with one note") {
   CHECK(read_motive(text, "take.csv").notes.empty());
   CHECK(read_motive(replaced(text, "Frames,3,", "Frames,2,").substr(0, text.size() - 1), "take.csv").notes ==
         std::vector<std::string>{kCutLineNote});
-  CHECK(says_of("Frames,3,", "Frames,2,") ==
+  CHECK(motive_says_of("Frames,3,", "Frames,2,") ==
         "take.csv: 3 lines of data, but line 1 says 2 exported frames; expected no more than it says");
-  CHECK(says(text.substr(0, text.find("40,"))) ==
+  CHECK(motive_says(text.substr(0, text.find("40,"))) ==
         "take.csv, line 7: the file ends here; expected at least one line of data");
-  CHECK(says(text.substr(0, text.find(",,\"A1\""))) ==
+  CHECK(motive_says(text.substr(0, text.find(",,\"A1\""))) ==
         "take.csv, line 4: the file ends here; expected the line of identifiers next");
 }
 
-TEST_CASE("Headers that do not fit are refused") {
-  CHECK(says_of("Global\n\n", "Global\n") ==
+TEST_CASE("headers of Motive that do not fit are refused") {
+  CHECK(motive_says_of("Global\n\n", "Global\n") ==
         "take.csv, line 2: starts with \"Rigid Body\"; expected a blank line below the take");
-  CHECK(says_of("Frame,Time", "Time,Frame")
+  CHECK(motive_says_of("Frame,Time", "Time,Frame")
             .starts_with("take.csv, line 7: starts with \"Time\"; expected \"Frame,"));
-  CHECK(says_of(",Marker,Marker,Marker\n", ",Marker,Marker\n") ==
+  CHECK(motive_says_of(",Marker,Marker,Marker\n", ",Marker,Marker\n") ==
         "take.csv, line 7: 26 columns, but the four lines above have 25, 26, 26 and 26; expected as many");
-  CHECK(says_of("Rotation,Position,Position,Position", "Rotation,Position,Position,Rotation") ==
+  CHECK(motive_says_of("Rotation,Position,Position,Position", "Rotation,Position,Position,Rotation") ==
         "take.csv, line 7: column 9: \"stick_left\" has this component in column 5 already; expected every "
         "body and "
         "marker once");
-  CHECK(says_of("X,Y,Z,W", "X,Y,Z,V") ==
+  CHECK(motive_says_of("X,Y,Z,W", "X,Y,Z,V") ==
         "take.csv, line 7: column 6: \"Rotation\" \"V\"; expected an axis of it");
-  CHECK(says_of("X,Y,Z\n", "X,Y,W\n") ==
+  CHECK(motive_says_of("X,Y,Z\n", "X,Y,W\n") ==
         "take.csv, line 7: column 26: \"Position\" \"W\"; expected an axis of it");
-  CHECK(says_of(",,stick_left,", ",,,") ==
+  CHECK(motive_says_of(",,stick_left,", ",,,") ==
         "take.csv, line 7: column 3: no name in the second line below the blank one");
-  CHECK(says_of(",,stick_left,", ",,other,") == "take.csv, line 7: \"other\" has no column Rotation Y");
-  CHECK(says_of("Position,Position\nFrame", "Position,Quality\nFrame") ==
+  CHECK(motive_says_of(",,stick_left,", ",,other,") ==
+        "take.csv, line 7: \"other\" has no column Rotation Y");
+  CHECK(motive_says_of("Position,Position\nFrame", "Position,Quality\nFrame") ==
         "take.csv, line 7: \"diabolo_red:Marker1\" has no column Position Z");
 }
 
 TEST_CASE("A body that is there twice is refused") {
-  CHECK(says(replace_all(motive_text(), "stick_right", "stick_left")) ==
+  CHECK(motive_says(replace_all(motive_text(), "stick_right", "stick_left")) ==
         "take.csv, line 7: column 17: \"stick_left\" has this component in column 3 already; expected every "
         "body and "
         "marker once");
 }
 
-TEST_CASE("Rows that do not fit are refused") {
-  CHECK(says_of("0.1,0.2,0.3\n", "0.1,0.2\n") == "take.csv, line 8: 25 cells; expected 26, as in the header");
-  CHECK(says_of("0.1,0.2,0.3\n", "0.1,0.2,0.3,0.4\n") ==
+TEST_CASE("rows of Motive that do not fit are refused") {
+  CHECK(motive_says_of("0.1,0.2,0.3\n", "0.1,0.2\n") ==
+        "take.csv, line 8: 25 cells; expected 26, as in the header");
+  CHECK(motive_says_of("0.1,0.2,0.3\n", "0.1,0.2,0.3,0.4\n") ==
         "take.csv, line 8: 27 cells; expected 26, as in the header");
-  CHECK(says_of("\n41,", "\n\n41,") == "take.csv, line 9: 1 cells; expected 26, as in the header");
-  CHECK(says_of("-0.25,0.5,1.02", "-0.25,,1.02") ==
+  CHECK(motive_says_of("\n41,", "\n\n41,") == "take.csv, line 9: 1 cells; expected 26, as in the header");
+  CHECK(motive_says_of("-0.25,0.5,1.02", "-0.25,,1.02") ==
         "take.csv, line 10: \"stick_left\": 1 of its 3 position cells are empty; expected none, or all in a "
         "dropout");
   CHECK(
-      says_of("-0.25,0.5,1.02", ",,") ==
+      motive_says_of("-0.25,0.5,1.02", ",,") ==
       "take.csv, line 10: \"stick_left\": some of its 7 cells are empty; expected none, or all in a dropout");
-  CHECK(says_of(",0.6,0.8,0,0,", ",0.6,0.8,,0,") ==
+  CHECK(motive_says_of(",0.6,0.8,0,0,", ",0.6,0.8,,0,") ==
         "take.csv, line 10: \"diabolo_red\": some of its 7 cells are empty; expected none, or all in a "
         "dropout");
-  CHECK(says_of(",0.6,0.8,0,0,", ",nan,0.8,0,0,") ==
+  CHECK(motive_says_of(",0.6,0.8,0,0,", ",nan,0.8,0,0,") ==
         "take.csv, line 10: column 10: \"nan\"; expected a finite number or an empty cell");
-  CHECK(says_of("-0.25,0.5,1.02", "-0.25,1e999,1.02") ==
+  CHECK(motive_says_of("-0.25,0.5,1.02", "-0.25,1e999,1.02") ==
         "take.csv, line 10: column 8: \"1e999\"; expected a finite number or an empty cell");
-  CHECK(says_of("-0.25,0.5,1.02", "-0.25,1e300,1.02") ==
+  CHECK(motive_says_of("-0.25,0.5,1.02", "-0.25,1e300,1.02") ==
         "take.csv, line 10: \"stick_left\": position 1e+300 m; expected within 100 m (other units?)");
 }
 
 TEST_CASE("Frames and times have to increase") {
-  CHECK(says_of("\n42,", "\n41,") == "take.csv, line 10: frame 41 does not come after frame 41");
-  CHECK(says_of("42,0.350000", "42,0.341667") ==
+  CHECK(motive_says_of("\n42,", "\n41,") == "take.csv, line 10: frame 41 does not come after frame 41");
+  CHECK(motive_says_of("42,0.350000", "42,0.341667") ==
         "take.csv, line 10: time 0.341667 s does not come after 0.341667 s");
-  CHECK(says_of("\n42,", "\n42.5,") == "take.csv, line 10: frame 42.5; expected a whole number");
-  CHECK(says_of("\n42,", "\n,") == "take.csv, line 10: frame nan; expected a whole number");
-  CHECK(says_of("\n42,", "\n1e300,") == "take.csv, line 10: frame 1e+300; expected a whole number");
-  CHECK(says_of("42,0.350000", "42,") == "take.csv, line 10: time is empty; expected a number of seconds");
-  CHECK(says_of("42,0.350000", "42,1e10") ==
+  CHECK(motive_says_of("\n42,", "\n42.5,") == "take.csv, line 10: frame 42.5; expected a whole number");
+  CHECK(motive_says_of("\n42,", "\n,") == "take.csv, line 10: frame nan; expected a whole number");
+  CHECK(motive_says_of("\n42,", "\n1e300,") == "take.csv, line 10: frame 1e+300; expected a whole number");
+  CHECK(motive_says_of("42,0.350000", "42,") ==
+        "take.csv, line 10: time is empty; expected a number of seconds");
+  CHECK(motive_says_of("42,0.350000", "42,1e10") ==
         "take.csv, line 10: time 1e+10 s; expected a number within 1e9 s");
 }
 
@@ -262,7 +265,7 @@ TEST_CASE("A million columns take bounded work") {
   const MotiveTake take = read_motive(header + "0,0" + cells + "\n1,0.008333" + cells + "\n", "take.csv");
   CHECK(take.markers.size() == 333'333);
   // As many lines without cells: the room that they would need is never asked for.
-  CHECK(says(header + "0,0" + cells + "\n" + std::string(1'000'000, '\n') + "1\n") ==
+  CHECK(motive_says(header + "0,0" + cells + "\n" + std::string(1'000'000, '\n') + "1\n") ==
         "take.csv, line 9: 1 cells; expected 1000001, as in the header");
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("Columns may stand in any order, sticks may have orientations") {
   CHECK(recording.right_orientation.empty());
 }
 
-TEST_CASE("Headers that do not fit are refused") {
+TEST_CASE("headers of a tidy file that do not fit are refused") {
   CHECK(
       says_of("left_x", "left_q") ==
       "play.csv, line 1: column 2 is \"left_q\", which a tidy recording lacks (--columns maps other names)");
@@ -96,7 +96,7 @@ TEST_CASE("Headers that do not fit are refused") {
   CHECK(says("\xfe\xff") == "play.csv: the text is UTF-16; expected UTF-8");
 }
 
-TEST_CASE("Rows that do not fit are refused") {
+TEST_CASE("rows of a tidy file that do not fit are refused") {
   CHECK(says_of("0.6,0.8,0,0\n", "0.6,0.8,0\n") ==
         "play.csv, line 4: 13 cells; expected 14, as in the header");
   CHECK(says_of("0.6,0.8,0,0\n", "0.6,0.8,0,0,0\n") ==

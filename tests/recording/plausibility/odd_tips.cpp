@@ -13,7 +13,7 @@ using namespace diabolo;
 
 namespace {
 
-void freeze(Recording& r, Track& tip, Eigen::Index from = 0) {
+void hold_still(Recording& r, Track& tip, Eigen::Index from = 0) {
   Eigen::Index seen = from;
   while (!tip.valid[seen]) ++seen;
   const Eigen::Vector3d place = tip.position.col(seen);
@@ -61,12 +61,12 @@ TEST_CASE("Frozen tips are told, one or both, and from some row on") {
   for (const char* name : {"circular_acceleration", "drop_and_catch", "linear_acceleration", "throw"}) {
     CAPTURE(name);
     Recording left = test::shipped(name), both = left, late = left;
-    freeze(left, left.left);
+    hold_still(left, left.left);
     CHECK(test::has(warnings(left), "the left tip rests to the last digit for "));
-    freeze(both, both.left);
-    freeze(both, both.right);
+    hold_still(both, both.left);
+    hold_still(both, both.right);
     CHECK(test::has(warnings(both), "the left tip and the right tip rest to the last digit for "));
-    freeze(late, late.right, late.size() / 2);
+    hold_still(late, late.right, late.size() / 2);
     CHECK(test::has(warnings(late), "the right tip rests to the last digit for "));
   }
 }

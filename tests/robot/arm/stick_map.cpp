@@ -15,11 +15,6 @@ using namespace diabolo;
 
 namespace {
 
-Vector3<double> random_point(Random& random, const GridBox& box) {
-  return {random.uniform(box.lower.x(), box.upper.x()), random.uniform(box.lower.y(), box.upper.y()),
-          random.uniform(box.lower.z(), box.upper.z())};
-}
-
 /// The nominal arms of both sides and a calibrated one.
 std::vector<StickMap> maps() {
   std::vector<StickMap> all;

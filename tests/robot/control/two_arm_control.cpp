@@ -7,23 +7,12 @@
 
 #include "catch.hpp"
 #include "count_allocations.hpp"
-#include "diabolo/robot/arm/build_seed_grid.hpp"
+#include "robot/arms.hpp"
 #include "robot/simulated_arm.hpp"
 
 using namespace diabolo;
 
 namespace {
-
-const StickPlanner& planner() {
-  static const StickPlanner plans = [] {
-    const auto map = [](Side side) {
-      const StickArm arm = paper_arm(side);
-      return StickMap(arm, build_seed_grid(arm, paper_box(arm)));
-    };
-    return StickPlanner(map(Side::kLeft), map(Side::kRight), JointLimits::uniform());
-  }();
-  return plans;
-}
 
 /// Both tips on circles in the upright plane, as a person at 2 m/s would; the arms take longer.
 TipMotion<double> circles(double seconds, double start = 0.0) {
@@ -380,12 +369,7 @@ TEST_CASE("tips farther apart than the string are refused") {
 
 TEST_CASE("arms that close in on each other are stopped short of the least clearance") {
   // Closer mounts, so that arms within their boxes can meet.
-  const Mounts mounts{0.70, 0.5, 0.0};
-  const auto map = [&](Side side) {
-    const StickArm arm = paper_arm(side, mounts);
-    return StickMap(arm, build_seed_grid(arm, paper_box(arm)));
-  };
-  const StickPlanner close(map(Side::kLeft), map(Side::kRight), JointLimits::uniform());
+  const StickPlanner close = planner_on({0.70, 0.5, 0.0});
   const TipMotion<double> crossing({0, 1, 2}, {{0.6, 0.3, 1.2}, {0.6, 0.0, 1.2}, {0.6, -0.1, 1.2}},
                                    {{0.6, -0.3, 1.2}, {0.6, 0.0, 1.2}, {0.6, 0.1, 1.2}},
                                    Interpolation::kSpline);

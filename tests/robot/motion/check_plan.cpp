@@ -4,20 +4,13 @@
 #include <string>
 
 #include "catch.hpp"
-#include "diabolo/robot/arm/build_seed_grid.hpp"
 #include "diabolo/robot/motion/tip_plan_file.hpp"
+#include "robot/arms.hpp"
+#include "robot/support.hpp"
 
 using namespace diabolo;
 
 namespace {
-
-StickPlanner planner(const Mounts& mounts = {}) {
-  const auto map = [&](Side side) {
-    const StickArm arm = paper_arm(side, mounts);
-    return StickMap(arm, build_seed_grid(arm, paper_box(arm)));
-  };
-  return StickPlanner(map(Side::kLeft), map(Side::kRight), JointLimits::uniform());
-}
 
 /// The tips rest 0.6 m apart and one of them goes by `shift` and comes back, in two seconds.
 TipMotion<double> excursion(const Vector3<double>& left_shift, const Vector3<double>& right_shift) {
@@ -26,13 +19,8 @@ TipMotion<double> excursion(const Vector3<double>& left_shift, const Vector3<dou
                            Interpolation::kSpline);
 }
 
-std::string message_of(const std::string& text) {
-  try {
-    read_tip_plan(text, "plan.csv");
-  } catch (const RecordingError& error) {
-    return error.what();
-  }
-  return "";
+std::string complaint_about(const std::string& text) {
+  return message_of<RecordingError>([&] { read_tip_plan(text, "plan.csv"); });
 }
 
 }  // namespace
@@ -74,7 +62,7 @@ TEST_CASE("a tip that leaves the box is told with arm, time and place") {
 
 TEST_CASE("a tip that leaves the box between two ticks of the motion, while it comes to rest, is told") {
   // A peak of 2 ms across the wall, which the ticks of the motion step over and the ones at its end do not.
-  const StickPlanner arms = planner();
+  const StickPlanner& arms = planner();
   const double wall = arms.left().grid().box().upper.z();
   std::vector<double> times;
   std::vector<Vector3<double>> left, right;
@@ -92,7 +80,7 @@ TEST_CASE("a tip that leaves the box between two ticks of the motion, while it c
 }
 
 TEST_CASE("arms that come too close are told") {
-  const StickPlanner close = planner({0.70, 0.5, 0.0});
+  const StickPlanner close = planner_on({0.70, 0.5, 0.0});
   const TipMotion<double> motion({0, 1, 2}, {{0.6, 0.25, 1.2}, {0.6, 0.0, 1.2}, {0.6, 0.25, 1.2}},
                                  {{0.6, -0.25, 1.2}, {0.6, 0.0, 1.2}, {0.6, -0.25, 1.2}},
                                  Interpolation::kSpline);
@@ -121,15 +109,15 @@ TEST_CASE("a plan is read from the columns of the tips alone, or from a tidy rec
 
 TEST_CASE("a wrong plan is refused with its line") {
   const std::string header = "time,left_x,left_y,left_z,right_x,right_y,right_z\n";
-  CHECK(message_of("time,left_x\n0,1\n") ==
+  CHECK(complaint_about("time,left_x\n0,1\n") ==
         "plan.csv, line 1: column \"left_y\" is there 0 times; expected once");
-  CHECK(message_of("time,speed\n0,1\n") ==
+  CHECK(complaint_about("time,speed\n0,1\n") ==
         "plan.csv, line 1: column \"speed\", which neither a plan nor a tidy recording has");
-  CHECK(message_of(header + "0,1,1,1,1,1,1\n") == "plan.csv: 1 lines of data; a plan has two or more");
-  CHECK(message_of(header + "0,1,1,1,1,1,1\n0,1,1,1,1,1,1\n") ==
+  CHECK(complaint_about(header + "0,1,1,1,1,1,1\n") == "plan.csv: 1 lines of data; a plan has two or more");
+  CHECK(complaint_about(header + "0,1,1,1,1,1,1\n0,1,1,1,1,1,1\n") ==
         "plan.csv, line 3: time 0 s does not come after 0 s");
-  CHECK(message_of(header + "0,1,1,,1,1,1\n1,1,1,1,1,1,1\n") ==
+  CHECK(complaint_about(header + "0,1,1,,1,1,1\n1,1,1,1,1,1,1\n") ==
         "plan.csv, line 2: \"left_z\" is empty; expected a number");
-  CHECK(message_of(header + "0,1,1,1000,1,1,1\n1,1,1,1,1,1,1\n") ==
+  CHECK(complaint_about(header + "0,1,1,1000,1,1,1\n1,1,1,1,1,1,1\n") ==
         "plan.csv, line 2: \"left_z\": 1000; expected a number within 100");
 }

@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 #include "diabolo/plan/player.hpp"
-#include "diabolo/robot/arm/build_seed_grid.hpp"
 #include "diabolo/robot/motion/check_plan.hpp"
+#include "robot/arms.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;
@@ -15,17 +15,6 @@ using Catch::Matchers::Contains;
 namespace {
 
 constexpr double kLength = 1.45;
-
-const StickPlanner& planner() {
-  static const StickPlanner made = [] {
-    const auto map = [](Side side) {
-      const StickArm arm = paper_arm(side);
-      return StickMap(arm, build_seed_grid(arm, paper_box(arm)));
-    };
-    return StickPlanner(map(Side::kLeft), map(Side::kRight), JointLimits::uniform());
-  }();
-  return made;
-}
 
 PlanProblem<> problem_of(const std::string& name, double height) {
   const TipColumn<double> home = home_pose(name, kLength);
@@ -42,7 +31,7 @@ PlanProblem<> problem_of(const std::string& name, double height) {
 }
 
 /// Both tips go out by `shift` and come back within 0.8 s.
-TipPath<double> excursion(const TipColumn<double>& shift) {
+TipPath<double> there_and_back(const TipColumn<double>& shift) {
   StickSpline<double> spline;
   const TipColumn<double> home = home_pose("hop", kLength);
   spline.points = {home, home + shift, home};
@@ -91,18 +80,18 @@ TEST_CASE("a throw that the arms cannot make is refused with the joints named, a
 }
 
 TEST_CASE("each limit of the arms is seen where a path breaks it, and alone") {
-  const TipPath<double> still = excursion(TipColumn<double>::Zero());
+  const TipPath<double> still = there_and_back(TipColumn<double>::Zero());
   std::set<std::string> names;
   for (const LimitUse& use : RobotLimits(planner())(still)) {
     CHECK(use.excess <= 0.0);
     names.insert(use.name);
   }
   CHECK(names.size() == 11);
-  CHECK(excess_of("left arm's box, outside", excursion(both(0.0, 0.8, 0.0, 0.0))) > 0.05);
-  CHECK(excess_of("right arm's box, outside", excursion(both(0.0, 0.8, 0.0, 0.0))) <= 0.0);
-  CHECK(excess_of("right arm joints' acceleration", excursion(both(0.0, 0.0, -0.3, 0.0))) > 0.3);
-  CHECK(excess_of("left arm joints' acceleration", excursion(both(0.0, 0.0, -0.3, 0.0))) <= 0.0);
-  CHECK(excess_of("clearance of the arms", excursion(both(0.0, -0.2, 0.2, 0.0))) >
+  CHECK(excess_of("left arm's box, outside", there_and_back(both(0.0, 0.8, 0.0, 0.0))) > 0.05);
+  CHECK(excess_of("right arm's box, outside", there_and_back(both(0.0, 0.8, 0.0, 0.0))) <= 0.0);
+  CHECK(excess_of("right arm joints' acceleration", there_and_back(both(0.0, 0.0, -0.3, 0.0))) > 0.3);
+  CHECK(excess_of("left arm joints' acceleration", there_and_back(both(0.0, 0.0, -0.3, 0.0))) <= 0.0);
+  CHECK(excess_of("clearance of the arms", there_and_back(both(0.0, -0.2, 0.2, 0.0))) >
         excess_of("clearance of the arms", still) + 0.1);
   CHECK_THROWS_WITH(RobotLimits(planner(), NAN), Contains("least_clearance"));
   CHECK_THROWS_WITH(RobotLimits(planner(), 0.1, 0.0), Contains("share"));

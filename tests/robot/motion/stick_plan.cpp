@@ -4,21 +4,12 @@
 #include <string>
 
 #include "catch.hpp"
-#include "diabolo/robot/arm/build_seed_grid.hpp"
 #include "random.hpp"
+#include "robot/arms.hpp"
 
 using namespace diabolo;
 
 namespace {
-
-StickMap map_of(Side side) {
-  const StickArm arm = paper_arm(side);
-  return StickMap(arm, build_seed_grid(arm, paper_box(arm)));
-}
-
-StickPlanner planner() {
-  return StickPlanner(map_of(Side::kLeft), map_of(Side::kRight), JointLimits::uniform());
-}
 
 Vector3<double> inside(Random& random, const GridBox& box) {
   const Vector3<double> middle = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
@@ -93,7 +84,7 @@ TEST_CASE("a motion's clock starts from rest and comes to rest") {
 }
 
 TEST_CASE("a person's stick motion is played on its own curve within the limits") {
-  const StickPlanner plans = planner();
+  const StickPlanner& plans = planner();
   for (const double speed : {0.5, 1.5, 2.7}) {
     const TipMotion<double> motion = circles(plans, speed, 0.36, 2.0);
     const StickPlan plan = plans.start(motion);
@@ -122,7 +113,7 @@ TEST_CASE("a person's stick motion is played on its own curve within the limits"
 
 TEST_CASE("a hundred motions taken up midway leave one smooth motion within the limits") {
   Random random(81);
-  const StickPlanner plans = planner();
+  const StickPlanner& plans = planner();
   StickPlan plan = plans.start(random_motion(random, plans));
   REQUIRE(plan.ok());
   std::vector<PairJoints> played;
@@ -153,9 +144,9 @@ TEST_CASE("a hundred motions taken up midway leave one smooth motion within the 
 }
 
 TEST_CASE("without the limiter the same motions break the limits") {
-  const StickPlanner plans = planner();
+  const StickPlanner& plans = planner();
   JointLimits loose = JointLimits::uniform(1e6, 1e9, 1e12);
-  const StickPlanner free(map_of(Side::kLeft), map_of(Side::kRight), loose);
+  const StickPlanner free(plans.left(), plans.right(), loose);
   const StickPlan plan = free.start(circles(plans, 2.7, 0.36, 2.0));
   REQUIRE(plan.ok());
   CHECK(plan.as_played == Approx(plan.as_planned));
@@ -167,7 +158,7 @@ TEST_CASE("without the limiter the same motions break the limits") {
 }
 
 TEST_CASE("a motion that leaves an arm's reach is refused with the arm, the reason and the time") {
-  const StickPlanner plans = planner();
+  const StickPlanner& plans = planner();
   const StickPlan running = plans.start(circles(plans, 0.5, 0.2, 1.0));
   REQUIRE(running.ok());
   const Tips<double> begin = circles(plans, 0.5, 0.2, 1.0).at(0.0);
@@ -182,8 +173,9 @@ TEST_CASE("a motion that leaves an arm's reach is refused with the arm, the reas
 }
 
 TEST_CASE("options that are none are refused") {
+  const StickPlanner& plans = planner();
   BlendOptions options;
   options.blend = 0;
-  CHECK_THROWS_AS(StickPlanner(map_of(Side::kLeft), map_of(Side::kRight), JointLimits::uniform(), options),
+  CHECK_THROWS_AS(StickPlanner(plans.left(), plans.right(), JointLimits::uniform(), options),
                   std::invalid_argument);
 }
