@@ -100,7 +100,7 @@ test-core: # The predictor alone: the quick part of test-cpp.
 
 test-plant: # The simulator behind the demonstration recordings is a CMake project of its own.
 	@$(packages) build test plant
-	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
+	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS)
 	@$(ctest) --test-dir $(BUILD)/plant
 
@@ -145,7 +145,7 @@ ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtd
 .PHONY: plant
 plant: ## Build the independent plant, on which the proofs play
 	@$(packages) build test plant
-	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release >/dev/null
+	@$(cmake) -S data/plant -B $(BUILD)/plant -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON >/dev/null
 	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
 
 prove: $(VENV)/.package plant ## Put the diagnosis to the proof on a few recordings whose truth it cannot see

@@ -7,7 +7,7 @@
 namespace plant {
 namespace {
 
-constexpr double kMostWrap = 1.1 * std::numbers::pi;  // of a string that the axle draws down [rad]
+constexpr double kMostWrapDrawn = 1.1 * std::numbers::pi;  // by the axle [rad]
 
 }  // namespace
 
@@ -87,7 +87,7 @@ Moment ChainPlant::begin(const Start& start) const {
   } else {
     lay_around_axle(moment);
     const double wrap = bight(moment).wrap;
-    if (wrap > 0.0 && wrap < kMostWrap) {
+    if (wrap > 0.0 && wrap < kMostWrapDrawn) {
       read_pull(moment);
     } else {
       lay(moment);  // so slack that it hangs free of the axle

@@ -11,7 +11,7 @@ namespace {
 constexpr double kSlipDepth = 0.05;    // below all of the string, and not on it: lost [m]
 constexpr double kCatchMargin = 0.01;  // of the cups that a catch must leave free [m]
 constexpr double kCatchDepth = 0.005;  // how far past the axle's surface the string may be found [m]
-constexpr double kMostWrap = 1.1 * std::numbers::pi;  // of a string that is caught [rad]
+constexpr double kMostWrapCaught = 1.1 * std::numbers::pi;  // [rad]
 
 }  // namespace
 
@@ -76,7 +76,7 @@ void ChainPlant::touch(Moment& moment) const {
                                    {place, chain.places[chain.bight + 1]})
                           .wrap;
   if (height <= 0.0 && height > -kCatchDepth && share > 0.0 && share < 1.0 && wrap > 0.0 &&
-      wrap < kMostWrap && inwards.dot(moment.state.col(kVelocity) - velocity) < 0.0) {
+      wrap < kMostWrapCaught && inwards.dot(moment.state.col(kVelocity) - velocity) < 0.0) {
     // The slant of the whole string counts: a slack one is wavy, but the cups guide it.
     const Vec3 chord = tips[1] - tips[0];
     const double slant = std::abs(axis.dot(chord)) / perpendicular_part(chord, axis).norm();

@@ -11,12 +11,12 @@ using namespace plant;
 
 namespace {
 
-const Motion kHands = still_hands({0.0, 0.35, 1.25}, {0.0, -0.35, 1.25});
+const Motion kChainHands = still_hands({0.0, 0.35, 1.25}, {0.0, -0.35, 1.25});
 
 /// Free swinging of a taut string between still hands, 2 s.
 std::vector<Moment> swinging(PlantParameters parameters, int steps_per_second) {
   parameters.steps_per_second = steps_per_second;
-  const ChainPlant plant(parameters, kHands);
+  const ChainPlant plant(parameters, kChainHands);
   Start start;
   start.spin = 0.0;
   start.position = plant.begin(start).state.col(kPosition);
@@ -39,7 +39,7 @@ double distance(const std::vector<Moment>& one, const std::vector<Moment>& other
 TEST_CASE("a diabolo on a chain hangs at rest by its weight") {
   PlantParameters parameters = chain(lossless());
   parameters.string.stiffness = GENERATE(500.0, 2000.0, 2e5);
-  const ChainPlant plant(parameters, kHands);
+  const ChainPlant plant(parameters, kChainHands);
   Start start;
   start.spin = 0.0;
   const Moment moment = simulate(plant, start, {0.5}).front();
@@ -57,7 +57,7 @@ TEST_CASE("a diabolo on a chain hangs at rest by its weight") {
 TEST_CASE("a chain loses nothing where nothing rubs, damps or drags") {
   PlantParameters parameters = chain(lossless());
   const auto drift = [&](const std::vector<Moment>& moments) {
-    const ChainPlant plant(parameters, kHands);
+    const ChainPlant plant(parameters, kChainHands);
     const double first = plant.read(moments.front()).energy;
     double largest = 0.0;
     for (const Moment& moment : moments) {
@@ -78,7 +78,7 @@ TEST_CASE("a chain loses nothing where nothing rubs, damps or drags") {
   SECTION("ringing up and down, and with the step's square where it is coarse") {
     const auto ringing = [&](int steps_per_second) {
       parameters.steps_per_second = steps_per_second;
-      const ChainPlant plant(parameters, kHands);
+      const ChainPlant plant(parameters, kChainHands);
       Start start;
       start.spin = 0.0;
       start.position = Vec3(plant.begin(start).state.col(kPosition)) - Vec3(0.0, 0.0, 3e-4);
@@ -104,7 +104,7 @@ TEST_CASE("the error of a chain falls with the step") {
 }
 
 TEST_CASE("a diabolo off the chain flies a parabola and keeps its spin") {
-  const ChainPlant plant(chain(airless()), kHands);
+  const ChainPlant plant(chain(airless()), kChainHands);
   Start start;
   start.flying = true;
   start.spin = 150.0;
@@ -130,7 +130,7 @@ TEST_CASE("all momentum of string, axle and tips that nothing holds is kept") {
   parameters.string.friction = 0.3;
   parameters.sticks.bending_stiffness = 1e-9;
   parameters.sticks.damping_ratio = 0.0;
-  const ChainPlant plant(parameters, kHands);
+  const ChainPlant plant(parameters, kChainHands);
   Start start;
   start.position = Vec3(0.0, 0.05, 0.63);
   start.velocity = Vec3(0.0, 0.4, -1.0);
@@ -155,7 +155,7 @@ TEST_CASE("the two tensions differ by Coulomb's coefficient times the normal for
 
   SECTION("an axle that spins under a string at rest") {
     for (const double spin : {150.0, -150.0}) {
-      const ChainPlant plant(parameters, kHands);
+      const ChainPlant plant(parameters, kChainHands);
       Start start;
       start.spin = spin;
       const Moment moment = simulate(plant, start, {0.3}).front();

@@ -8,7 +8,7 @@ using namespace plant;
 
 namespace {
 
-const Motion kHands = still_hands({0.0, 0.4, 1.25}, {0.0, -0.4, 1.25});
+const Motion kWideHands = still_hands({0.0, 0.4, 1.25}, {0.0, -0.4, 1.25});
 
 Start dropped(const Vec3& position, double yaw = 0.0) {
   Start start;
@@ -21,7 +21,7 @@ Start dropped(const Vec3& position, double yaw = 0.0) {
 }  // namespace
 
 TEST_CASE("a string tautens, slackens and parts at its length and at the line of the tips") {
-  const StrandsPlant plant(airless(), kHands);
+  const StrandsPlant plant(airless(), kWideHands);
   const Start start = dropped({0.0, 0.0, 1.65});
   Moment before = plant.begin(start);
   int catches = 0;
@@ -51,7 +51,7 @@ TEST_CASE("an event is located inside the step, so that its length hardly matter
   const auto lands = [](int steps_per_second) {
     PlantParameters parameters = airless();
     parameters.steps_per_second = steps_per_second;
-    return simulate(StrandsPlant(parameters, kHands), dropped({0.0, 0.05, 1.65}), {0.7}).front();
+    return simulate(StrandsPlant(parameters, kWideHands), dropped({0.0, 0.05, 1.65}), {0.7}).front();
   };
   const Moment fine = lands(96000);
   const Moment coarse = lands(6000);
@@ -68,7 +68,7 @@ TEST_CASE("a stiff damped string catches without rebound, at the impulse of an i
   parameters.string.radius = 0.0;
   parameters.diabolo.groove.radius = 1e-6;
   parameters.gravity.setZero();
-  const StrandsPlant plant(parameters, kHands);
+  const StrandsPlant plant(parameters, kWideHands);
   Start start;
   start.spin = 0.0;
   const double sag = std::sqrt(0.725 * 0.725 - 0.4 * 0.4);
@@ -87,7 +87,7 @@ TEST_CASE("a stiff damped string catches without rebound, at the impulse of an i
 }
 
 TEST_CASE("the string misses a diabolo beside it, across it or beyond the tips") {
-  const StrandsPlant plant(airless(), kHands);
+  const StrandsPlant plant(airless(), kWideHands);
   const auto last_of = [&](const Start& start) { return simulate(plant, start, times_until(0.6, 60)); };
   CHECK(last_of(dropped({0.0, 0.0, 1.5})).size() == 61);
   CHECK(last_of(dropped({0.05, 0.0, 1.5})).size() == 61);
@@ -100,7 +100,7 @@ TEST_CASE("the string misses a diabolo beside it, across it or beyond the tips")
 TEST_CASE("a slack wrapped string does not let go") {
   PlantParameters parameters = airless();
   parameters.string.wraps = GENERATE(0, 1);
-  const StrandsPlant plant(parameters, kHands);
+  const StrandsPlant plant(parameters, kWideHands);
   Start start;
   start.spin = 0.0;
   start.position = Vec3(0.0, 0.0, 1.1);

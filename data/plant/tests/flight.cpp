@@ -5,21 +5,6 @@
 
 using namespace plant;
 
-namespace {
-
-Start thrown(const Vec3& velocity, double spin) {
-  Start start;
-  start.flying = true;
-  start.spin = spin;
-  start.position = Vec3(0.0, 0.0, 3.0);
-  start.velocity = velocity;
-  return start;
-}
-
-const Motion kHands = still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25});
-
-}  // namespace
-
 TEST_CASE("a flight without air is a parabola with constant spin and angular momentum") {
   const StrandsPlant plant(airless(), kHands);
   Start start = thrown({0.3, -0.2, 4.0}, 150.0);

@@ -10,21 +10,10 @@ using namespace plant;
 
 namespace {
 
-const Motion kHands = still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25});
 const Vec3 kGust(0.7, -1.1, 0.4);
 constexpr double kFrequency = 0.8;  // [Hz]
 constexpr double kGustPhase = 0.5;  // [rad]
 constexpr double kTurning = 2.0 * std::numbers::pi * kFrequency;
-
-/// In flight without weight.
-Start thrown(const Vec3& velocity, double spin) {
-  Start start;
-  start.flying = true;
-  start.spin = spin;
-  start.position = Vec3(0.0, 0.0, 3.0);
-  start.velocity = velocity;
-  return start;
-}
 
 PlantParameters weightless() {
   PlantParameters parameters = airless();

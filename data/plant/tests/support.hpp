@@ -17,6 +17,18 @@ inline Motion still_hands(const Vec3& left, const Vec3& right) {
   return motion.finish({}, 0);
 }
 
+inline const Motion kHands = still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25});
+
+/// In flight, far above the string.
+inline Start thrown(const Vec3& velocity, double spin) {
+  Start start;
+  start.flying = true;
+  start.spin = spin;
+  start.position = Vec3(0.0, 0.0, 3.0);
+  start.velocity = velocity;
+  return start;
+}
+
 /// Air that does nothing.
 inline AirParameters still_air() {
   AirParameters air;
