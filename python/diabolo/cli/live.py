@@ -97,7 +97,7 @@ def play_live(play: Play, port: int, seconds: float) -> str:
 
 def _go_on(play: Play, server: LiveServer, seconds: float) -> str:
     """Turn by turn; returns why it ended."""
-    begun = last = time.monotonic()
+    begun = last = due = time.monotonic()
     watched = None
     while True:
         now = time.monotonic()
@@ -112,4 +112,5 @@ def _go_on(play: Play, server: LiveServer, seconds: float) -> str:
             return f"{seconds:g} s are over"
         server.publish(play.frame())
         last = now
-        time.sleep(max(0.0, FRAME - (time.monotonic() - now)))
+        due = max(due + FRAME, time.monotonic())
+        time.sleep(max(0.0, due - time.monotonic()))

@@ -6,12 +6,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .._core import TipLimits
 from ..motions import FORWARD
 
 FOLLOW = 22.0
 """A hand goes after the pointer as a weight on a critically damped spring of this rate [1/s]."""
-HARDEST = 60.0
-"""That it speeds up or slows down [m/s^2]."""
+FASTEST, HARDEST = TipLimits().speed, TipLimits().acceleration
+"""That it moves [m/s], and speeds up or slows down [m/s^2]: as in a plan for a person."""
 WIDEST = 0.995
 """Of the string's length: hands go no farther apart."""
 AT_REST = 0.9
@@ -39,14 +40,17 @@ class Hands:
     def follow(self, wanted: NDArray[np.float64], dt: float) -> None:
         """Move for `dt` [s] towards where they are wanted, shape (2, 3) [m]."""
         pull = FOLLOW**2 * (wanted - self.position) - 2.0 * FOLLOW * self.velocity
-        pull *= np.minimum(1.0, HARDEST / np.maximum(np.sqrt((pull**2).sum(axis=1, keepdims=True)), 1e-9))
-        velocity = self.velocity + pull * dt
-        apart, parting = self.position[0] - self.position[1], velocity[0] - velocity[1]
-        after = apart + parting * dt
-        rate = float(apart @ parting) / max(float(apart @ apart), 1e-9)
-        if rate > 0.0 and after @ after > (WIDEST * self.string_length) ** 2:
-            velocity += 0.5 * rate * np.array([-apart, apart])  # what would tear the string is taken out
+        velocity = bounded(self.velocity + bounded(pull, HARDEST) * dt, FASTEST)
+        apart = self.position[0] - self.position[1] + (velocity[0] - velocity[1]) * dt
+        torn = apart - bounded(apart[np.newaxis], WIDEST * self.string_length)[0]
+        velocity += np.array([-0.5, 0.5])[:, np.newaxis] * torn / dt  # taken out, else the string tears
         self.position, self.velocity = self.position + velocity * dt, velocity
+
+
+def bounded(vectors: NDArray[np.float64], longest: float) -> NDArray[np.float64]:
+    """Vectors, shape (N, 3), shortened where they are too long."""
+    lengths = np.sqrt((vectors**2).sum(axis=1, keepdims=True))
+    return vectors * np.minimum(1.0, longest / np.maximum(lengths, 1e-9))
 
 
 def in_plane(tips: tuple[tuple[float, float], tuple[float, float]]) -> NDArray[np.float64]:

@@ -19,6 +19,7 @@ source.onmessage = event => {
   }
   now = end = frame.time;
   element("note").textContent = "";
+  if (!playing) draw();
   document.documentElement.dataset.frames = ++frames;
 };
 source.addEventListener("ended", event => {
@@ -86,13 +87,14 @@ const drawView = draw;
 draw = () => {
   drawView();
   if (!seen) return;
-  const size = Math.min(30, canvas.clientWidth / 24), middle = 0.5 * canvas.width;
-  text(`${seen.spin.toFixed(0)} rad/s`, middle - size * devicePixelRatio, 2 * size * devicePixelRatio, colors.diabolo, "right", size);
-  text(STATES[seen.string], middle + size * devicePixelRatio, 2 * size * devicePixelRatio,
+  const size = Math.min(30, canvas.clientWidth / 24), ratio = devicePixelRatio;
+  const middle = 0.5 * canvas.width, below = (element("key").getBoundingClientRect().bottom + 1.3 * size) * ratio;
+  text(`${seen.spin.toFixed(0)} rad/s`, middle - 0.5 * size * ratio, below, colors.diabolo, "right", size);
+  text(STATES[seen.string], middle + 0.5 * size * ratio, below,
        seen.string === "on_string" ? colors.goals : colors.spheroid, "left", size);
   ["left", "right"].forEach((side, k) => {
     const [x, y] = project(seen[side]);
-    text(`${seen.tensions[k].toFixed(1)} N`, x + (k ? 1 : -1) * 14 * devicePixelRatio, y - 10 * devicePixelRatio,
+    text(`${seen.tensions[k].toFixed(1)} N`, x + (k ? 14 : -14) * ratio, y - 10 * ratio,
          colors[side], k ? "left" : "right", 0.7 * size);
   });
 };
