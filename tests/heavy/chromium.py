@@ -79,7 +79,7 @@ class Page:
             x=x,
             y=y,
             button=button,
-            buttons=0 if kind == "mouseReleased" else 1,
+            buttons=0 if kind == "mouseReleased" else {"left": 1, "right": 2}[button],
             clickCount=1,
         )
 
