@@ -23,8 +23,9 @@ from conftest import Command
 from diabolo._core import hanging_state
 from diabolo.live.hands import HOME, REACH, Hands, in_plane
 from diabolo.live.page import live_html
-from diabolo.live.play import DT, RATE, Play, Wish, strand_tensions
-from diabolo.live.server import LONGEST_BODY, MOST_CONNECTIONS, LiveServer, wish_of
+from diabolo.live.play import DT, RATE, Play, strand_tensions
+from diabolo.live.server import LONGEST_BODY, MOST_CONNECTIONS, LiveServer
+from diabolo.live.wish import Wish, wish_of
 
 CORNERS = [(y, z) for y in REACH[0] for z in REACH[1]]
 
@@ -193,7 +194,7 @@ def test_the_longest_stretch_is_recorded_and_is_physics() -> None:
 def server() -> Iterator[LiveServer]:
     play = Play(diabolo.Model.named("consistent"), 100.0)
     with LiveServer(0, live_html(play)) as server:
-        server.publish(play.frame())
+        server.frames.publish(play.frame())
         yield server
 
 
@@ -331,15 +332,15 @@ def test_all_who_watch_are_told_and_who_goes_is_missed(server: LiveServer) -> No
             "spin",
             "tensions",
         }
-    assert server.watchers == 2
+    assert server.frames.listeners == 2
     streams[1].close()
     watching[1].close()
     until = time.monotonic() + 10
-    while server.watchers == 2:
+    while server.frames.listeners == 2:
         assert time.monotonic() < until
-        server.publish("{}")
+        server.frames.publish("{}")
         time.sleep(0.02)
-    threading.Thread(target=server.end, args=("all is over",)).start()
+    threading.Thread(target=server.frames.end, args=("all is over",)).start()
     assert streams[0].read().endswith(b'event: ended\ndata: "all is over"\n\n')
     watching[0].close()
 

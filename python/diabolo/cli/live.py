@@ -91,7 +91,7 @@ def play_live(play: Play, port: int, seconds: float) -> str:
             sentence = _go_on(play, server, seconds)
         except KeyboardInterrupt:
             sentence = "ended by Ctrl-C"
-        server.end(sentence)
+        server.frames.end(sentence)
     return sentence
 
 
@@ -103,14 +103,14 @@ def _go_on(play: Play, server: LiveServer, seconds: float) -> str:
         now = time.monotonic()
         for wish in server.wishes():
             play.obey(wish)
-        if server.watchers:
+        if server.frames.listeners:
             watched = now
             play.advance(min(now - last, LONGEST_TURN))
         elif watched is not None and now - watched > UNWATCHED:
             return "the page was closed"
         if now - begun > seconds:
             return f"{seconds:g} s are over"
-        server.publish(play.frame())
+        server.frames.publish(play.frame())
         last = now
         due = max(due + FRAME, time.monotonic())
         time.sleep(max(0.0, due - time.monotonic()))

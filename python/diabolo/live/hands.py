@@ -50,7 +50,8 @@ class Hands:
 def bounded(vectors: NDArray[np.float64], longest: float) -> NDArray[np.float64]:
     """Vectors, shape (N, 3), shortened where they are too long."""
     lengths = np.sqrt((vectors**2).sum(axis=1, keepdims=True))
-    return vectors * np.minimum(1.0, longest / np.maximum(lengths, 1e-9))
+    shortened: NDArray[np.float64] = vectors * np.minimum(1.0, longest / np.maximum(lengths, 1e-9))
+    return shortened
 
 
 def in_plane(tips: tuple[tuple[float, float], tuple[float, float]]) -> NDArray[np.float64]:

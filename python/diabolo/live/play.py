@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import json
 from array import array
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._core import DiaboloProperties, Model, Predictor, Recording, hanging_state, played_recording
 from ..enums import StringState
-from .hands import HOME, Hands, in_plane
+from .hands import Hands, in_plane
+from .wish import Wish
 
 DT = 1e-3
 """Of a step [s]."""
@@ -20,18 +20,8 @@ STEPS_PER_SAMPLE = 8
 RATE = 1.0 / (DT * STEPS_PER_SAMPLE)
 """Of what is recorded [Hz]."""
 FARTHEST = 100.0
-"""From the origin, that a recording may hold [m]; there a play begins again, as where it is dropped."""
+"""From the origin, that a recording may hold [m]; there a play begins again."""
 COLUMNS = 13  # both tips, position, velocity, spin
-
-
-class Wish(NamedTuple):
-    """What the page asks for: places of the tips, to the left and up [m], and how fast time goes."""
-
-    left: tuple[float, float] = HOME[0]
-    right: tuple[float, float] = HOME[1]
-    speed: float = 1.0
-    begin: str | None = None
-    """'again': hang at rest. 'spin': spin as at the start."""
 
 
 class Stretch:
@@ -80,12 +70,13 @@ class Play:
                 self._step(wanted)
             except FloatingPointError:  # the model leaves what numbers can hold
                 return self._hang()
+            if self._is_dropped():
+                return self._hang()
             impulse += self.state.string_acceleration * DT
+            if self.steps % STEPS_PER_SAMPLE == 0:
+                self._sample()
         if count:
             self.pull = self.model.parameters.mass * impulse / (count * DT)
-        lowest = self.hands.position[:, 2].min() - self.model.parameters.string_length
-        if self.state.position[2] < lowest or np.abs(self.state.position).max() > FARTHEST:
-            self._hang()
 
     def frame(self) -> str:
         """What the page shows, as JSON: places [m], orientation x, y, z, w, spin [rad/s], tensions [N]."""
@@ -124,28 +115,28 @@ class Play:
         return take, np.array(longest.string_states, dtype=np.uint8)
 
     def _step(self, wanted: NDArray[np.float64]) -> None:
-        left, right = self.hands.position
-        velocities = [*self.hands.velocity]
+        before, velocities = self.hands.position, self.hands.velocity
         self.hands.follow(wanted, DT)
+        after = self.hands.position
+        velocities = np.concatenate([velocities, self.hands.velocity])
+        time = self.steps * DT
         self.predictor.step(
-            self.state,
-            left,
-            right,
-            *self.hands.position,
-            dt=DT,
-            velocities=[*velocities, *self.hands.velocity],
-            time=self.steps * DT,
+            self.state, before[0], before[1], after[0], after[1], DT, list(velocities), time=time
         )
         self.turned = (self.turned + self.state.spin * DT) % (4.0 * np.pi)
         self.steps += 1
-        if self.steps % STEPS_PER_SAMPLE == 0:
-            self._sample()
+
+    def _is_dropped(self) -> bool:
+        """Whether it is a string's length below the hands, or far away."""
+        position = self.state.position
+        depth = self.hands.position[:, 2].min() - position[2]
+        return bool(depth > self.model.parameters.string_length or np.abs(position).max() > FARTHEST)
 
     def _hang(self) -> None:
         """At rest below hands at rest where the pointer wants them."""
         self.hands.rest_at(in_plane((self.wish.left, self.wish.right)))
         length = self.model.parameters.string_length
-        self.state = hanging_state(*self.hands.position, length, self.spin)
+        self.state = hanging_state(self.hands.position[0], self.hands.position[1], length, self.spin)
         self.pull = np.zeros(3)
         self._begin_stretch()
 
@@ -170,5 +161,5 @@ def strand_tensions(
     """
     strands = tips - diabolo
     strands /= np.maximum(np.linalg.norm(strands, axis=1, keepdims=True), 1e-9)
-    tensions, *_ = np.linalg.lstsq(strands.T, pull, rcond=1e-3)
-    return np.maximum(0.0, tensions)
+    tensions = np.asarray(np.linalg.lstsq(strands.T, pull, rcond=1e-3)[0], dtype=np.float64)
+    return tensions.clip(0.0)

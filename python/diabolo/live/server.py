@@ -12,19 +12,18 @@ It hears the loopback interface only, and answers only to its own name, so that 
 
 from __future__ import annotations
 
-import json
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import closing, suppress
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from queue import Empty, SimpleQueue
 from typing import Any, ClassVar
 
 from ..checks import shown
-from .hands import REACH
-from .play import Wish
+from .broadcast import Broadcast
+from .wish import Wish, wish_of
 
 HOST = "127.0.0.1"
 MOST_CONNECTIONS = 32
@@ -32,8 +31,6 @@ LONGEST_BODY = 400
 """Of a wish [bytes]."""
 PATIENCE = 30.0
 """With a connection that neither reads nor writes [s]."""
-FASTEST = 2.0
-"""That time may go, per second of the clock."""
 
 
 class LiveServer(ThreadingHTTPServer):
@@ -43,11 +40,9 @@ class LiveServer(ThreadingHTTPServer):
 
     def __init__(self, port: int, page: str) -> None:
         self.page = page.encode()
-        self.watchers = 0
+        self.frames = Broadcast()
         self._wishes: SimpleQueue[Wish] = SimpleQueue()
         self._free = threading.BoundedSemaphore(MOST_CONNECTIONS)
-        self._news = threading.Condition()
-        self._number, self._event, self._ended = 0, b"", False
         try:
             super().__init__((HOST, port), Handler)
         except OSError as error:
@@ -72,41 +67,6 @@ class LiveServer(ThreadingHTTPServer):
     def wish(self, body: bytes) -> None:
         """Raises ValueError where it is none."""
         self._wishes.put(wish_of(body))
-
-    def publish(self, frame: str) -> None:
-        """To every page that watches; one that is slow misses some."""
-        self._tell(f"data: {frame}\n\n".encode())
-
-    def end(self, sentence: str, wait: float = 1.0) -> None:
-        """Tells the pages why it ends, and waits for them to hear it [s]."""
-        self._tell(f"event: ended\ndata: {json.dumps(sentence)}\n\n".encode(), ended=True)
-        with self._news:
-            self._news.wait_for(lambda: self.watchers == 0, wait)
-
-    def _tell(self, event: bytes, ended: bool = False) -> None:
-        with self._news:
-            self._number, self._event, self._ended = self._number + 1, event, ended
-            self._news.notify_all()
-
-    def events(self) -> Iterator[bytes]:
-        """What a page that watches is told."""
-        number, ended = 0, False
-        while not ended:
-            with self._news:
-                self._news.wait_for(lambda seen=number: self._number > seen)
-                number, event, ended = self._number, self._event, self._ended
-            yield event
-
-    @contextmanager
-    def watching(self) -> Iterator[None]:
-        with self._news:
-            self.watchers += 1
-        try:
-            yield
-        finally:
-            with self._news:
-                self.watchers -= 1
-                self._news.notify_all()
 
     def process_request(self, request: Any, client_address: Any) -> None:
         if self._free.acquire(blocking=False):
@@ -150,9 +110,9 @@ class Handler(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         if self.path.startswith("/frames"):
             self._head(200, "text/event-stream", {"Connection": "close"})
-            with self.server.watching():
-                self.wfile.write(b"retry: 500\n\n")
-                for event in self.server.events():
+            self.wfile.write(b"retry: 500\n\n")
+            with closing(self.server.frames.events()) as events:
+                for event in events:
                     self.wfile.write(event)
         else:
             self._head(200, "text/html; charset=utf-8", {"Content-Length": str(len(self.server.page))})
@@ -189,34 +149,3 @@ class Handler(BaseHTTPRequestHandler):
 
     def log_message(self, *_: Any) -> None:
         """Nothing: a page asks sixty times a second."""
-
-
-def wish_of(body: bytes) -> Wish:
-    """Raises ValueError with a sentence where a body is none."""
-    try:
-        given = json.loads(body)
-    except ValueError:
-        raise ValueError("the body is no JSON; expected a wish") from None
-    if not isinstance(given, dict) or not given.keys() <= set(Wish._fields):
-        raise ValueError(f"{shown(given)}; expected an object with {', '.join(Wish._fields)}")
-    wish = Wish(**given)
-    if wish.begin not in (None, "again", "spin"):
-        raise ValueError(f"begin: {shown(wish.begin)}; expected null, 'again' or 'spin'")
-    return wish._replace(
-        left=_tip("left", wish.left),
-        right=_tip("right", wish.right),
-        speed=_within("speed", wish.speed, 0.0, FASTEST),
-    )
-
-
-def _tip(name: str, given: Any) -> tuple[float, float]:
-    if not isinstance(given, list | tuple) or len(given) != 2:
-        raise ValueError(f"{name}: {shown(given)}; expected two numbers, to the left and up [m]")
-    y, z = (_within(name, value, *reach) for value, reach in zip(given, REACH, strict=True))
-    return y, z
-
-
-def _within(name: str, given: Any, low: float, high: float) -> float:
-    if isinstance(given, bool) or not isinstance(given, int | float) or not low <= given <= high:
-        raise ValueError(f"{name}: {shown(given)}; expected a number from {low:g} to {high:g}")
-    return float(given)
