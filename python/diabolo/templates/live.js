@@ -67,7 +67,7 @@ canvas.oncontextmenu = event => event.preventDefault();
 playByPointers(canvas, toWorld, wanted, () => element("both").checked, tell, event => !turns(event));
 
 // ---- what is shown ----
-Object.assign(camera, { middle: [data.left[0][0], 0, 1.1], yaw: 0, pitch: 0.06, distance: 2.6 });
+Object.assign(camera, { middle: [data.left[0][0], 0, 1.25], yaw: 0, pitch: 0.06, distance: 3 });
 for (const id of ["time", "clock"]) element(id).hidden = true;
 for (const [key, what, title] of [["r", "again", "again (R)"], ["s", "spin", "spin (S)"]]) {
   const button = Object.assign(document.createElement("button"), { textContent: title, type: "button", id: what });
@@ -92,6 +92,8 @@ draw = () => {
   text(`${seen.spin.toFixed(0)} rad/s`, middle - 0.5 * size * ratio, below, colors.diabolo, "right", size);
   text(STATES[seen.string], middle + 0.5 * size * ratio, below,
        seen.string === "on_string" ? colors.goals : colors.spheroid, "left", size);
+  const [across, height] = project(seen.diabolo);
+  if (height < 0) text(`\u25b2 ${seen.diabolo[2].toFixed(1)} m`, across, below + 1.5 * size * ratio, colors.diabolo, "center", size);
   ["left", "right"].forEach((side, k) => {
     const [x, y] = project(seen[side]);
     text(`${seen.tensions[k].toFixed(1)} N`, x + (k ? 14 : -14) * ratio, y - 10 * ratio,
