@@ -151,6 +151,19 @@ def test_what_is_shown_and_recorded_is_finite_whatever_is_wished(length: float) 
     assert taken is not None and np.isfinite(taken[0].diabolo).all()
 
 
+@pytest.mark.parametrize("speed", [1e3, 1e5, 1e150, 1e308])
+def test_what_leaves_the_world_begins_again(speed: float) -> None:
+    play = Play(diabolo.Model.named("consistent"), 10.0)
+    play.state.string_state = "flying"
+    play.state.velocity = np.array([speed, speed, speed])
+    for _ in range(60):
+        play.advance(1 / 60)
+        assert np.abs(json.loads(play.frame())["diabolo"]).max() <= 100.0
+    assert play.stretches == 2
+    taken = play.recording("away")
+    assert taken is not None and np.abs(taken[0].diabolo).max() <= 100.0
+
+
 def test_what_is_dropped_begins_again() -> None:
     play = Play(diabolo.Model.named("consistent"), 100.0)
     play.state.position = np.array([2.0, 0.0, 1.0])
@@ -368,6 +381,9 @@ class Live:
         self.page = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
         self.page.request("GET", "/frames")
         self.stream = self.page.getresponse()
+        return self.read(frames)
+
+    def read(self, frames: int) -> list[dict[str, Any]]:
         seen: list[dict[str, Any]] = []
         while len(seen) < frames:
             line = self.stream.readline()
@@ -435,6 +451,32 @@ def test_sigterm_stops_it_and_leaves_nothing(live: Any, tmp_path: Path) -> None:
     play.process.send_signal(signal.SIGTERM)
     assert play.end() == (143, "", "diabolo: terminated\n")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_machine_that_sleeps_does_not_make_it_jump(live: Any) -> None:
+    play = live()
+    play.watch(10)
+    play.process.send_signal(signal.SIGSTOP)
+    time.sleep(1.5)
+    play.process.send_signal(signal.SIGCONT)
+    times = [frame["time"] for frame in play.read(60)]
+    print("longest step between frames", max(np.diff(times)), "s")
+    assert 0.0 < max(np.diff(times)) < 0.7
+    play.process.send_signal(signal.SIGINT)
+    assert play.end()[0] == 0
+
+
+def test_a_page_that_does_not_listen_keeps_nobody(live: Any) -> None:
+    play = live()
+    deaf = [socket.create_connection(("127.0.0.1", play.port)) for _ in range(5)]
+    for one in deaf:
+        one.sendall(f"GET /frames HTTP/1.1\r\nHost: localhost:{play.port}\r\n\r\n".encode())
+    frames = play.watch(120)
+    assert frames[-1]["time"] - frames[0]["time"] > 0.5
+    for one in deaf:
+        one.close()
+    play.close_page()
+    assert play.end()[:2] == (0, "the page was closed\n")
 
 
 def test_it_ends_by_itself(live: Any) -> None:
