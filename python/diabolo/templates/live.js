@@ -73,7 +73,7 @@ for (const [key, what, title] of [["r", "again", "again (R)"], ["s", "spin", "sp
   const button = Object.assign(document.createElement("button"), { textContent: title, type: "button", id: what });
   button.onclick = () => { beginBy(what); button.blur(); };
   element("bar").append(button);
-  addEventListener("keydown", event => { 
+  addEventListener("keydown", event => {
     if (event.key.toLowerCase() === key && !event.repeat && !event.ctrlKey && !event.metaKey) beginBy(what);
   });
 }
