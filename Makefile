@@ -171,8 +171,9 @@ page: ## Make one page to play with, without a network: our string and the publi
 	  -isystem /usr/include/eigen3 -isystem $(BUILD)/page/include examples/web/page.cpp -sSINGLE_FILE=1 \
 	  -sALLOW_MEMORY_GROWTH=1 -sDISABLE_EXCEPTION_CATCHING=0 -o $(BUILD)/page/diabolo.js \
 	  $(foreach agent,SpinUp ThrowAndCatch,--embed-file python/diabolo/agents/$(agent).json@$(agent).json)
-	@perl -0pe 'BEGIN { local $$/; open F, "<", shift @ARGV; $$s = <F>; } s/\{\{\{ SCRIPT \}\}\}/<script>$$s<\/script>/' \
-	  $(BUILD)/page/diabolo.js examples/web/page.html > $(BUILD)/page/diabolo.html
+	@perl -0pe 'BEGIN { ($$pointer, $$s) = map { local $$/; open F, "<", $$_; <F> } splice @ARGV, 0, 2; } \
+	  s/\{\{\{ POINTER \}\}\}\n/$$pointer/; s/\{\{\{ SCRIPT \}\}\}/<script>$$s<\/script>/' \
+	  python/diabolo/templates/pointer.js $(BUILD)/page/diabolo.js examples/web/page.html > $(BUILD)/page/diabolo.html
 	@echo $(BUILD)/page/diabolo.html
 
 browser: $(VENV)/.package-with-tests page ## Look at the report, the view and the page to play with as a person sees them

@@ -21,8 +21,9 @@ using namespace diabolo;
 
 constexpr double kDt = 1e-3, kSpin = 60.0;
 
-/// The hands follow the pointers as a weight on a critically damped spring does.
-constexpr double kFollow = 22.0, kHardest = 60.0;  // [1/s], [m/s^2]
+/// The hands follow the pointers as a weight on a critically damped spring does, within a person's limits; so
+/// they do in `diabolo simulate --live`.
+constexpr double kFollow = 22.0, kFastest = 4.0, kHardest = 60.0;  // [1/s], [m/s], [m/s^2]
 
 struct World {
   Model model = consistent_model();
@@ -72,13 +73,14 @@ struct World {
           kFollow * kFollow * (wanted[side] - hands.position[side]) - 2.0 * kFollow * hands.velocity[side];
       pull *= std::min(1.0, kHardest / std::max(pull.norm(), 1e-9));
       hands.velocity[side] += pull * kDt;
+      hands.velocity[side] *= std::min(1.0, kFastest / std::max(hands.velocity[side].norm(), 1e-9));
     }
-    const Vector3<double> apart = hands.position[0] - hands.position[1];
-    const double parting = apart.dot(hands.velocity[0] - hands.velocity[1]) / apart.squaredNorm();
-    if (parting > 0.0 && apart.norm() * (1.0 + parting * kDt) > 0.995 * model.parameters.string_length) {
-      hands.velocity[0] -= 0.5 * parting * apart;  // what would tear the string is taken out
-      hands.velocity[1] += 0.5 * parting * apart;
-    }
+    const Vector3<double> apart =
+        hands.position[0] - hands.position[1] + (hands.velocity[0] - hands.velocity[1]) * kDt;
+    const double torn =
+        std::max(0.0, 1.0 - 0.995 * model.parameters.string_length / std::max(apart.norm(), 1e-9));
+    hands.velocity[0] -= 0.5 * torn / kDt * apart;  // what would tear the string is taken out
+    hands.velocity[1] += 0.5 * torn / kDt * apart;
     for (std::size_t side = 0; side < 2; ++side) hands.position[side] += hands.velocity[side] * kDt;
   }
 

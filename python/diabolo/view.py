@@ -97,6 +97,11 @@ def view_html(
             {"position": _numbers(goal.position), "velocity": _numbers(goal.velocity)} for goal in goals
         ],
     }
+    return page_of(data)
+
+
+def page_of(data: Mapping[str, Any]) -> str:
+    """The page that shows these data."""
     text = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     page = TEMPLATE.read_text(encoding="utf-8")
     return page.replace("/*DATA*/null", text, 1)

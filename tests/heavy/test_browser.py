@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""The report and the view in a real browser, Debian's chromium: their scripts run, their pictures show."""
+"""The pages in a real browser, Debian's chromium: their scripts run, their pictures show."""
 
 from __future__ import annotations
 
+import math
 import re
-import shutil
+import signal
 import subprocess
+import sys
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import diabolo
@@ -13,8 +17,8 @@ import matplotlib.colors
 import matplotlib.image
 import numpy as np
 import pytest
+from chromium import BROWSER, Page, chromium
 
-BROWSER = shutil.which("chromium")
 pytestmark = [
     pytest.mark.browser,
     pytest.mark.skipif(BROWSER is None, reason="chromium is not installed: apt-get install chromium"),
@@ -186,3 +190,100 @@ def test_the_page_plays_by_pointers_and_by_agents(tmp_path: Path) -> None:
     assert seen(done, "flew") == seen(done, "caught") == 1
     assert 150 < seen(done, "highest") < 200
     assert colors(page, 1100) > 50
+
+
+# ---- a live play ----
+
+
+@pytest.fixture
+def live(tmp_path: Path) -> Iterator[tuple[Page, subprocess.Popen[str]]]:
+    command = [
+        sys.executable,
+        "-m",
+        "diabolo",
+        "simulate",
+        "--live",
+        "--seconds",
+        "100",
+        "--out",
+        "played.csv",
+    ]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    try:
+        assert process.stdout is not None
+        address = process.stdout.readline().split()[1]
+        with chromium(tmp_path / "profile") as page:
+            page.ask("Page.navigate", url=address)
+            page.wait_for("document.documentElement.dataset.frames > 10")
+            yield page, process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def tip(page: Page, side: str) -> tuple[float, float]:
+    """Where it is on the page [CSS pixels]."""
+    x, y, _ = page.value(f"project(data.{side}.at(-1)).map(place => place / devicePixelRatio)")
+    return x, y
+
+
+def drag(page: Page, seconds: float, across: float, up: float, rate: float) -> None:
+    """The left tip in circles that begin where it is, so wide and high [CSS pixels], so many a second."""
+    x, y = tip(page, "left")
+    page.mouse("mousePressed", x, y)
+    begun = time.monotonic()
+    while (angle := 2.0 * math.pi * rate * (time.monotonic() - begun)) < 2.0 * math.pi * rate * seconds:
+        page.mouse("mouseMoved", x + across * (1.0 - math.cos(angle)), y - up * math.sin(angle))
+        time.sleep(0.01)
+    page.mouse("mouseReleased", x, y)
+
+
+def test_a_live_play_follows_the_mouse_at_fifty_frames_a_second(
+    live: tuple[Page, subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    page, process = live
+    count = "[Number(document.documentElement.dataset.frames), painted, performance.now() / 1000]"
+    page.value("window.painted = 0; (function next() { ++painted; requestAnimationFrame(next); })()")
+    before = page.value(count)
+    drag(page, 4.0, 20.0, 70.0, 1.5)
+    page.picture(tmp_path / "live.png")
+    frames, painted, seconds = np.subtract(page.value(count), before)
+    print(f"frames {frames / seconds:.1f} 1/s, painted {painted / seconds:.1f} 1/s")
+    assert frames / seconds > 25.0 and painted / seconds > 25.0, "50 on a machine with nothing else to do"
+    heights = np.array(page.value("[data.left, data.right].map(tips => tips.map(place => place[2]))"))
+    assert np.ptp(heights, axis=1).min() > 0.1, "both tips move"
+    assert np.corrcoef(heights)[0, 1] < -0.9, "against each other"
+    assert len(np.unique(matplotlib.image.imread(tmp_path / "live.png").reshape(-1, 4), axis=0)) > 50
+
+    drag(page, 1.0, 3000.0, 3000.0, 1.0)  # as far as the page goes, and farther
+    page.value("document.getElementById('again').click()")
+    page.wait_for("Math.abs(data.left.at(-1)[1] - 0.4) < 1e-3 && data.time.at(-1) > 0.2")
+    page.value("document.getElementById('both').click()")
+    right = tip(page, "right")
+    drag(page, 1.0, 30.0, 30.0, 1.0)
+    assert math.dist(right, tip(page, "right")) < 3.0, "one tip alone"
+    page.ask("Input.dispatchKeyEvent", type="keyDown", key="s")
+    page.wait_for("data.time.length > 5 && data.time.at(-1) < 1")
+    page.value("document.getElementById('play').click()")
+    time.sleep(0.5)
+    then = page.value("data.time.at(-1)")
+    time.sleep(0.5)
+    assert page.value("data.time.at(-1)") == then, "a pause is one"
+    yaw = page.value("camera.yaw")
+    for kind, x in (("mousePressed", 500), ("mouseMoved", 600), ("mouseReleased", 600)):
+        page.mouse(kind, x, 300, "right")
+    assert page.value("camera.yaw") != yaw
+    assert page.console == []
+
+    page.ask("Page.navigate", url="about:blank")
+    output, _ = process.communicate(timeout=30)
+    assert process.returncode == 0 and output.startswith("the page was closed\nplayed.csv: ")
+    assert diabolo.load_recording(tmp_path / "played.csv").rate == pytest.approx(125.0)
+
+
+def test_a_page_says_so_when_the_program_ends(live: tuple[Page, subprocess.Popen[str]]) -> None:
+    page, process = live
+    process.send_signal(signal.SIGINT)
+    assert page.wait_for("document.getElementById('note').textContent") == "ended by Ctrl-C"
+    assert process.wait(timeout=30) == 0
+    assert page.console == []

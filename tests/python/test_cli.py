@@ -420,7 +420,7 @@ def test_a_recording_that_is_odd_is_warned_of(
         (("convert", "played.csv"), "the following arguments are required: OUT"),
         (("convert", "no.csv", "out.csv"), "no.csv: there is no such file"),
         (("convert", "played.csv", "no/out.csv"), "out.csv: there is no folder"),
-        (("simulate", "out.csv"), "one of the arguments --on --motion is required"),
+        (("simulate", "out.csv"), "one of the arguments --on --motion --live is required"),
         (("simulate", "out.csv", "--motion", "fly"), "invalid choice: 'fly'"),
         (("simulate", "out.csv", "--motion", "hold", "--duration", "-1"), "duration: -1.0 s"),
         (("simulate", "out.csv", "--motion", "hold", "--duration", "nan"), "duration: nan s"),

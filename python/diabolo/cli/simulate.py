@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`diabolo simulate`: a predicted play as a tidy recording."""
+"""`diabolo simulate`: a predicted play as a tidy recording, or one in real time."""
 
 from __future__ import annotations
 
@@ -22,8 +22,11 @@ from .._core import (
 )
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS, predict
+from ..live.play import FARTHEST
+from ..live.play import RATE as LIVE_RATE
 from ..motions import MOTIONS
 from ..rollout import rollout
+from . import live
 from .arguments import (
     RECORDING_HELP,
     add_calibration,
@@ -37,7 +40,6 @@ from .arguments import (
 
 RATE = 120.0  # of a built-in motion [Hz]
 STEPS_PER_SAMPLE = 8
-FARTHEST = 100.0  # that a recording may hold [m]
 
 
 def add_parser(commands: Any) -> None:
@@ -47,16 +49,22 @@ def add_parser(commands: Any) -> None:
         run=run,
         summary="write a predicted play as a tidy recording",
         text="Predict the diabolo from a motion of the stick tips, that of a recording or a built-in one,\n"
-        "and write tips and diabolo as a tidy recording (TIDY.csv, with TIDY.json beside it).",
+        "and write tips and diabolo as a tidy recording (TIDY.csv, with TIDY.json beside it).\n\n"
+        "With --live you are the player: open the address that is printed in a browser on this machine,\n"
+        "and drag the tips with the mouse. Closing the page or Ctrl-C ends the play.",
         example="  diabolo simulate swing.csv --motion swing\n"
-        "  diabolo simulate predicted.csv --on throw_1.csv",
+        "  diabolo simulate predicted.csv --on throw_1.csv\n"
+        "  diabolo simulate --live --out played.csv",
     )
-    parser.add_argument("tidy", metavar="TIDY.csv", type=output_name, help="what to write")
+    parser.add_argument(
+        "tidy", metavar="TIDY.csv", type=output_name, nargs="?", help="what to write, without --live"
+    )
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("--on", metavar="RECORDING", help=f"the tips of {RECORDING_HELP}")
     source.add_argument(
         "--motion", choices=MOTIONS, help="a built-in motion, the diabolo hanging at rest before"
     )
+    source.add_argument("--live", action="store_true", help="your own, with the mouse, in a browser")
     parser.add_argument(
         "--model",
         metavar="NAME",
@@ -65,29 +73,55 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--duration", metavar="S", type=float, help="of a built-in motion [s]; default 5")
     parser.add_argument(
-        "--spin", metavar="W", type=float, help="at the start of a built-in motion [rad/s]; default 100"
+        "--spin",
+        metavar="W",
+        type=float,
+        help="at the start of a built-in motion or a live one [rad/s]; default 100",
     )
+    live.add_options(parser)
     add_calibration(parser)
     parser.add_argument("--json", metavar="FILE", help="write a summary as JSON; - is standard output")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    target = Path(arguments.tidy)
-    if target.suffix != ".csv":
-        raise ValueError(f"{target}: expected a name that ends in .csv")
+    target = target_of(arguments)
     inputs = [split_excerpt(arguments.on)[0]] if arguments.on else []
     inputs += [arguments.calibration] if arguments.calibration else []
     inputs += [arguments.model] if arguments.model not in DEFAULT_MODELS else []
-    files.check_outputs([target, target.with_suffix(".json"), arguments.json], inputs)
+    outputs = [target, target.with_suffix(".json")] if target else []
+    files.check_outputs([*outputs, arguments.json], inputs)
     model = read_model(arguments.model)
-    if arguments.on:
+    spin = 100.0 if arguments.spin is None else arguments.spin
+    simulated: tuple[Recording, NDArray[np.uint8]] | None
+    if arguments.live:
+        check_spin(spin, LIVE_RATE)
+        simulated = live.played(arguments, model, spin)
+    elif arguments.on:
         if arguments.duration is not None or arguments.spin is not None:
             raise ValueError("--duration and --spin belong to --motion; a recording has its own")
-        played, string_states = on_recording(arguments, model)
+        simulated = on_recording(arguments, model)
     else:
         duration = 5.0 if arguments.duration is None else arguments.duration
-        spin = 100.0 if arguments.spin is None else arguments.spin
-        played, string_states = on_motion(arguments.motion, model, duration, spin, target.stem)
+        simulated = on_motion(arguments.motion, model, duration, spin, Path(arguments.tidy).stem)
+    if target and simulated:
+        write(arguments.json, target, model, *simulated)
+
+
+def target_of(arguments: argparse.Namespace) -> Path | None:
+    """The recording to write; raises ValueError where it is none, or an option does not fit."""
+    live.check_options(arguments)
+    if not (arguments.live or arguments.tidy):
+        raise ValueError("there is nothing to write to; expected TIDY.csv")
+    name = arguments.out if arguments.live else arguments.tidy
+    if name is not None and Path(name).suffix != ".csv":
+        raise ValueError(f"{name}: expected a name that ends in .csv")
+    return None if name is None else Path(name)
+
+
+def write(
+    summary: str | None, target: Path, model: Model, played: Recording, string_states: NDArray[np.uint8]
+) -> None:
+    """The recording, and what is in it: as JSON to `summary`, and as a sentence."""
     played.save(target)
     shares = {state.name.lower(): float(np.mean(string_states == state)) for state in StringState}
     height = played.diabolo[:, 2]
@@ -100,8 +134,8 @@ def run(arguments: argparse.Namespace) -> None:
         "height_m": [float(height.min()), float(height.max())],
         "string_state_share": shares,
     }
-    files.write_json(arguments.json, found)
-    if arguments.json != files.STDOUT:
+    files.write_json(summary, found)
+    if summary != files.STDOUT:
         states = ", ".join(
             f"{100.0 * share:.0f} % {name.replace('_', ' ')}" for name, share in shares.items()
         )
