@@ -24,8 +24,10 @@ NO_SETUP = (
     "nothing in it says how long the string is and what the diabolo is like: the paper's are taken for "
     "granted (--calibration)"
 )
-WRITTEN = (".csv", ".mcap", ".parquet")
+WRITTEN = (".csv", ".mcap", ".parquet", ".rrd")
 """Suffixes of what save_recording() writes."""
+WITH_JSON = (".csv", ".parquet")
+"""Those of them that have a JSON file beside."""
 
 
 def load_recording(
@@ -101,9 +103,13 @@ def _names_in(calibration: Calibration | None, known: list[str]) -> dict[str, st
 
 
 def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
-    """Write it as its suffix says: `.csv` (tidy, with JSON beside it), `.mcap` (poses of ROS 2), or
-    `.parquet` (the tidy table, with JSON beside it). Raises RecordingError about another suffix, ValueError
-    where a library is not installed."""
+    """Write it as its suffix says: `.csv` (tidy, with JSON beside it), `.mcap` (poses of ROS 2), `.parquet`
+    (the tidy table, with JSON beside it), or `.rrd` (to look at in rerun; it is not read again).
+
+    Raises:
+        RecordingError: another suffix.
+        ValueError: a library is not installed.
+    """
     path = Path(os.fspath(path))
     instance_of("recording", recording, Recording)
     if path.suffix == ".csv":
@@ -119,6 +125,11 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
 
         check_library(f"writing {path.name}", "pyarrow", "formats")
         parquet.save(recording, path)
+    elif path.suffix == ".rrd":
+        from . import rrd
+
+        check_library(f"writing {path.name}", "rerun", "rerun")
+        rrd.save(recording, path)
     else:
         raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
 
