@@ -50,7 +50,7 @@ def save(recording: Recording, path: Path) -> None:
         stream.log("world/diabolo/cups", _cup(recording), static=True)
         for name, values in (("height", recording.diabolo[:, 2]), ("spin", recording.spin())):
             seen = np.isfinite(values)
-            send(name, rr.Scalars, seen.astype(np.int64), scalars=values[seen])
+            send(name, rr.Scalars, np.where(seen, 1, 0), scalars=values[seen])
         stream.flush()
         stream.disconnect()
 
@@ -63,7 +63,8 @@ def _layout() -> Any:
         rrb.TimeSeriesView(origin="height", name="height [m]"),
         rrb.TimeSeriesView(origin="spin", name="spin [rad/s]"),
     ]
-    play = rrb.Spatial3DView(origin="world", name="play")
+    eye = rrb.EyeControls3D(position=[-1.3, -0.9, 1.2], look_target=[0.0, 0.0, 0.9], eye_up=[0.0, 0.0, 1.0])
+    play = rrb.Spatial3DView(origin="world", name="play", eye_controls=eye)
     parts = rrb.Horizontal(play, rrb.Vertical(*plots), column_shares=[2, 1])
     return rrb.Blueprint(parts, collapse_panels=True)
 
@@ -113,12 +114,12 @@ def _cups(recording: Recording) -> tuple[Floats, Floats, NDArray[np.int64]]:
     """Centres of both cups and their orientations, row by row; one ball without orientations."""
     if recording.diabolo_orientation is None:
         seen = np.isfinite(recording.diabolo).all(axis=1)
-        return recording.diabolo[seen], np.zeros((0, 4)), seen.astype(np.int64)
+        return recording.diabolo[seen], np.zeros((0, 4)), np.where(seen, 1, 0)
     along = 0.25 * recording.properties.length * _first_axis(recording.diabolo_orientation, len(recording))
     centres = np.stack([recording.diabolo - along, recording.diabolo + along], axis=1)
     seen = np.isfinite(centres).all(axis=(1, 2))
     turns = np.repeat(recording.diabolo_orientation[seen], 2, axis=0)
-    return centres[seen].reshape(-1, 3), turns, 2 * seen.astype(np.int64)
+    return centres[seen].reshape(-1, 3), turns, np.where(seen, 2, 0)
 
 
 def _cup(recording: Recording) -> Any:
