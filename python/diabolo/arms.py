@@ -39,7 +39,12 @@ def two_arms(arms: Sequence[StickArm] | None) -> list[StickArm]:
 def stick_frame(arm: StickArm) -> NDArray[np.float64]:
     """Stick to flange, a rotation of the shape (3, 3): x points out along the stick, from the flange to the
     tip."""
-    x = arm.tip / np.linalg.norm(arm.tip)
+    return along(arm.tip)
+
+
+def along(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A rotation of the shape (3, 3) whose x axis is along a vector, which is not zero."""
+    x = vector / np.linalg.norm(vector)
     z = np.cross(x, np.eye(3)[np.argmin(np.abs(x))])
     z /= np.linalg.norm(z)
     return np.column_stack([x, np.cross(z, x), z])
