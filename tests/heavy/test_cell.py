@@ -65,11 +65,10 @@ def test_drake_has_the_tips_where_the_arms_have_them(
             stick = tip.translation() - flange.translation()
             np.testing.assert_allclose(tip.rotation().col(0), stick / np.linalg.norm(stick), atol=1e-9)
     if suffix == "sdf":
-        body = plant.GetBodyByName("diabolo")
-        inertia = body.default_spatial_inertia()
-        assert inertia.get_mass() == 0.3
-        moments = inertia.CalcRotationalInertia().get_moments()
-        assert moments[0] == pytest.approx(0.3 * 0.0065 / 4.0)  # m r / gain
+        hub, cups = (plant.GetBodyByName(name).default_spatial_inertia() for name in ("hub", "cups"))
+        assert hub.get_mass() + cups.get_mass() == pytest.approx(0.3)
+        axial = cups.CalcRotationalInertia().get_moments()[0]
+        assert axial == pytest.approx(0.3 * 0.0065 / 4.0)  # m r / gain
 
 
 @pytest.mark.mujoco

@@ -25,8 +25,10 @@ from .description import (
     tip_pose,
 )
 
-PLUGIN = 'filename="diabolo_string" name="diabolo::String"'
+PLUGIN = 'filename="DiaboloString" name="diabolo::String"'
 """Of our string in Gazebo."""
+TIP = 1e-3, [1e-7] * 3
+"""Mass [kg] and inertia [kg m^2] of a tip: links have to have some."""
 AXES = ("xx", "yy", "zz")
 
 
@@ -35,10 +37,11 @@ def world(
 ) -> str:
     """Two UR5e with sticks (default: the paper's) on a floor, and the diabolo as a free body between them.
 
-    The joints and links are those of `urdf`; `left_tip` and `right_tip` are frames of the model `cell`, x
-    out along the stick. The arms feel no gravity. The diabolo's mass and inertia and the world's gravity are
-    those of `model`. Its string is the plugin `diabolo::String`, which reads `model_file`, the name of a
-    model's file or of a preset.
+    The joints and links of the model `cell` are those of `urdf`. The arms feel no gravity, and no servos hold
+    them. The diabolo is a hub, on which the string pulls, with cups that turn on it: engines that count a free
+    body's velocity in its own frame lose their way where it spins. Its mass and inertia and the world's
+    gravity are those of `model`. The string is the plugin `diabolo::String`, which reads `model_file`, the
+    name of a model's file, as seen from the world's, or of a preset.
 
     Raises:
         ValueError: there is not one left and one right arm, or `model` is no Model.
@@ -68,8 +71,12 @@ def _arm(arm: StickArm) -> str:
     for link in links_of(arm):
         parts += [_link(link, before), _joint(link, child_of)]
         before = child_of = link.name
-    tip = f'<frame name="{arm.side}_tip" attached_to="{before}">{_pose(tip_pose(arm))}</frame>'
-    return "".join([*parts, tip])
+    tip = f"{arm.side}_tip"
+    parts.append(
+        f'<link name="{tip}">{_pose(tip_pose(arm), before)}<gravity>false</gravity>{_inertial(*TIP)}</link>'
+        f'<joint name="{tip}_joint" type="fixed"><parent>{before}</parent><child>{tip}</child></joint>'
+    )
+    return "".join(parts)
 
 
 def _link(link: Link, before: str) -> str:
@@ -95,6 +102,8 @@ def _joint(link: Link, parent: str) -> str:
 
 
 def _diabolo(model: Model, model_file: str) -> str:
+    half, inertia = 0.5 * model.parameters.mass, diabolo_inertia(model)
+    turning = inertia * (1.0, 0.5, 0.5)  # hub and cups share what is across the axle
     cup = f"<geometry><ellipsoid><radii>{numbers(CUP)}</radii></ellipsoid></geometry>"
     cups = "".join(
         f'<{kind} name="{kind}_{k}"><pose>{x} 0 0 0 0 0</pose>{cup}{more}</{kind}>'
@@ -102,9 +111,13 @@ def _diabolo(model: Model, model_file: str) -> str:
         for kind, more in (("collision", ""), ("visual", _material(RED)))
     )
     return (
-        f'<model name="diabolo"><pose>0 0 {CUP[2]} 0 0 0</pose><link name="diabolo">'
-        f"{_inertial(model.parameters.mass, diabolo_inertia(model))}{cups}</link><plugin {PLUGIN}>"
-        f"<link>diabolo</link><left>cell::left_tip</left><right>cell::right_tip</right>"
+        f'<model name="diabolo"><pose>0 0 {CUP[2]} 0 0 0</pose>'
+        f'<link name="hub">{_inertial(half, 0.5 * inertia)}</link>'
+        f'<link name="cups">{_inertial(half, turning)}{cups}</link>'
+        '<joint name="axle" type="revolute"><parent>hub</parent><child>cups</child>'
+        f"<axis><xyz>1 0 0</xyz></axis></joint><plugin {PLUGIN}>"
+        "<link>hub</link><spinning_link>cups</spinning_link>"
+        "<left>cell::left_tip</left><right>cell::right_tip</right>"
         f"<model>{escape(model_file)}</model></plugin></model>"
     )
 
