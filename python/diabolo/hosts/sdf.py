@@ -38,8 +38,8 @@ def world(
     """Two UR5e with sticks (default: the paper's) on a floor, and the diabolo as a free body between them.
 
     The joints and links of the model `cell` are those of `urdf`. The arms feel no gravity, and no servos hold
-    them. The diabolo is a hub, on which the string pulls, with cups that turn on it: engines that count a free
-    body's velocity in its own frame lose their way where it spins. Its mass and inertia and the world's
+    them. The diabolo is a hub, on which the string pulls, with cups that turn on it: engines that count a
+    free body's velocity in its own frame lose their way where it spins. Its mass and inertia and the world's
     gravity are those of `model`. The string is the plugin `diabolo::String`, which reads `model_file`, the
     name of a model's file, as seen from the world's, or of a preset.
 
