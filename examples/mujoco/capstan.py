@@ -4,8 +4,8 @@
 Euler and Eytelwein: while a string slips over a drum, the tensions of its two ends are as exp(c b), c the
 coefficient of friction and b the angle that it lies around the drum. Here both weights run on rails in line
 with their ends of the string. Over a drum that stands, the right one is so heavy that it falls. Over one that
-turns, they are equal, and the right one falls all the same. Each end's tension is read from the motion of its
-weight. The drum is the axle of a diabolo that is held in its place; MuJoCo's tendon wraps round a cylinder.
+turns, they are equal, and the right one is lifted. Each end's tension is read from the motion of its weight.
+The drum is the axle of a diabolo that is held in its place; MuJoCo's tendon wraps round a cylinder.
 
     pip install '.[mujoco,plot]'
     python examples/mujoco/capstan.py --picture capstan.png
@@ -135,7 +135,7 @@ def draw(rows: list[dict[str, float]], picture: Path) -> None:
     canvas.draw()
     image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
     with whole_file(picture) as temporary:
-        image.quantize(32, dither=Image.Dither.NONE).save(temporary, optimize=True)
+        image.quantize(32, dither=Image.Dither.NONE).save(temporary, "PNG", optimize=True)
 
 
 def main() -> int:

@@ -83,6 +83,16 @@ def test_example_runs_and_draws(tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_two_arms_are_drawn(tmp_path):
+    cell, picture = EXAMPLE.with_name("robot_cell.py"), tmp_path / "cell.png"
+    done = subprocess.run(
+        [sys.executable, str(cell), "--picture", str(picture)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert float(done.stdout.split("tips within ")[1].split()[0]) < 20.0  # [mm]
+
+
 def test_what_its_own_tendon_lacks_is_named(tmp_path):
     """Friction and drag are at work in the recordings; MuJoCo's tendon knows neither and gives like a spring.
     Friction is named; of the drag it is not said that the two agree; no spring is named without the other."""

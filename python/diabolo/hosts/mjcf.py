@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .._core import Model, StickArm
 from ..arms import two_arms
 from ..checks import instance_of
-from .description import CUP, CUPS_AT, INERTIA, RED, diabolo_inertia, links_of, numbers, tip_pose
+from .description import ARM, CUP, CUPS_AT, INERTIA, RED, diabolo_inertia, links_of, numbers, tip_pose
 
 __all__ = ["INERTIA", "SENSED", "cell", "scene"]
 SENSED = ("left_tension_N", "right_tension_N", "slip_mps", "spin_radps", "string_state")
@@ -82,7 +82,19 @@ def _arm(arm: StickArm) -> str:
             f'axis="0 0 1" armature="{ROTOR}"/><inertial pos="{numbers(link.centre)}" mass="{link.mass}" '
             f'diaginertia="{numbers([link.inertia] * 3)}"/>{limb if link.length else ""}{text}</body>'
         )
-    return f"<body {_place(arm.base)}>{text}</body>"
+    return f"<body {_place(arm.base)}>{_column(arm)}{text}</body>"
+
+
+def _column(arm: StickArm) -> str:
+    """From the floor to the first joint, where the arm stands above the floor."""
+    colour, radius = ARM
+    height, shoulder = arm.base[2, 3], arm.links[0][2, 3]
+    if height <= radius:
+        return ""
+    return (
+        f'<geom type="cylinder" fromto="0 0 {-height} 0 0 {shoulder}" size="{1.5 * radius}" '
+        f'rgba="{numbers(colour)} 1" {_SEEN_ONLY}/>'
+    )
 
 
 def _place(pose: NDArray[np.float64]) -> str:
@@ -107,11 +119,12 @@ def _with_diabolo(bodies: str, more: str, model: Model, timestep: float) -> str:
     <config key="left" value="left"/><config key="right" value="right"/>
     <config key="model" value={quoteattr(model.to_json())}/>
   </instance></plugin></extension>
-  <visual><global offwidth="960" offheight="720"/></visual>
+  <visual><global offwidth="960" offheight="720"/>
+    <headlight ambient="0.4 0.4 0.4" diffuse="0.3 0.3 0.3" specular="0 0 0"/></visual>
   <asset><texture name="sky" type="skybox" builtin="gradient" rgb1="1 1 1" rgb2="0.8 0.85 0.9" width="64"
     height="64"/></asset>
   <worldbody>
-    <light pos="1 0 3" dir="-0.3 0 -1"/>
+    <light pos="1 0 3" dir="-0.3 0 -1" type="directional" diffuse="0.5 0.5 0.5"/>
     <geom type="plane" size="2 2 0.1" condim="1" rgba="0.85 0.85 0.8 1"/>
     {bodies}
     <body name="diabolo"><freejoint name="diabolo"/>{cups}<plugin instance="string"/>
