@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of the README, and one of rerun, into docs/images.
+"""Draws the pictures of the README into docs/images.
 
     python docs/make_pictures.py --recordings FOLDER     # all; FOLDER holds the authors' recordings
     python docs/make_pictures.py                         # those that need none
 
 Needs the package with its `plot` extra, and Pillow, which matplotlib brings. The page to play with is drawn
-where `make page` has made it and chromium is installed, and rerun where its extra and Debian's xvfb and
-mesa-vulkan-drivers are.
+where `make page` has made it and chromium is installed.
 """
 
 from __future__ import annotations
@@ -15,7 +14,6 @@ import argparse
 import io
 import shutil
 import subprocess
-import sys
 import tempfile
 import warnings
 from pathlib import Path
@@ -33,7 +31,6 @@ from PIL import Image
 
 IMAGES = Path(__file__).with_name("images")
 PAGE = Path(__file__).parents[1] / "build" / "page" / "diabolo.html"
-RERUN = Path(sys.executable).with_name("rerun")
 SHOWN = "2020-07-11_basic_physics/right_hand_extend_1.csv"  # in the moving picture; no fit sees it
 BEGIN, SECONDS, BETWEEN_FRAMES = 1.0, 3.0, 0.12  # real time: GIF counts in hundredths of a second
 ANEW = 1.0  # between the starts of its predictions [s]
@@ -55,8 +52,6 @@ def main() -> None:
     draw_plan(IMAGES / "play.png")
     if PAGE.is_file() and shutil.which("chromium"):
         draw_page(IMAGES / "page.png")
-    if RERUN.is_file() and shutil.which("xvfb-run"):
-        draw_rerun(IMAGES / "rerun.png")
     if folder is not None:
         draw_take(IMAGES / "take.gif", folder)
 
@@ -262,20 +257,6 @@ def draw_page(path: Path) -> None:
         subprocess.run(["chromium", *options, page.as_uri()], check=True, capture_output=True, timeout=120)
         image = Image.open(shot).convert("RGB")
     image.quantize(64, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(path, optimize=True)
-
-
-def draw_rerun(path: Path) -> None:
-    """A take in rerun's viewer, on a screen of its own."""
-    with tempfile.TemporaryDirectory() as folder:
-        take, shot = Path(folder) / "swing.rrd", Path(folder) / "shot.png"
-        recording = diabolo.load_recording(Path(__file__).parents[1] / "data" / "recordings" / "swing.csv")
-        diabolo.save_recording(recording.cut(300, 1200), take)
-        screen = ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x800x24"]
-        viewer = [str(RERUN), str(take), "--window-size", "900x540", "--screenshot-to", str(shot)]
-        subprocess.run([*screen, *viewer], check=True, capture_output=True, timeout=120)
-        image = Image.open(shot).convert("RGB")
-    image.thumbnail((900, 900))
-    image.quantize(96, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def panels() -> tuple[Figure, Any]:
