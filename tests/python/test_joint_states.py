@@ -106,6 +106,19 @@ def test_topics_choose_the_arm_and_its_mounts_are_an_option(
     np.testing.assert_allclose(load_recording(tidy).left, recording.left, rtol=0.0, atol=1e-9)
 
 
+def test_joints_of_others_are_left_alone(played: tuple[Recording, Joints], tmp_path: Path) -> None:
+    recording, joints = played
+    topics = {"/gripper": (["left_finger"], np.zeros((len(recording), 1)))}
+    topics |= {"/broken": (["left_elbow_joint"], np.zeros((len(recording), 1)))}
+    topics |= {f"/{side}/joints": ([*JOINTS], joints[side]) for side in SIDES}
+    write(tmp_path / "bag", recording, topics)
+    given = {side: f"/{side}/joints:{side}" for side in SIDES} | {"diabolo": "/mocap/diabolo"}
+    found = load_recording(tmp_path / "bag", topics=given, arms=MOUNTS)
+    np.testing.assert_allclose(found.left, recording.left, rtol=0.0, atol=1e-9)
+    with pytest.raises(RecordingError, match="/broken: no angle of left_shoulder_pan_joint"):
+        load_recording(tmp_path / "bag", arms=MOUNTS)  # which of them is not said
+
+
 def test_what_is_not_finite_is_a_dropout(played: tuple[Recording, Joints], tmp_path: Path) -> None:
     recording, joints = played
     names, angles = together(joints)

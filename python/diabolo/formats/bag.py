@@ -49,12 +49,14 @@ def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | Non
 
     found: defaultdict[str, Rows] = defaultdict(Rows)
     joints: dict[str, list[str]] = {}
+    wanted = {*names} | {name.rpartition(":")[0] for name in names}  # of an arm TOPIC:left or TOPIC:right
     try:
         with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as bag:
             known = [
                 one
                 for one in bag.connections
-                if one.msgtype in ROWS_OF and (not names or one.topic in names or one.msgtype in NAMED_INSIDE)
+                if one.msgtype in ROWS_OF
+                and (not names or one.topic in wanted or one.msgtype in NAMED_INSIDE)
             ]
             for connection, logged, raw in bag.messages(connections=known) if known else ():
                 message = bag.deserialize(raw, connection.msgtype)
@@ -74,9 +76,9 @@ def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | Non
         raise unreadable(path, "a bag of ROS", error) from error
     if not found.keys() >= {*names}:
         return read(path, (), arms)  # all, for the sentence about those that are not there
-    for topic, there in joints.items():
-        if not any(side in name.lower() for side in SIDES for name in found):
-            raise RecordingError(f"{path}, {topic}: {unknown_joints(there)}")
+    if joints and all("diabolo" in name.lower() for name in found):
+        topic, there = next(iter(joints.items()))
+        raise RecordingError(f"{path}, {topic}: {unknown_joints(there)}")
     if not found:
         raise RecordingError(f"{path}: no poses in it; expected messages of {', '.join(sorted(ROWS_OF))}")
     holding = dict(zip(SIDES, two_arms(arms), strict=True))
@@ -221,6 +223,5 @@ NAMED_INSIDE = (
     "geometry_msgs/msg/TransformStamped",
     "tf2_msgs/msg/TFMessage",
     "mocap4r2_msgs/msg/RigidBodies",
-    JOINT_STATE,
 )
 """Types of messages that name their bodies, whatever the topic."""
