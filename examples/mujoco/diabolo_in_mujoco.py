@@ -23,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 from diabolo import Model, Parameters, State, TipMotion, rollout
+from diabolo.files import whole_file
 from diabolo.hosts import mujoco as host
 
 if ctypes.util.find_library("EGL"):
@@ -88,10 +89,17 @@ def predicted(dt: float) -> np.ndarray:
     return rollout(parameters, initial, tips, dt=dt, steps=steps, string_state="on_string").states
 
 
-def render(model: mujoco.MjModel, data: mujoco.MjData, path: np.ndarray, picture: Path) -> None:
-    """The last instant with the path of the centre."""
+def take_camera(lookat: tuple[float, float, float], distance: float, azimuth: float) -> mujoco.MjvCamera:
+    """A camera so far [m] from a point [m], in that direction [degrees], and a little above it."""
     camera = mujoco.MjvCamera()
-    camera.lookat, camera.distance, camera.azimuth, camera.elevation = (0, 0, 0.75), 2.4, 150, -12
+    camera.lookat, camera.distance, camera.azimuth, camera.elevation = lookat, distance, azimuth, -12
+    return camera
+
+
+def render(
+    model: mujoco.MjModel, data: mujoco.MjData, path: np.ndarray, picture: Path, camera: mujoco.MjvCamera
+) -> None:
+    """The last instant with the path of the centre."""
     with mujoco.Renderer(model, 720, 960) as renderer:
         renderer.update_scene(data, camera)
         scene = renderer.scene
@@ -107,9 +115,11 @@ def render(model: mujoco.MjModel, data: mujoco.MjData, path: np.ndarray, picture
         for begin, end in itertools.pairwise(thinned):
             capsule(begin, end, 0.002, (0.1, 0.3, 0.8, 1))
         pixels = renderer.render()
-    import matplotlib.image
+    from PIL import Image
 
-    matplotlib.image.imsave(picture, pixels)
+    image = Image.fromarray(pixels).quantize(96, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    with whole_file(picture) as temporary:
+        image.save(temporary, "PNG", optimize=True)
 
 
 def plot(path: np.ndarray, picture: Path) -> None:
@@ -145,7 +155,7 @@ def main() -> int:
     print(f"On the floor with a slack string for {dt * on_floor.sum():.2f} s; ", end="")
     print(f"the string's tension is {record['tension'][-1]:.2f} N at the end.")
     try:
-        render(model, data, record["position"], picture)
+        render(model, data, record["position"], picture, take_camera((0, 0, 0.75), 2.4, 150))
     except Exception as error:  # whatever a graphics stack may raise
         print(f"Cannot render here ({error}); the picture is a plot.", file=sys.stderr)
         plot(record["position"], picture)

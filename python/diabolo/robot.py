@@ -13,12 +13,14 @@ from ._core import (
     recorded_plan,
     ur5e_inverse,
 )
+from .arms import JOINTS
 
 FAULTS = ("reached", "outside the box of the seed grid", "out of reach", "a joint leaves its range")
 """What the codes of StickMap.solve() mean."""
 
 __all__ = [
     "FAULTS",
+    "JOINTS",
     "RobotLimits",
     "SeedGrid",
     "StickArm",

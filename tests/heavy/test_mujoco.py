@@ -83,6 +83,16 @@ def test_example_runs_and_draws(tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_two_arms_are_drawn(tmp_path):
+    cell, picture = EXAMPLE.with_name("robot_cell.py"), tmp_path / "cell.png"
+    done = subprocess.run(
+        [sys.executable, str(cell), "--picture", str(picture)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert float(done.stdout.split("tips within ")[1].split()[0]) < 20.0  # [mm]
+
+
 def test_what_its_own_tendon_lacks_is_named(tmp_path):
     """Friction and drag are at work in the recordings; MuJoCo's tendon knows neither and gives like a spring.
     Friction is named; of the drag it is not said that the two agree; no spring is named without the other."""
@@ -103,6 +113,26 @@ def test_what_its_own_tendon_lacks_is_named(tmp_path):
     assert float(ahead) == 1.0
     assert better < 0.4 * alone
     assert "Your simulator beside reality" in report.read_text(encoding="utf-8")
+
+
+def test_capstan_bench(tmp_path):
+    """Weights on our string slip as exp(c b) within 1 %; over MuJoCo's tendon both ends are alike."""
+    bench, picture = EXAMPLE.with_name("capstan.py"), tmp_path / "capstan.png"
+    done = subprocess.run(
+        [sys.executable, str(bench), "--picture", str(picture)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    rows = [line.strip("|").split("|") for line in done.stdout.splitlines() if line.startswith("| 0")]
+    assert len(rows) == 20
+    for friction, angle, _, fixed, turning, *tendon in rows:
+        law = np.exp(float(friction) * np.radians(float(angle)))
+        np.testing.assert_allclose([float(fixed), float(turning)], law, rtol=0.01)
+        if float(angle) < 360.0:  # it knows no turns
+            np.testing.assert_allclose([float(one) for one in tendon], 1.0, rtol=1e-3)
+    nowhere = str(tmp_path / "nowhere" / "a.png")
+    done = subprocess.run([sys.executable, str(bench), "--picture", nowhere], capture_output=True, text=True)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "there is no folder" in done.stderr
 
 
 def test_body_follows_the_predictor_until_it_touches_the_floor(example):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Recordings of other programs: bags of ROS, C3D, Parquet, and exports of Vicon and Qualisys."""
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -266,6 +267,16 @@ def test_a_broken_file_ends_in_one_sentence(
 def test_what_cannot_be_meant_is_refused(tmp_path: Path, call: Callable[[Path], Any], complaint: str) -> None:
     with pytest.raises(RecordingError, match=complaint.replace("(", r"\(")):
         call(tmp_path)
+
+
+def test_a_library_that_is_not_there_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "rerun", None)
+    assert main(["convert", str(SWING), str(tmp_path / "a.rrd")]) == 2
+    assert capsys.readouterr().err == (
+        "diabolo: writing a.rrd: needs rerun (pip install '.[rerun]' in the project's root)\n"
+    )
 
 
 def test_stamps_that_go_back_are_refused_with_the_body() -> None:

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .._core import Calibration, Model, Recording
+from .._core import Calibration, Model, Recording, StickArm
+from ..arms import SIDES
 from ..checks import shown
 from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..files import STDOUT
@@ -70,6 +71,15 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
         metavar="LIST",
         help="which topics or bodies of a bag, C3D, Vicon's or Qualisys' file are the tips and the diabolo: "
         "left=NAME,right=NAME,diabolo=NAME; default: by their names",
+    )
+    parser.add_argument(
+        "--arms",
+        metavar=("HEIGHT", "SPACING", "FORWARD"),
+        nargs=3,
+        type=float,
+        default=[0.70, 1.10, 0.0],
+        help="where two UR5e stand whose joints a bag tells of: height, distance and x of their bases [m]; "
+        "default 0.7 1.1 0",
     )
 
 
@@ -132,15 +142,29 @@ class Reading:
     up: str | None
     columns: str | None
     topics: str | None
+    arms: list[StickArm]
 
     def load(self, path: str) -> Recording:
-        return load_recording(path, self.calibration, up=self.up, columns=self.columns, topics=self.topics)
+        return load_recording(
+            path,
+            self.calibration,
+            up=self.up,
+            columns=self.columns,
+            topics=self.topics,
+            arms=self.arms,
+        )
 
 
 def reading_of(arguments: argparse.Namespace) -> Reading:
     path = arguments.calibration
     calibration = None if path is None else Calibration.load(path)
-    return Reading(calibration, arguments.up, arguments.columns, arguments.topics)
+    arms = arms_of(arguments)
+    return Reading(calibration, arguments.up, arguments.columns, arguments.topics, arms)
+
+
+def arms_of(arguments: argparse.Namespace) -> list[StickArm]:
+    height, spacing, forward = arguments.arms
+    return [StickArm(side, height=height, spacing=spacing, forward=forward) for side in SIDES]
 
 
 def read_excerpt(text: str, reading: Reading) -> Excerpt:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""`diabolo convert`: a recording of one kind as another."""
+"""`diabolo convert`: a recording of one kind as another, and a model as a robot cell."""
 
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,14 @@ import numpy as np
 
 from .. import files
 from ..checks import warn_of
-from ..formats import WRITTEN, save_recording
-from .arguments import add_calibration, add_command, output_name, reading_of
+from ..formats import WITH_JSON, WRITTEN, save_recording
+from ..hosts import mjcf, sdf, urdf
+from .arguments import add_calibration, add_command, arms_of, output_name, read_model, reading_of
+
+CELLS = (".urdf", ".xml", ".sdf")
+"""Suffixes of what is written from a model."""
+OF_RECORDINGS = ("calibration", "up", "columns", "topics")
+"""Options that say how a recording is read."""
 
 
 def add_parser(commands: Any) -> None:
@@ -20,18 +27,25 @@ def add_parser(commands: Any) -> None:
         commands,
         "convert",
         run=run,
-        summary="write a recording as another kind of file: tidy CSV, a bag of ROS 2, Parquet",
+        summary="write a recording as another kind of file, or a model as a robot cell for simulators",
         text="Read a recording of any kind (docs/recordings.md) and write the stick tips and the diabolo in\n"
         "the world frame (x forward, y left, z up; s, m, unit quaternions), as the suffix of OUT says:\n\n"
         "  .csv      tidy: empty cells are dropouts; beside it OUT.json with mass and sizes of the\n"
         "            diabolo, string length and rate\n"
         "  .mcap     poses of ROS 2 on /left_tip, /right_tip and /diabolo; string, diabolo in the metadata\n"
-        "  .parquet  the tidy table, and OUT.json beside it",
+        "  .parquet  the tidy table, and OUT.json beside it\n"
+        "  .rrd      the play in three dimensions, height and spin, to look at in rerun\n\n"
+        "Of a model (a file, or consistent, paper or published) it writes the cell of two UR5e with sticks\n"
+        "and the diabolo (docs/hosts.md); --arms says where they stand:\n\n"
+        "  .xml      MJCF, with our string as MuJoCo's plugin and the model in it\n"
+        "  .sdf      a world of SDF, with the name of the model's file\n"
+        "  .urdf     the arms and sticks alone",
         example="  diabolo convert throw_1.csv tidy/throw_1.csv\n"
         "  diabolo convert bag/ take.csv --topics left=/stick_l/pose,right=/stick_r/pose,diabolo=/d/pose\n"
-        "  diabolo convert take.csv take.mcap",
+        "  diabolo convert take.csv take.mcap\n"
+        "  diabolo convert out/model.json cell.sdf",
     )
-    parser.add_argument("recording", metavar="RECORDING", help="what to read")
+    parser.add_argument("recording", metavar="RECORDING|MODEL", help="what to read")
     parser.add_argument("out", metavar="OUT", type=output_name, help="what to write")
     add_calibration(parser)
     parser.add_argument(
@@ -41,26 +55,52 @@ def add_parser(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     target = Path(arguments.out)
-    if target.suffix not in WRITTEN:
-        raise ValueError(f"{target}: expected a name that ends in {', '.join(WRITTEN)}")
+    if target.suffix in CELLS:
+        done, said = _convert_model(arguments, target)
+    elif target.suffix in WRITTEN:
+        done, said = _convert_recording(arguments, target)
+    else:
+        raise ValueError(f"{target}: expected a name that ends in {', '.join((*WRITTEN, *CELLS))}")
+    files.write_json(arguments.json, {"schema": "diabolo.convert/1", "file": str(target), **done})
+    if arguments.json != files.STDOUT:
+        print(f"{target}: {said}")
+
+
+Done = tuple[dict[str, Any], str]
+"""What was written, for the JSON file and as a sentence."""
+
+
+def _convert_recording(arguments: argparse.Namespace, target: Path) -> Done:
     inputs = [arguments.recording] + ([arguments.calibration] if arguments.calibration else [])
-    beside = None if target.suffix == ".mcap" else target.with_suffix(".json")
+    beside = target.with_suffix(".json") if target.suffix in WITH_JSON else None
     files.check_outputs([target, beside, arguments.json], inputs)
     recording = reading_of(arguments).load(arguments.recording)
     warn_of([recording])
     save_recording(recording, target)
     dropouts = int(np.count_nonzero(~recording.diabolo_valid))
-    files.write_json(
-        arguments.json,
-        {
-            "schema": "diabolo.convert/1",
-            "file": str(target),
-            "samples": len(recording),
-            "rate_hz": recording.rate,
-            "diabolo_dropouts": dropouts,
-        },
+    return (
+        {"samples": len(recording), "rate_hz": recording.rate, "diabolo_dropouts": dropouts},
+        f"{len(recording)} samples at {recording.rate:g} Hz, the diabolo missing in {dropouts}",
     )
-    if arguments.json != files.STDOUT:
-        print(
-            f"{target}: {len(recording)} samples at {recording.rate:g} Hz, the diabolo missing in {dropouts}"
-        )
+
+
+def _convert_model(arguments: argparse.Namespace, target: Path) -> Done:
+    name = arguments.recording
+    for option in OF_RECORDINGS:
+        if getattr(arguments, option) is not None:
+            raise ValueError(f"--{option}: it says how a recording is read; {target.name} is of a model")
+    is_file = Path(name).exists()
+    files.check_outputs([target, arguments.json], [name] if is_file else [])
+    arms, model = arms_of(arguments), read_model(name)
+    if target.suffix == ".urdf":
+        text = urdf.urdf(arms)
+    elif target.suffix == ".xml":
+        text = mjcf.cell(arms, model)
+    else:
+        text = sdf.world(arms, model, os.path.relpath(name, target.parent) if is_file else name)
+    files.write_texts({target: text})
+    mass, length = model.parameters.mass, model.parameters.string_length
+    diabolo = (
+        "" if target.suffix == ".urdf" else f", and a diabolo of {mass:g} kg on a string of {length:g} m"
+    )
+    return {"model": model.name, "mass_kg": mass, "string_length_m": length}, f"two UR5e with sticks{diabolo}"

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from .. import _core
-from .._core import Calibration, Recording, RecordingError
+from .._core import Calibration, Recording, RecordingError, StickArm
+from ..arms import two_arms
 from ..checks import check_library, instance_of, shown
 from .bodies import ROLES, Body
 
@@ -23,8 +24,10 @@ NO_SETUP = (
     "nothing in it says how long the string is and what the diabolo is like: the paper's are taken for "
     "granted (--calibration)"
 )
-WRITTEN = (".csv", ".mcap", ".parquet")
+WRITTEN = (".csv", ".mcap", ".parquet", ".rrd")
 """Suffixes of what save_recording() writes."""
+WITH_JSON = (".csv", ".parquet")
+"""Those of them that have a JSON file beside."""
 
 
 def load_recording(
@@ -34,6 +37,7 @@ def load_recording(
     up: str | None = None,
     columns: str | Mapping[str, str] | None = None,
     topics: str | Mapping[str, str] | None = None,
+    arms: Sequence[StickArm] | None = None,
 ) -> Recording:
     """Read a recording of any kind, told apart by its suffix and its first line.
 
@@ -42,10 +46,12 @@ def load_recording(
     `.bag`), `.c3d`, Vicon's CSV of objects and Qualisys' TSV of bodies hold bodies or points with names: by
     default these are the tips and the diabolo themselves, in a world frame with z up, told apart by names.
     topics: {"left": NAME, "right": NAME, "diabolo": NAME}, or "left=NAME,...", says which they are.
+    arms: the left and the right one, of whose joints a bag may tell instead of the tips (default: the
+    paper's). Their sticks are TOPIC:left and TOPIC:right.
     Raises RecordingError with the file, what was found and what was expected, and ValueError where a library
     is not installed.
     """
-    path, names = Path(os.fspath(path)), topics_of(topics)
+    path, names, arms = Path(os.fspath(path)), topics_of(topics), two_arms(arms)
     reader = reader_of(path)
     if names and reader in (None, "parquet"):
         raise RecordingError(f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only")
@@ -58,16 +64,21 @@ def load_recording(
         return _core.read_recording(text, path, calibration or Calibration.published(), up, columns)
     if columns is not None:
         raise RecordingError(f"{path}: columns are mapped, but it is no table; expected --topics")
-    return _recording_of_bodies(path, reader, calibration, up, names)
+    return _recording_of_bodies(path, reader, calibration, up, names, arms)
 
 
 def _recording_of_bodies(
-    path: Path, reader: str, calibration: Calibration | None, up: str | None, names: dict[str, str]
+    path: Path,
+    reader: str,
+    calibration: Calibration | None,
+    up: str | None,
+    names: dict[str, str],
+    arms: Sequence[StickArm],
 ) -> Recording:
     """The recording of a file that holds bodies with names."""
     from . import bodies
 
-    found, setup, notes = _bodies_of(reader, path, names)
+    found, setup, notes = _bodies_of(reader, path, names, arms)
     bodies.check_names(path, found, names)
     names = names or _names_in(calibration, [body.name for body in found])
     time, tracks, of_a_clock = bodies.at_common_times(path, found, names)
@@ -92,9 +103,13 @@ def _names_in(calibration: Calibration | None, known: list[str]) -> dict[str, st
 
 
 def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
-    """Write it as its suffix says: `.csv` (tidy, with JSON beside it), `.mcap` (poses of ROS 2), or
-    `.parquet` (the tidy table, with JSON beside it). Raises RecordingError about another suffix, ValueError
-    where a library is not installed."""
+    """Write it as its suffix says: `.csv` (tidy, with JSON beside it), `.mcap` (poses of ROS 2), `.parquet`
+    (the tidy table, with JSON beside it), or `.rrd` (to look at in rerun; it is not read again).
+
+    Raises:
+        RecordingError: another suffix.
+        ValueError: a library is not installed.
+    """
     path = Path(os.fspath(path))
     instance_of("recording", recording, Recording)
     if path.suffix == ".csv":
@@ -110,6 +125,11 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
 
         check_library(f"writing {path.name}", "pyarrow", "formats")
         parquet.save(recording, path)
+    elif path.suffix == ".rrd":
+        from . import rrd
+
+        check_library(f"writing {path.name}", "rerun", "rerun")
+        rrd.save(recording, path)
     else:
         raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
 
@@ -164,14 +184,14 @@ def reader_of(path: Path) -> str | None:
 
 
 def _bodies_of(
-    reader: str, path: Path, names: Mapping[str, str]
+    reader: str, path: Path, names: Mapping[str, str], arms: Sequence[StickArm]
 ) -> tuple[list[Body], Calibration | None, list[str]]:
     """The bodies of a file, what it says of string and diabolo, and what was changed."""
     if reader == "bag":
         from . import bag
 
         wanted = names.values() if len(names) == len(ROLES) else ()
-        return bag.read(path, wanted), bag.setup_of(path), []
+        return bag.read(path, wanted, arms), bag.setup_of(path), []
     if reader == "c3d":
         from . import c3d
 

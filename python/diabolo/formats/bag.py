@@ -5,20 +5,23 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .._core import Calibration, DiaboloProperties, Recording, RecordingError
+from .._core import Calibration, DiaboloProperties, Recording, RecordingError, StickArm
+from ..arms import JOINTS, SIDES, two_arms
 from ..checks import check_library
 from ..files import whole_file
-from .bodies import Body, Floats, unreadable
+from .bodies import NO_FRAME, Body, Floats, unreadable
+from .joints import angles_of, sticks, unknown_joints
 
 SCHEMA = "diabolo.recording/1"
 POSE, POINT = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"
+JOINT_STATE = "sensor_msgs/msg/JointState"
 TOPICS = {"left": "/left_tip", "right": "/right_tip", "diabolo": "/diabolo"}
 """Of what is written."""
 
@@ -26,7 +29,7 @@ TOPICS = {"left": "/left_tip", "right": "/right_tip", "diabolo": "/diabolo"}
 @dataclass
 class Rows:
     """What a bag has of one body: stamps of headers and of the log [ns], places [m], of a body with its
-    orientation x, y, z, w behind it, and the frame."""
+    orientation x, y, z, w behind it, of an arm its six angles [rad] instead, and the frame."""
 
     stamps: list[int] = field(default_factory=list)
     logged: list[int] = field(default_factory=list)
@@ -38,22 +41,27 @@ Row = tuple[str, Any, tuple[float, ...]]
 """Name of a body, header, and its numbers as in Rows."""
 
 
-def read(path: Path, names: Collection[str] = ()) -> list[Body]:
-    """The bodies of a bag, each a topic with poses or points, or a frame of /tf: those of these names, or all
-    without them."""
+def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | None = None) -> list[Body]:
+    """The bodies of a bag, each a topic with poses or points, a frame of /tf, or the stick of an arm of whose
+    joints it tells: those of these names, or all without them."""
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
 
     found: defaultdict[str, Rows] = defaultdict(Rows)
+    joints: dict[str, list[str]] = {}
+    wanted = {*names} | {name.rpartition(":")[0] for name in names}  # of an arm TOPIC:left or TOPIC:right
     try:
         with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as bag:
             known = [
                 one
                 for one in bag.connections
-                if one.msgtype in ROWS_OF and (not names or one.topic in names or one.msgtype in NAMED_INSIDE)
+                if one.msgtype in ROWS_OF
+                and (not names or one.topic in wanted or one.msgtype in NAMED_INSIDE)
             ]
             for connection, logged, raw in bag.messages(connections=known) if known else ():
                 message = bag.deserialize(raw, connection.msgtype)
+                if connection.msgtype == JOINT_STATE:
+                    joints.setdefault(connection.topic, message.name)
                 for name, header, numbers in ROWS_OF[connection.msgtype](connection.topic, message):
                     if names and name not in names:
                         continue
@@ -61,14 +69,20 @@ def read(path: Path, names: Collection[str] = ()) -> list[Body]:
                     rows.stamps.append(int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec))
                     rows.logged.append(logged)
                     rows.numbers.append(numbers)
-                    rows.frames.add(header.frame_id)
+                    rows.frames.add(NO_FRAME if len(numbers) == len(JOINTS) else header.frame_id)
+    except RecordingError as error:
+        raise RecordingError(f"{path}, {error}") from error
     except Exception as error:  # of files, archives, databases or messages: whatever a broken bag leads to
         raise unreadable(path, "a bag of ROS", error) from error
     if not found.keys() >= {*names}:
-        return read(path)  # all, for the sentence about those that are not there
+        return read(path, (), arms)  # all, for the sentence about those that are not there
+    if joints and all("diabolo" in name.lower() for name in found):
+        topic, there = next(iter(joints.items()))
+        raise RecordingError(f"{path}, {topic}: {unknown_joints(there)}")
     if not found:
         raise RecordingError(f"{path}: no poses in it; expected messages of {', '.join(sorted(ROWS_OF))}")
-    return [_body(path, name, rows) for name, rows in found.items()]
+    holding = dict(zip(SIDES, two_arms(arms), strict=True))
+    return [_body(path, name, rows, holding) for name, rows in found.items()]
 
 
 def setup_of(path: Path) -> Calibration | None:
@@ -141,12 +155,14 @@ def _setup(recording: Recording) -> dict[str, Any]:
     }
 
 
-def _body(path: Path, name: str, rows: Rows) -> Body:
+def _body(path: Path, name: str, rows: Rows, arms: dict[str, StickArm]) -> Body:
     if len({len(one) for one in rows.numbers}) > 1 or len(rows.frames) > 1:
         raise RecordingError(f"{path}, {name}: points and poses, or several frames; expected one kind")
     stamps = np.array(rows.stamps if any(rows.stamps) else rows.logged, np.int64)
     order = np.argsort(stamps, kind="stable")
     numbers = np.array(rows.numbers, float)[order]
+    if numbers.shape[1] == len(JOINTS):
+        return Body(name, stamps[order], *sticks(arms[name.rpartition(":")[2]], numbers), NO_FRAME)
     places, turns = numbers[:, :3], numbers[:, 3:] if numbers.shape[1] == 7 else None
     places[~np.isfinite(places).all(axis=1)] = np.nan
     if turns is not None:
@@ -187,6 +203,11 @@ def _of_rigid_bodies(_: str, message: Any) -> Iterator[Row]:
         yield body.rigid_body_name, message.header, _pose(body.pose.position, body.pose.orientation)
 
 
+def _of_joints(topic: str, message: Any) -> Iterator[Row]:
+    for name, angles in angles_of(topic, message):
+        yield name, message.header, angles
+
+
 ROWS_OF: dict[str, Callable[[str, Any], Iterator[Row]]] = {
     POSE: _of_pose,
     POINT: _of_point,
@@ -195,6 +216,7 @@ ROWS_OF: dict[str, Callable[[str, Any], Iterator[Row]]] = {
     "geometry_msgs/msg/TransformStamped": _of_transform,
     "tf2_msgs/msg/TFMessage": _of_transforms,
     "mocap4r2_msgs/msg/RigidBodies": _of_rigid_bodies,
+    JOINT_STATE: _of_joints,
 }
 """What is read of messages, by their type."""
 NAMED_INSIDE = (

@@ -20,6 +20,7 @@ METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 EVEN = 0.9  # the median step of all stamps over a body's, at least, where bodies have the same stamps
 SAME_RATE = 1.5  # the largest median step of a body over the smallest, at most, if so
 CLOCK = 10**18  # stamps beyond are those of a clock that counts from 1970 [ns]
+NO_FRAME = ""  # of a body whose frame is not told: it goes with any
 LONGEST_STEP = 2.5  # that is interpolated, in a body's own median steps
 
 
@@ -32,7 +33,7 @@ class Body:
     stamps: NDArray[np.int64]
     position: Floats
     orientation: Floats | None = None
-    frame: str = ""
+    frame: str = NO_FRAME
 
     @property
     def step(self) -> float:
@@ -88,9 +89,11 @@ def at_common_times(
             raise RecordingError(
                 f"{path}, {body.name}: stamp {body.stamps[back[0] + 1]} ns does not come after the one before"
             )
-        if body.frame != wanted[0].frame:
+    told = [body for body in wanted if body.frame != NO_FRAME]
+    for body in told:
+        if body.frame != told[0].frame:
             raise RecordingError(
-                f"{path}: {wanted[0].name} is in the frame {shown(wanted[0].frame)}, {body.name} in "
+                f"{path}: {told[0].name} is in the frame {shown(told[0].frame)}, {body.name} in "
                 f"{shown(body.frame)}; expected one frame"
             )
     stamps = np.unique(np.concatenate([body.stamps for body in wanted]))

@@ -3,19 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._core import Model, StickArm
+from ..arms import two_arms
 from ..checks import instance_of
+from .description import ARM, CUP, CUPS_AT, INERTIA, RED, diabolo_inertia, links_of, numbers, tip_pose
 
+__all__ = ["INERTIA", "SENSED", "cell", "scene"]
 SENSED = ("left_tension_N", "right_tension_N", "slip_mps", "spin_radps", "string_state")
 """What the sensor of a scene says; the state is 0 on the string, 1 loose, 2 in flight."""
-INERTIA = (5.6e-4, 6.6e-4, 6.6e-4)
-"""Of the paper's red diabolo, about and across the axle [kg m^2]."""
 SERVO = 2e4
 """Stiffness of a joint of a cell, critically damped [N m/rad]: it lags by some hundredths of a second."""
 ROTOR = 0.1
@@ -44,21 +45,19 @@ def scene(model: Model | None = None, timestep: float = 1e-3) -> str:
 def cell(arms: Sequence[StickArm] | None = None, model: Model | None = None, timestep: float = 1e-3) -> str:
     """A diabolo on a string between the sticks of two UR5e, as StickArm has them (default: the paper's).
 
-    The joints and their servos are `left_1` to `right_6`, left first, in the order of the arms: put joint
-    angles into `data.qpos` to begin, and into `data.ctrl` [rad]. The sticks feel the string. Masses are those
-    that Universal Robots publishes; inertias, servos (SERVO, ROTOR) and the shape of the links are estimates.
-    The rest is as in `scene`.
+    The joints and their servos are `left_shoulder_pan_joint` to `right_wrist_3_joint`, left first, in the
+    order of the arms: put joint angles into `data.qpos` to begin, and into `data.ctrl` [rad]. The sticks feel
+    the string. Masses are those that Universal Robots publishes; inertias, servos (SERVO, ROTOR) and the
+    shape of the links are estimates. The rest is as in `scene`.
 
     Raises:
         ValueError: there is not one left and one right arm, or the time step [s] is not above zero.
     """
-    arms = [StickArm("left"), StickArm("right")] if arms is None else list(arms)
-    if [arm.side for arm in arms] != ["left", "right"]:
-        raise ValueError(f"arms: {[arm.side for arm in arms]}; expected one of the left and one of the right")
+    arms = two_arms(arms)
     servos = "".join(
-        f'<position name="{arm.side}_{i}" joint="{arm.side}_{i}" kp="{SERVO}" dampratio="1"/>'
+        f'<position name="{link.joint}" joint="{link.joint}" kp="{SERVO}" dampratio="1"/>'
         for arm in arms
-        for i in range(1, 7)
+        for link in links_of(arm)
     )
     bodies = "".join(map(_arm, arms))
     return _with_diabolo(
@@ -71,31 +70,37 @@ _SEEN_ONLY = 'contype="0" conaffinity="0" mass="0"'
 
 def _arm(arm: StickArm) -> str:
     """An arm, link in link, with the stick in its flange."""
-    reach = [*(link[:3, 3] for link in arm.links[1:]), arm.tip]
-    along = arm.tip / np.linalg.norm(arm.tip)
-    text = f'<site name="{arm.side}" pos="{_numbers(arm.tip)}" size="0.01" zaxis="{_numbers(along)}"/>'
-    for i in reversed(range(6)):
-        mass, centre = arm.link_masses[i][0], arm.link_masses[i][1:]
-        colour, radius = ("0.75 0.6 0.4 1", 0.008) if i == 5 else ("0.6 0.65 0.7 1", 0.045)
-        shape = f'<geom type="capsule" fromto="0 0 0 {_numbers(reach[i])}" size="{radius}" rgba="{colour}"'
-        limb = f"{shape} {_SEEN_ONLY}/>"
-        text = (
-            f'<body {_place(arm.links[i])} gravcomp="1"><joint name="{arm.side}_{i + 1}" axis="0 0 1"'
-            f' armature="{ROTOR}"/><inertial pos="{_numbers(centre)}" mass="{mass}"'
-            f' diaginertia="{_numbers(np.full(3, 0.01 * mass))}"/>'
-            f"{limb if np.linalg.norm(reach[i]) > 1e-6 else ''}{text}</body>"
+    tip = tip_pose(arm)
+    text = f'<site name="{arm.side}" pos="{numbers(tip[:3, 3])}" size="0.01" zaxis="{numbers(tip[:3, 0])}"/>'
+    for link in reversed(links_of(arm)):
+        limb = (
+            f'<geom type="capsule" fromto="0 0 0 {numbers(link.end)}" size="{link.radius}" '
+            f'rgba="{numbers(link.colour)} 1" {_SEEN_ONLY}/>'
         )
-    return f"<body {_place(arm.base)}>{text}</body>"
+        text = (
+            f'<body name="{link.name}" {_place(link.pose)} gravcomp="1"><joint name="{link.joint}" '
+            f'axis="0 0 1" armature="{ROTOR}"/><inertial pos="{numbers(link.centre)}" mass="{link.mass}" '
+            f'diaginertia="{numbers([link.inertia] * 3)}"/>{limb if link.length else ""}{text}</body>'
+        )
+    return f"<body {_place(arm.base)}>{_column(arm)}{text}</body>"
+
+
+def _column(arm: StickArm) -> str:
+    """From the floor to the first joint, where the arm stands above the floor."""
+    colour, radius = ARM
+    height, shoulder = arm.base[2, 3], arm.links[0][2, 3]
+    if height <= radius:
+        return ""
+    return (
+        f'<geom type="cylinder" fromto="0 0 {-height} 0 0 {shoulder}" size="{1.5 * radius}" '
+        f'rgba="{numbers(colour)} 1" {_SEEN_ONLY}/>'
+    )
 
 
 def _place(pose: NDArray[np.float64]) -> str:
     """Position and orientation of a frame, as attributes."""
     x, y = pose[:3, 0], pose[:3, 1]
-    return f'pos="{_numbers(pose[:3, 3])}" xyaxes="{_numbers(x)} {_numbers(y)}"'
-
-
-def _numbers(vector: Iterable[float]) -> str:
-    return " ".join(repr(float(number)) for number in vector)
+    return f'pos="{numbers(pose[:3, 3])}" xyaxes="{numbers(x)} {numbers(y)}"'
 
 
 def _with_diabolo(bodies: str, more: str, model: Model, timestep: float) -> str:
@@ -104,8 +109,8 @@ def _with_diabolo(bodies: str, more: str, model: Model, timestep: float) -> str:
     if isinstance(timestep, bool) or not isinstance(timestep, (int, float)) or not 0.0 < timestep < np.inf:
         raise ValueError(f"timestep: {timestep!r}; expected a number of seconds above 0")
     cups = "".join(
-        f'<geom type="ellipsoid" size="0.03 0.06 0.06" pos="{x} 0 0" condim="1" rgba="0.8 0.15 0.1 1"/>'
-        for x in (-0.035, 0.035)
+        f'<geom type="ellipsoid" size="{numbers(CUP)}" pos="{x} 0 0" condim="1" rgba="{numbers(RED)} 1"/>'
+        for x in CUPS_AT
     )
     parameters = model.parameters
     return f"""<mujoco model="diabolo">
@@ -114,15 +119,16 @@ def _with_diabolo(bodies: str, more: str, model: Model, timestep: float) -> str:
     <config key="left" value="left"/><config key="right" value="right"/>
     <config key="model" value={quoteattr(model.to_json())}/>
   </instance></plugin></extension>
-  <visual><global offwidth="960" offheight="720"/></visual>
+  <visual><global offwidth="960" offheight="720"/>
+    <headlight ambient="0.4 0.4 0.4" diffuse="0.3 0.3 0.3" specular="0 0 0"/></visual>
   <asset><texture name="sky" type="skybox" builtin="gradient" rgb1="1 1 1" rgb2="0.8 0.85 0.9" width="64"
     height="64"/></asset>
   <worldbody>
-    <light pos="1 0 3" dir="-0.3 0 -1"/>
+    <light pos="1 0 3" dir="-0.3 0 -1" type="directional" diffuse="0.5 0.5 0.5"/>
     <geom type="plane" size="2 2 0.1" condim="1" rgba="0.85 0.85 0.8 1"/>
     {bodies}
     <body name="diabolo"><freejoint name="diabolo"/>{cups}<plugin instance="string"/>
-      <inertial pos="0 0 0" mass="{parameters.mass}" diaginertia="{" ".join(map(str, INERTIA))}"/>
+      <inertial pos="0 0 0" mass="{parameters.mass}" diaginertia="{numbers(diabolo_inertia(model))}"/>
     </body>
   </worldbody>
   {more}

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Two UR5e play a diabolo in MuJoCo: the cell of diabolo.hosts, with our string between their sticks.
+
+The tips swing and beat. Joints come from the tips by diabolo.robot, and servos follow them; the sticks feel
+the string. It prints how far the tips are from where they should be, and draws the last instant.
+
+    pip install '.[mujoco,plot]'
+    python examples/mujoco/robot_cell.py --model out/model.json --picture cell.png
+
+diabolo_in_mujoco.py says what drawing needs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+from diabolo import Model, Parameters
+from diabolo.checks import check_drawing
+from diabolo.files import check_outputs
+from diabolo.hosts import mujoco as host
+from diabolo.robot import FAULTS, SeedGrid, StickArm, StickMap
+from diabolo_in_mujoco import render, take_camera
+
+import mujoco  # isort: skip (diabolo_in_mujoco says how it draws)
+
+DT, DURATION, LAG = 1e-3, 4.0, 0.02  # step, play, and what the servos take about [s]
+SPIN = 60.0  # to begin with [rad/s]
+
+
+def tips(times: np.ndarray) -> dict[str, np.ndarray]:
+    """Where the tips are to be [m, world], from rest on."""
+    slow = np.minimum(times, 1.0) ** 2
+    beat, sway = (0.06 * slow * np.sin(2.0 * np.pi * rate * times) for rate in (1.5, 0.75))
+    return {
+        side: np.stack([0.6 + sway, np.full_like(times, 0.35 * way), 1.25 + way * beat], axis=1)
+        for side, way in (("left", 1.0), ("right", -1.0))
+    }
+
+
+def joints(arms: list[StickArm], wanted: dict[str, np.ndarray]) -> np.ndarray:
+    """Of both arms [rad], shape (n, 12). Raises ValueError where a tip is out of reach."""
+    found = []
+    for arm in arms:
+        angles, faults = StickMap(arm, SeedGrid.build(arm)).solve(wanted[arm.side])
+        if faults.any():
+            raise ValueError(f"the {arm.side} tip is {FAULTS[faults.max()]}; expected it within reach")
+        found.append(angles)
+    return np.hstack(found)
+
+
+def play(model: Model) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray, float]:
+    """The last instant, the path of the diabolo [m], and how far the tips were off the late plan [m]."""
+    arms = [StickArm("left"), StickArm("right")]
+    wanted = tips(np.arange(0.0, DURATION, DT))
+    commands = joints(arms, wanted)
+    host.load_plugin()
+    physics = mujoco.MjModel.from_xml_string(host.cell(arms, model, DT))
+    data = mujoco.MjData(physics)
+    data.qpos[:12] = commands[0]
+    left, right = wanted["left"][0], wanted["right"][0]
+    half, length = 0.5 * np.linalg.norm(left - right), 0.5 * model.parameters.string_length
+    diabolo = data.joint("diabolo")
+    diabolo.qpos[:3] = 0.5 * (left + right) - [0.0, 0.0, np.sqrt(length**2 - half**2)]
+    diabolo.qvel[3] = -SPIN
+    path, reached = [], []
+    for data.ctrl[:] in commands:
+        mujoco.mj_step(physics, data)
+        path.append(diabolo.qpos[:3].copy())
+        reached.append([data.site(side).xpos.copy() for side in wanted])
+    late = round(LAG / DT)
+    plan = np.stack([*wanted.values()], axis=1)[:-late]
+    off = float(np.linalg.norm(np.array(reached)[late:] - plan, axis=2).max())
+    return physics, data, np.array(path), off
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--model", type=Path, help="a model file, as a diagnosis writes it")
+    parser.add_argument("--picture", type=Path, default=Path("robot_cell.png"))
+    arguments = parser.parse_args()
+    try:
+        check_drawing(arguments.picture, "PIL.Image")
+        check_outputs([arguments.picture], [arguments.model] if arguments.model else [])
+        model = Model.load(arguments.model) if arguments.model else Model(Parameters())
+        physics, data, path, off = play(model)
+    except (ValueError, OSError, RuntimeError) as error:
+        print(f"robot_cell.py: {error}", file=sys.stderr)
+        return 2
+    print(f"tips within {1e3 * off:.1f} mm of the plan, {1e3 * LAG:.0f} ms late")
+    print(f"the diabolo rose and fell by {1e3 * np.ptp(path[:, 2]):.0f} mm")
+    try:
+        render(physics, data, path[-400:], arguments.picture, take_camera((0.2, 0.0, 0.75), 2.5, 150))
+    except Exception as error:  # whatever a graphics stack may raise
+        print(f"robot_cell.py: cannot render here ({error})", file=sys.stderr)
+        return 2
+    print(f"Picture: {arguments.picture}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+"""Joint states of two UR5e, as poses of the sticks that they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from .._core import RecordingError, StickArm
+from ..arms import JOINTS, SIDES, stick_frame
+from ..checks import shown
+from .bodies import Floats
+from .c3d import quaternions
+
+Angles = tuple[float, ...]
+
+
+def angles_of(topic: str, message: Any) -> Iterator[tuple[str, Angles]]:
+    """Of each arm that a JointState tells of, the name of its stick and the six angles [rad].
+
+    Joints are named left_shoulder_pan_joint to right_wrist_3_joint; on a topic whose name tells the side,
+    shoulder_pan_joint will do. The sticks are named TOPIC:left and TOPIC:right. Other joints are left alone.
+
+    Raises:
+        RecordingError: there are some of an arm's six joints, but not all.
+    """
+    found = dict(zip(message.name, message.position, strict=False))
+    told = [side for side in SIDES if side in topic.lower()]
+    for side in SIDES:
+        names = [f"{side}_{joint}" for joint in JOINTS]
+        if told == [side] and not found.keys() & {*names}:
+            names = [*JOINTS]
+        missing = [name for name in names if name not in found]
+        if missing and len(missing) < len(names):
+            raise RecordingError(f"{topic}: no angle of {missing[0]}; expected {names[0]} to {names[-1]}")
+        if not missing:
+            yield f"{topic}:{side}", tuple(float(found[name]) for name in names)
+
+
+def unknown_joints(names: list[str]) -> str:
+    """What is wrong with joints of which none is an arm's."""
+    there = ", ".join(map(shown, names[:6])) or "none"
+    return f"joints {there}; expected left_{JOINTS[0]} to right_{JOINTS[-1]}"
+
+
+def sticks(arm: StickArm, angles: Floats) -> tuple[Floats, Floats]:
+    """Tips [m, world], shape (n, 3), and sticks to world as x, y, z, w, shape (n, 4), of joints [rad], shape
+    (n, 6). A row that is not finite is NaN."""
+    seen = np.isfinite(angles).all(axis=1)
+    tips, turns = np.full((len(angles), 3), np.nan), np.full((len(angles), 4), np.nan)
+    tips[seen] = arm.tip_position(angles[seen])
+    turns[seen] = quaternions(arm.base[:3, :3] @ arm.flange(angles[seen])[:, :3, :3] @ stick_frame(arm))
+    return tips, turns

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""The robot cell as MJCF, SDF and URDF: what is written, and what is refused."""
+
+import json
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from diabolo import MagnusLift, Model
+from diabolo.cli import main
+from diabolo.hosts import mjcf, sdf, urdf
+from diabolo.robot import JOINTS, StickArm
+
+NAMES = {f"{side}_{joint}" for side in ("left", "right") for joint in JOINTS}
+
+
+@pytest.mark.parametrize("suffix", ["urdf", "xml", "sdf"])
+def test_every_format_has_the_twelve_joints(tmp_path: Path, suffix: str) -> None:
+    file = tmp_path / f"cell.{suffix}"
+    assert main(["convert", "consistent", str(file), "--json", str(tmp_path / "said.json")]) == 0
+    joints = {one.get("name") for one in ElementTree.parse(file).iter("joint")}
+    assert joints >= NAMES
+    assert "nan" not in file.read_text()
+    assert json.loads((tmp_path / "said.json").read_text())["string_length_m"] == 1.45
+
+
+def test_a_model_s_file_is_named_as_seen_from_the_world_s(tmp_path: Path) -> None:
+    folder = tmp_path / "a & b"
+    folder.mkdir()
+    model = Model(name="lifts", magnus_lift=MagnusLift(coefficient=1e-3))
+    model.save(folder / "model.json")
+    assert main(["convert", str(folder / "model.json"), str(tmp_path / "cell.sdf")]) == 0
+    assert ElementTree.parse(tmp_path / "cell.sdf").findtext(".//plugin/model") == "a & b/model.json"
+    assert main(["convert", str(folder / "model.json"), str(tmp_path / "cell.xml")]) == 0
+    keys = {
+        one.get("key"): one.get("value") for one in ElementTree.parse(tmp_path / "cell.xml").iter("config")
+    }
+    assert json.loads(keys["model"] or "") == json.loads(model.to_json())
+
+
+@pytest.mark.parametrize("write", [urdf.urdf, sdf.world, mjcf.cell])
+def test_arms_are_one_of_each_side(write: object) -> None:
+    with pytest.raises(ValueError, match=r"arms: \['left', 'left'\]; expected one of the left and one"):
+        write([StickArm("left")] * 2)  # type: ignore[operator]
+
+
+@pytest.mark.parametrize(
+    ("given", "complaint"),
+    [
+        (["nothing.json", "cell.sdf"], "model nothing.json: no such file; expected"),
+        (
+            ["consistent", "cell.stl"],
+            "cell.stl: expected a name that ends in .csv, .mcap, .parquet, .rrd, .urdf",
+        ),
+        (["consistent", "cell.sdf", "--up", "y"], "--up: it says how a recording is read; cell.sdf is of a"),
+        (["consistent", "cell.sdf", "--arms", "0.7", "0", "0"], "spacing: 0 m; must be > 0"),
+        (["consistent", "cell.sdf", "--arms", "nan", "1", "0"], "height: nan m; must be finite"),
+        (["consistent", "nowhere/cell.sdf"], "there is no folder"),
+    ],
+)
+def test_what_cannot_be_written_is_one_sentence(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    given: list[str],
+    complaint: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["convert", *given]) == 2
+    error = capsys.readouterr().err
+    assert complaint in error and error.count("\n") == 1
+    assert not list(tmp_path.iterdir())
