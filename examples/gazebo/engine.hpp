@@ -57,8 +57,8 @@ class Engine {
   /// Puts the diabolo somewhere, in the attitude that the world's file gives it.
   void put(const diabolo::State<double>& state) {
     group_->SetWorldPose(placed(attitude_, state.position));
-    const Vector3<double> turns = axle_ ? Vector3<double>(Vector3<double>::Zero())
-                                        : Vector3<double>(-state.spin * attitude_.col(0));
+    const Vector3<double> turns =
+        axle_ ? Vector3<double>(Vector3<double>::Zero()) : Vector3<double>(-state.spin * attitude_.col(0));
     group_->SetWorldAngularVelocity(turns);
     group_->SetWorldLinearVelocity(state.velocity);
     if (!axle_) return;
@@ -88,12 +88,11 @@ class Engine {
   }
 
  private:
-  using Features =
-      physics::FeatureList<physics::sdf::ConstructSdfWorld, physics::GetModelFromWorld,
-                           physics::GetLinkFromModel, physics::GetJointFromModel, physics::SetBasicJointState,
-                           physics::LinkFrameSemantics, physics::AddLinkExternalForceTorque,
-                           physics::SetFreeGroupWorldPose, physics::SetFreeGroupWorldVelocity,
-                           physics::ForwardStep>;
+  using Features = physics::FeatureList<physics::sdf::ConstructSdfWorld, physics::GetModelFromWorld,
+                                        physics::GetLinkFromModel, physics::GetJointFromModel,
+                                        physics::SetBasicJointState, physics::LinkFrameSemantics,
+                                        physics::AddLinkExternalForceTorque, physics::SetFreeGroupWorldPose,
+                                        physics::SetFreeGroupWorldVelocity, physics::ForwardStep>;
   using World = physics::World3dPtr<Features>;
   using Link = physics::Link3dPtr<Features>;
   using Joint = physics::Joint3dPtr<Features>;
@@ -104,8 +103,8 @@ class Engine {
         std::string(IGNITION_PHYSICS_ENGINE_INSTALL_DIR) + "/libignition-physics5-dartsim-plugin.so.5";
     ignition::plugin::Loader loader;
     loader.LoadLib(library);
-    const auto engine = physics::RequestEngine3d<Features>::From(
-        loader.Instantiate("ignition::physics::dartsim::Plugin"));
+    const auto engine =
+        physics::RequestEngine3d<Features>::From(loader.Instantiate("ignition::physics::dartsim::Plugin"));
     if (!engine)
       throw std::runtime_error(library + ": the engine cannot be loaded, or lacks what is needed of it");
     return engine->ConstructWorld(world);
@@ -113,7 +112,7 @@ class Engine {
 
   static FreeGroup free_group(const Link& link, const std::string& name) {
     const FreeGroup group = link->FindFreeGroup();
-    if (!group || group->RootLink()->GetName() != name)
+    if (!group || group->RootLink()->EntityID() != link->EntityID())
       throw std::runtime_error("link \"" + name +
                                "\" is not the root of a free model; expected nothing that holds it");
     return group;

@@ -31,8 +31,7 @@ struct Scene {
 /// MODEL::LINK as its two names. Throws std::invalid_argument.
 inline std::pair<std::string, std::string> scoped(const std::string& name) {
   const std::size_t colons = name.find("::");
-  if (colons == std::string::npos)
-    throw std::invalid_argument("\"" + name + "\"; expected MODEL::LINK");
+  if (colons == std::string::npos) throw std::invalid_argument("\"" + name + "\"; expected MODEL::LINK");
   return {name.substr(0, colons), name.substr(colons + 2)};
 }
 
@@ -42,9 +41,9 @@ inline const sdf::Link& link_of(const sdf::World& world, const std::string& chil
   const sdf::Model* const in = world.ModelByName(model);
   const sdf::Link* const found = in == nullptr ? nullptr : in->LinkByName(link);
   if (found == nullptr)
-    throw std::invalid_argument("<" + child + ">: " + (in == nullptr ? "the world has no model \"" + model
-                                                                     : "the model \"" + model +
-                                                                           "\" has no link \"" + link) +
+    throw std::invalid_argument("<" + child + ">: " +
+                                (in == nullptr ? "the world has no model \"" + model
+                                               : "the model \"" + model + "\" has no link \"" + link) +
                                 "\"");
   return *found;
 }
@@ -54,8 +53,7 @@ inline std::string axle_of(const sdf::Model& model, const std::string& link, con
   for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
     const sdf::Joint& joint = *model.JointByIndex(i);
     if (joint.ParentLinkName() == link && joint.ChildLinkName() == spinning &&
-        joint.Type() == sdf::JointType::REVOLUTE &&
-        joint.Axis(0)->Xyz() == ignition::math::Vector3d::UnitX)
+        joint.Type() == sdf::JointType::REVOLUTE && joint.Axis(0)->Xyz() == ignition::math::Vector3d::UnitX)
       return joint.Name();
   }
   throw std::invalid_argument("<spinning_link>: the model has no revolute joint from \"" + link + "\" to \"" +
@@ -67,8 +65,7 @@ inline void read_plugin(const sdf::Model& model, const sdf::ElementPtr& plugin, 
   scene.model = model.Name();
   scene.element = read_string_element(plugin);
   const std::string link = scene.element.needed("link"),
-                    spinning = scene.element("spinning_link").empty() ? link
-                                                                      : scene.element("spinning_link");
+                    spinning = scene.element("spinning_link").empty() ? link : scene.element("spinning_link");
   const sdf::Link& pulled = link_of(*scene.world, "link", scene.model, link);
   const sdf::Link& turning = link_of(*scene.world, "spinning_link", scene.model, spinning);
   scene.body = body_of(pulled.Inertial(), turning.Inertial());
@@ -77,7 +74,8 @@ inline void read_plugin(const sdf::Model& model, const sdf::ElementPtr& plugin, 
     const auto [its_model, its_link] = scoped(scene.element.needed(tip));
     link_of(*scene.world, tip, its_model, its_link);
     if (its_model == scene.model)
-      throw std::invalid_argument("<" + std::string(tip) + ">: a link of the diabolo; expected another model");
+      throw std::invalid_argument("<" + std::string(tip) +
+                                  ">: a link of the diabolo; expected another model");
   }
   if (scene.element("left") == scene.element("right"))
     throw std::invalid_argument("<right>: the same link as <left>; expected two");

@@ -52,7 +52,8 @@ inline StringElement read_string_element(const sdf::ElementConstPtr& plugin) {
                                   "state_topic, model or a number of a model, such as string_length");
     const std::string text = child->Get<std::string>();
     if (text.empty()) throw std::invalid_argument("<" + name + "> is empty; expected a text");
-    if (!element.words.emplace(name, text).second) throw std::invalid_argument("<" + name + "> is there twice");
+    if (!element.words.emplace(name, text).second)
+      throw std::invalid_argument("<" + name + "> is there twice");
   }
   if (const auto model = element.words.find("model"); model != element.words.end())
     model->second = beside(plugin->FilePath(), model->second);
