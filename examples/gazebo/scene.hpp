@@ -40,11 +40,12 @@ inline const sdf::Link& link_of(const sdf::World& world, const std::string& chil
                                 const std::string& link) {
   const sdf::Model* const in = world.ModelByName(model);
   const sdf::Link* const found = in == nullptr ? nullptr : in->LinkByName(link);
-  if (found == nullptr)
-    throw std::invalid_argument("<" + child + ">: " +
-                                (in == nullptr ? "the world has no model \"" + model
-                                               : "the model \"" + model + "\" has no link \"" + link) +
-                                "\"");
+  const std::string shown_model = "model \"" + model + "\"";
+  const std::string fault = in == nullptr      ? "the world has no " + shown_model
+                            : found == nullptr ? "the " + shown_model + " has no link \"" + link + "\""
+                            : in->Static()     ? "the " + shown_model + " is static; expected one that moves"
+                                               : "";
+  if (!fault.empty()) throw std::invalid_argument("<" + child + ">: " + fault);
   return *found;
 }
 
@@ -88,6 +89,8 @@ inline Scene load_scene(const std::filesystem::path& path) {
   sdf::Console::Instance()->SetQuiet(true);
   Scene scene{};
   const sdf::Errors errors = scene.root.Load(file);
+  if (!errors.empty() && errors.front().Code() == sdf::ErrorCode::FILE_READ)
+    throw diabolo::RecordingError(file + ": sdformat cannot read it; expected SDF, in XML that is whole");
   if (!errors.empty()) throw diabolo::RecordingError(file + ": " + errors.front().Message());
   scene.world = scene.root.WorldByIndex(0);
   if (scene.world == nullptr) throw diabolo::RecordingError(file + ": no <world>; expected one");
