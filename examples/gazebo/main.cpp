@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 
 #include "play.hpp"
 
@@ -21,6 +22,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    if (out.extension() != ".csv" || out.lexically_normal() == motion.lexically_normal())
+      throw std::invalid_argument(out.string() + ": expected a new name that ends in .csv");
     diabolo_gazebo::Motion played = diabolo_gazebo::load_motion(motion);
     if (once) played.starts.resize(1);
     const diabolo_gazebo::Scene scene = diabolo_gazebo::load_scene(world);

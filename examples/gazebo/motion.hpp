@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,6 +33,8 @@ struct Motion {
 inline constexpr std::array<std::string_view, 7> kMotionColumns{"time",    "left_x",  "left_y", "left_z",
                                                                 "right_x", "right_y", "right_z"};
 
+inline constexpr double kFastest = 1e3, kMostSpin = 1e4;  ///< of a start [m/s], [rad/s]
+
 inline diabolo::TipMotion<double> read_tips(const std::filesystem::path& path) {
   const std::string text = diabolo::read_file(path);
   diabolo::CsvReader csv(text, path.string());
@@ -43,6 +46,9 @@ inline diabolo::TipMotion<double> read_tips(const std::filesystem::path& path) {
     csv.next_numbers(row);
     if (std::ranges::any_of(row, [](double number) { return std::isnan(number); }))
       csv.fail("an empty cell; expected a number");
+    if (std::any_of(row.begin() + 1, row.end(),
+                    [](double place) { return std::abs(place) > diabolo::kLargestCoordinate; }))
+      csv.fail("a tip is farther than 100 m; expected metres");
     if (!times.empty() && !(row[0] > times.back()))
       csv.fail("time " + diabolo::shown(row[0]) + " s does not come after " + diabolo::shown(times.back()) +
                " s");
@@ -75,6 +81,11 @@ inline Motion load_motion(const std::filesystem::path& path) {
     start.state.position = fields.vector3("position");
     start.state.velocity = fields.vector3("velocity");
     start.state.spin = fields.number("spin");
+    if (start.state.position.cwiseAbs().maxCoeff() > diabolo::kLargestCoordinate ||
+        start.state.velocity.cwiseAbs().maxCoeff() > kFastest || std::abs(start.state.spin) > kMostSpin)
+      throw diabolo::RecordingError(file + ": " + name.substr(0, name.size() - 1) +
+                                    ": farther than 100 m, faster than 1000 m/s or than 10000 rad/s; "
+                                    "expected SI units");
     motion.starts.push_back(start);
   }
   if (motion.starts.empty()) throw diabolo::RecordingError(file + ": no starts; expected one at least");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ inline diabolo::Model model_of(const Scene& scene, const Motion& motion) {
   return diabolo::model_for(diabolo::model_of_attributes(scene.element), take);
 }
 
+inline constexpr double kMostRows = 1e7;  ///< as `diabolo motion` has it
+
 /// Plays the motion in the engine from its first start to its end, step by step; at each further start the
 /// diabolo is put there again. Throws as StringOnLink::step() does, and RecordingError where what was played
 /// is no recording.
@@ -26,7 +29,11 @@ inline diabolo::Recording play(const Scene& scene, const Motion& motion, const s
   Engine engine(scene);
   StringOnLink string(model_of(scene, motion), scene.body, scene.gravity);
   const double dt = engine.dt(), begin = motion.starts.front().time;
-  const auto rows = static_cast<Eigen::Index>((motion.tips.end() - begin) / dt + 1e-6) + 1;
+  const double steps = (motion.tips.end() - begin) / dt;
+  if (!(steps < kMostRows))
+    throw diabolo::RecordingError("motion: " + diabolo::shown(steps) + " steps; expected less than " +
+                                  diabolo::shown(kMostRows));
+  const auto rows = static_cast<Eigen::Index>(steps + 1e-6) + 1;
   Eigen::VectorXd times(rows);
   Eigen::Matrix3Xd left(3, rows), right(3, rows);
   std::vector<diabolo::State<double>> states(static_cast<std::size_t>(rows));
@@ -52,6 +59,9 @@ inline diabolo::Recording play(const Scene& scene, const Motion& motion, const s
     left.col(row) = now.left;
     right.col(row) = now.right;
     const diabolo::HostBody body = engine.body();
+    if (!(body.position.norm() < diabolo::kLargestCoordinate))
+      throw std::runtime_error("the diabolo is farther than 100 m " + diabolo::shown(now.time) +
+                               " s into the motion; expected a start near the string");
     diabolo::State<double>& state = states[static_cast<std::size_t>(row)];
     state.position = body.position;
     state.spin = -body.axle_rate;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#pragma once
+
 // Declares what gz_sim_plugin.cpp uses of gz-sim 8, so that it is compiled where there is none: declarations
 // alone, which nothing here runs. Where Gazebo is installed its own headers are taken.
-#pragma once
 
 #include <chrono>
 #include <cstdint>
