@@ -31,7 +31,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE examples/mujoco/plugin/
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco hosts rerun page browser agents \
+.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco gazebo hosts rerun page browser agents \
   sanitize fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
@@ -157,7 +157,7 @@ prove-player: $(VENV)/.package plant ## Play a few plans on the independent plan
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test test-long mujoco hosts rerun browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
+test-all: test test-long mujoco gazebo hosts rerun browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
 
 hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
 	@$(install_package) '.[dart,drake,test]'
@@ -188,6 +188,14 @@ mujoco: $(VENV)/.package-with-tests ## Put the string into MuJoCo, and compare w
 	@$(packages) mujoco
 	@$(install_package) '.[mujoco,plot,test]'
 	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy
+
+gazebo: $(VENV)/.package-with-tests ## Put the string into Gazebo's engine, and compile its plugin for gz-sim 8
+	@$(packages) build plant gazebo
+	@$(MAKE) --no-print-directory install PREFIX=$(BUILD)/gazebo/prefix
+	@$(cmake) -S examples/gazebo -B $(BUILD)/gazebo -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
+	  -DCMAKE_PREFIX_PATH='$(abspath $(BUILD)/gazebo/prefix)' -DCMAKE_COMPILE_WARNING_AS_ERROR=ON >/dev/null
+	@cmake --build $(BUILD)/gazebo -j $(JOBS) -- --quiet
+	@$(VENV)/bin/python -m pytest -m gazebo tests/heavy
 
 agents: $(VENV)/.package-with-tests ## Train a small agent from scratch, and see that it learns
 	@$(pip) -r tools/learn-requirements.txt

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Usage: system_packages.sh GROUP...   with groups build, test, plant, ur-rtde, bench, lint, mujoco, browser, page
+# Usage: system_packages.sh GROUP...   with groups build, test, plant, ur-rtde, bench, lint, mujoco, gazebo, browser, page
 # Looks for what the groups need and installs with apt-get what is missing; asks for nothing when all is there.
 set -euo pipefail
 
@@ -63,13 +63,17 @@ missing_packages() {
       has_fuzzer || echo libclang-rt-dev
       ;;
     mujoco) ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri ;;
+    gazebo)
+      [ -e /usr/include/ignition/physics5/ignition/physics/sdf/ConstructWorld.hh ] || echo libignition-physics-sdf-dev
+      ldconfig -p | grep -q 'libignition-physics5-dartsim-plugin\.so\.5' || echo libignition-physics5-dartsim-plugin5
+      ;;
     browser) has_command chromium || echo chromium ;;
     page)
       has_command em++ || echo emscripten
       [ -d /usr/share/nodejs/acorn ] || echo node-acorn
       ;;
     *)
-      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, ur-rtde, bench, lint, mujoco, browser or page" >&2
+      echo "system_packages.sh: unknown group '$1'; expected build, test, plant, ur-rtde, bench, lint, mujoco, gazebo, browser or page" >&2
       exit 2
       ;;
   esac

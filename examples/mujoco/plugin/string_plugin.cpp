@@ -6,15 +6,15 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Core>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "diabolo/hosts/attach.hpp"
-#include "diabolo/json/model_file.hpp"
+#include "diabolo/hosts/seen_tips.hpp"
+#include "diabolo/json/string_attributes.hpp"
 
 namespace {
 
@@ -23,26 +23,10 @@ using Seen = Eigen::Map<const Vector3<double>>;
 
 constexpr const char* kTips[2] = {"left", "right"};
 
-/// Calls visit(key, number) for every number of a model that an attribute may give.
-template <class Visit>
-void for_each_number(diabolo::Model& model, Visit&& visit) {
-  diabolo::Parameters<double>::for_each(
-      model.parameters,
-      [&](const diabolo::ParameterInfo& info, double& value) { visit(std::string(info.name), value); });
-  const auto visit_effect = [&]<class Effect>(Effect& effect) {
-    if constexpr (!Effect::kHasText)
-      Effect::for_each(effect, [&](const diabolo::ParameterInfo& info, double& value) {
-        visit(std::string(Effect::kName) + "." + std::string(info.name), value);
-      });
-  };
-  std::apply([&](auto&... effect) { (visit_effect(effect), ...); }, model.effects.members);
-}
-
 /// Where the two tips are and how they move, and what the next step begins with.
 struct Memory {
   double owed[3], string_acceleration[3], string_state;
-  double tip[2][3];   ///< of a mocap body, at the step's beginning [m]
-  double rate[2][3];  ///< its mean velocity in the last step; of other tips, the velocity last seen [m/s]
+  double tip[2][3], rate[2][3];  ///< see diabolo::TipMemory
 };
 
 /// The plugin's state, numbers alone.
@@ -160,31 +144,11 @@ class StringOnBody {
   diabolo::AttachedString string_of(const mjModel* m, int instance) const {
     if (m->opt.enableflags & mjENBL_SLEEP)
       throw std::invalid_argument("sleep is enabled; expected it off: the string wakes nobody");
-    const Vector3<double>& gravity = made_.gravity;
-    if (std::hypot(gravity.x(), gravity.y()) > 1e-9 || gravity.z() > 0.0)
-      throw std::invalid_argument("gravity: " + std::to_string(gravity.x()) + " " +
-                                  std::to_string(gravity.y()) + " " + std::to_string(gravity.z()) +
-                                  "; expected it along -z");
-    std::string file = attribute(m, instance, "model");
-    file.erase(0, file.find_first_not_of(" \t\r\n"));
-    const bool named = file == "consistent" || file == "paper" || file == "published";
-    diabolo::Model model = file.empty()     ? diabolo::consistent_model()
-                           : named          ? diabolo::model_named(file)
-                           : file[0] == '{' ? diabolo::read_model(file, "model")
-                                            : diabolo::load_model(file);
-    for_each_number(model, [&](const std::string& key, double& value) {
-      const std::string text = attribute(m, instance, key);
-      if (text.empty()) return;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error != std::errc() || end != text.data() + text.size())
-        throw std::invalid_argument(key + ": \"" + text + "\"; expected a number");
-    });
-    model.parameters.mass = made_.mass;
-    model.parameters.gravity = -gravity.z();
-    return {diabolo::FullPredictor<double>(model.parameters, model.effects), made_.mass, made_.inertia,
-            gravity,
-            m->opt.integrator == mjINT_RK4 ? diabolo::HostMotion::kConstantForce
-                                           : diabolo::HostMotion::kNewVelocity};
+    const diabolo::Model model =
+        diabolo::model_of_attributes([&](const std::string& key) { return attribute(m, instance, key); });
+    return diabolo::attach_string(model, made_.mass, made_.inertia, made_.gravity,
+                                  m->opt.integrator == mjINT_RK4 ? diabolo::HostMotion::kConstantForce
+                                                                 : diabolo::HostMotion::kNewVelocity);
   }
 
   /// The body's x axis in the frame of its inertia.
@@ -220,42 +184,22 @@ class StringOnBody {
 
     const bool first = stored.begun == 0.0;
     Memory next = stored.now;
-    diabolo::Tips<double> begin, end;
-    begin.time = d->time;
-    end.time = d->time + dt;
-    Vector3<double>*const at[2][2] = {{&begin.left, &end.left}, {&begin.right, &end.right}},
-                          *const rate[2][2] = {{&begin.left_velocity, &end.left_velocity},
-                                               {&begin.right_velocity, &end.right_velocity}},
-                          *const along[2][2] = {{&begin.left_direction, &end.left_direction},
-                                                {&begin.right_direction, &end.right_direction}};
+    diabolo::TipStep tips[2];
     for (int k = 0; k < 2; ++k) {
-      const Memory& was = stored.now;
       const int site = sites_[k];
       const Vector3<double> here = Seen(d->site_xpos + 3 * site);
       const mjtNum* stick = d->site_xmat + 9 * site;
-      *along[k][0] = *along[k][1] = Vector3<double>(stick[2], stick[5], stick[8]);
-      if (m->body_mocapid[m->body_rootid[m->site_bodyid[site]]] >=
-          0) {  // put where it is to be after the step
-        const Vector3<double> from = first ? here : Vector3<double>(Seen(was.tip[k])),
-                              mean = (here - from) / dt,
-                              last = first ? mean : Vector3<double>(Seen(was.rate[k]));
-        *at[k][0] = from;
-        *at[k][1] = here;
-        *rate[k][0] = 0.5 * (last + mean);
-        *rate[k][1] = 1.5 * mean - 0.5 * last;
-        put(next.tip[k], here);
-        put(next.rate[k], mean);
-      } else {  // as its velocity and the change of that say
-        mj_objectVelocity(m, d, mjOBJ_SITE, site, moves, 0);
-        const Vector3<double> now = Seen(moves + 3),
-                              before = first ? now : Vector3<double>(Seen(was.rate[k]));
-        *at[k][0] = here;
-        *rate[k][0] = now;
-        *rate[k][1] = 2.0 * now - before;
-        *at[k][1] = here + *rate[k][1] * dt;
-        put(next.rate[k], now);
-      }
+      std::optional<diabolo::TipMemory> memory;
+      if (!first) memory = diabolo::TipMemory{Seen(stored.now.tip[k]), Seen(stored.now.rate[k])};
+      const bool placed = m->body_mocapid[m->body_rootid[m->site_bodyid[site]]] >= 0;
+      if (!placed) mj_objectVelocity(m, d, mjOBJ_SITE, site, moves, 0);
+      tips[k] = placed ? diabolo::placed_tip(here, dt, memory)
+                       : diabolo::moving_tip(here, Seen(moves + 3), dt, memory);
+      tips[k].direction = Vector3<double>(stick[2], stick[5], stick[8]);
+      put(next.tip[k], memory->place);
+      put(next.rate[k], memory->rate);
     }
+    const auto [begin, end] = diabolo::tips_of_step(tips[0], tips[1], d->time, dt);
 
     if (!begin.left.allFinite() || !begin.right.allFinite() || !end.left.allFinite() ||
         !end.right.allFinite())
@@ -263,8 +207,8 @@ class StringOnBody {
     diabolo::StringMemory memory;
     memory.owed = Seen(stored.now.owed);
     memory.string_acceleration = Seen(stored.now.string_acceleration);
-    memory.string_state =
-        first ? guessed(body.position, begin) : static_cast<diabolo::StringState>(stored.now.string_state);
+    memory.string_state = first ? string_.begin(body.position, begin).string_state
+                                : static_cast<diabolo::StringState>(stored.now.string_state);
     const diabolo::StringWrench wrench = string_.step(body, begin, end, dt, memory);
     put(next.owed, memory.owed);
     put(next.string_acceleration, memory.string_acceleration);
@@ -278,15 +222,6 @@ class StringOnBody {
     const double seen[5] = {wrench.left_tension, wrench.right_tension, wrench.slip, -body.axle_rate,
                             next.string_state};
     std::memcpy(stored.seen, seen, sizeof(seen));
-  }
-
-  /// Above the tips and off the string it flies; else the step finds out whether the string is taut.
-  diabolo::StringState guessed(const Vector3<double>& position, const diabolo::Tips<double>& tips) const {
-    const bool slack = (position - tips.left).norm() + (position - tips.right).norm() <
-                       0.99 * string_.predictor().parameters().string_length;
-    return slack && diabolo::height_above_tips(position, tips.left, tips.right) > 0.0
-               ? diabolo::StringState::kFlying
-               : diabolo::StringState::kLoose;
   }
 
   int body_, sites_[2];
@@ -345,11 +280,8 @@ void advance(const mjModel* m, mjData* d, int instance) {
 /// The attributes' names, which MuJoCo keeps by their address.
 const std::vector<const char*>& attributes() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"left", "right", "model"};
-    diabolo::Model model = diabolo::consistent_model();
-    for_each_number(model, [&](const std::string& key, double&) {
-      if (key != "mass" && key != "gravity") all.push_back(key);  // the body's and the model's
-    });
+    std::vector<std::string> all = diabolo::string_attributes();
+    all.insert(all.begin(), {"left", "right"});
     return all;
   }();
   static const std::vector<const char*> texts = [] {

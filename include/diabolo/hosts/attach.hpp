@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "diabolo/full_predictor.hpp"
+#include "diabolo/string/tip_geometry.hpp"
 
 // Our string on a body of somebody else's simulator. The host integrates, and knows contacts, joints and all
 // else; in each step we say which force and torque make its body move as the predictor does, see
@@ -67,6 +68,17 @@ class AttachedString {
   }
 
   const FullPredictor<double>& predictor() const { return predictor_; }
+
+  /// What a simulation begins with where nobody says how: a diabolo above the tips and off the string flies;
+  /// of any other the step finds out whether the string is taut.
+  StringMemory begin(const Vector3<double>& position, const Tips<double>& tips) const {
+    const bool slack = (position - tips.left).norm() + (position - tips.right).norm() <
+                       0.99 * predictor_.parameters().string_length;
+    StringMemory memory;
+    if (slack && height_above_tips(position, tips.left, tips.right) > 0.0)
+      memory.string_state = StringState::kFlying;
+    return memory;
+  }
 
   /// The wrench for the step of `dt` [s] that begins now, while the tips move from `begin` to `end`. Changes
   /// `memory` to what is to be given for the step after it; a host that asks twice about the same step gives
