@@ -12,8 +12,8 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 
-import numpy as np
 from diabolo.robot import StickArm
 from geometry_msgs.msg import PoseStamped
 from outputs import Outputs
@@ -41,38 +41,28 @@ DEFAULTS = {
 
 class DiaboloNode(Node):
     def __init__(self) -> None:
+        """Raises ValueError about a parameter."""
         super().__init__("diabolo")
         self.declare_parameters("", list(DEFAULTS.items()))
         self.declare_parameter("start", Parameter.Type.DOUBLE_ARRAY)
         given = {name: self.get_parameter(name).value for name in DEFAULTS}
-        self._frame, self._refused = given["frame"], Counter[str]()
-        self._play = StringInTime(
-            model_of(given["model"], given["string_length"]),
-            self._warn,
-            self._start(),
-            given["spin"],
-            given["dt"],
-        )
-        self._listen(given)
+        self._frame, self._warned = given["frame"], Counter[str]()
+        model = model_of(given["model"], given["string_length"])
+        self._play = StringInTime(model, self._warn, self._start(), given["spin"], given["dt"])
         self._outputs = Outputs(self)
+        self._listen(given)
 
-    def _start(self) -> np.ndarray | None:
-        """Position, velocity and spin, where the diabolo does not hang at rest."""
+    def _start(self) -> list[float] | None:
+        """Position, velocity and spin, where it is not to hang at rest."""
         start = self.get_parameter_or("start").value
-        if start is not None and (len(start) != 7 or not np.isfinite(start).all()):
-            raise ValueError(f"start: {list(start)}; expected seven numbers: position, velocity, spin")
-        return None if start is None else np.array(start)
+        return None if start is None else list(start)
 
     def _listen(self, given: dict) -> None:
         if given["source"] == "tips":
             self._pairs = TipPairs()
             for side in SIDES:
-                self.create_subscription(
-                    PoseStamped,
-                    f"{side}_tip",
-                    lambda message, side=side: self._hear_tip(side, message),
-                    QUALITY,
-                )
+                hear = partial(self._hear_tip, side)
+                self.create_subscription(PoseStamped, f"{side}_tip", hear, QUALITY)
         elif given["source"] == "joints":
             mounts = {name: given[name] for name in ("height", "spacing", "forward")}
             self._arms = JointTips([StickArm(side, **mounts) for side in SIDES], given["joints"])
@@ -83,34 +73,34 @@ class DiaboloNode(Node):
     def _hear_tip(self, side: str, message: PoseStamped) -> None:
         with self._refusing():
             tip = tip_of(f"{side}_tip", message, self._frame)
-            for stamp, tips in self._pairs.add(side, stamp_of(message), tip):
-                self._advance(stamp, tips, message.header)
+            if tips := self._pairs.add(side, stamp_of(message), tip):
+                self._advance(tips, message)
 
     def _hear_joints(self, message: JointState) -> None:
         with self._refusing():
-            self._advance(stamp_of(message), self._arms.tips_of(message), message.header)
+            self._advance(self._arms.tips_of(message), message)
 
-    def _advance(self, stamp: int, tips: Tips, header: Header) -> None:
-        self._play.advance(stamp, tips)
-        header.frame_id = self._frame
-        self._outputs.publish(self._play, header)
+    def _advance(self, tips: Tips, message: PoseStamped | JointState) -> None:
+        """To the tips, which a message has completed."""
+        self._play.advance(stamp_of(message), tips)
+        self._outputs.publish(self._play, Header(stamp=message.header.stamp, frame_id=self._frame))
 
     @contextmanager
     def _refusing(self) -> Iterator[None]:
         try:
             yield
         except MessageError as refused:
-            self._warn(refused.kind, str(refused))
+            self._warn(refused.kind, refused.sentence)
 
     def _warn(self, kind: str, sentence: str) -> None:
-        """Each kind once, else it would be five hundred times a second; the count at the end."""
-        self._refused[kind] += 1
-        if self._refused[kind] == 1:
-            self.get_logger().warning(sentence)
+        """Of each kind once, not five hundred times a second."""
+        self._warned[kind] += 1
+        if self._warned[kind] == 1:
+            self.get_logger().warning(f"{kind}: {sentence}")
 
     def report(self) -> None:
-        """How often it happened, what was warned of once."""
-        for kind, count in self._refused.items():
+        """How often each kind was there."""
+        for kind, count in self._warned.items():
             if count > 1:
                 self.get_logger().warning(f"{kind}: {count} times in all")
 

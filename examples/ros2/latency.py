@@ -9,7 +9,6 @@ It swings the tips and counts what is lost.
 
 from __future__ import annotations
 
-import argparse
 import gc
 import sys
 import time
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from senders import TipSender, in_time, wait_until_heard
-from session import QUALITY, run
+from session import QUALITY, parser_of, run
 from tips import stamp_of
 
 Floats = NDArray[np.float64]
@@ -71,9 +70,7 @@ def swing(times: Floats) -> TipMotion:
 
 
 def work(arguments: list[str]) -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False
-    )
+    parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="default: 60")
     parser.add_argument("--rate", type=float, default=500.0, metavar="HZ", help="default: 500")
     given = parser.parse_args(arguments)

@@ -7,7 +7,6 @@ python examples/ros2/play.py throw.csv --rate 500
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -17,7 +16,7 @@ from diabolo.robot import load_tip_plan
 from numpy.typing import NDArray
 from rclpy.node import Node
 from senders import JointSender, TipSender, in_time, wait_until_heard, wait_until_taken
-from session import run
+from session import parser_of, run
 
 MOST = 1_000_000  # samples
 LATEST = 2**31 - 1e6  # of a stamp [s]
@@ -44,13 +43,12 @@ def times_of(motion: TipMotion, rate: float | None) -> NDArray[np.float64]:
 
 
 def work(arguments: list[str]) -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False
-    )
+    parser = parser_of(__doc__)
     parser.add_argument("file", metavar="FILE", help="a plan, or a recording or bag of docs/recordings.md")
     parser.add_argument("--rate", type=float, metavar="HZ", help="default: the times of the file")
     parser.add_argument("--joints", action="store_true", help="of two arms, on joint_states")
     parser.add_argument("--topics", metavar="LIST", help="left=NAME,right=NAME,diabolo=NAME of a bag")
+    parser.add_argument("--listeners", type=int, default=1, metavar="N", help="to wait for; default: 1")
     parser.add_argument("--start", type=float, metavar="S", help="the first stamp; default: now")
     given = parser.parse_args(arguments)
     if given.start is not None and not 0.0 <= given.start <= LATEST:
@@ -59,7 +57,7 @@ def work(arguments: list[str]) -> None:
     times = times_of(motion, given.rate)
     node = Node("player")
     sender = (JointSender if given.joints else TipSender)(node, motion, times)
-    wait_until_heard(sender.outputs)
+    wait_until_heard(sender.outputs, given.listeners)
     begin = node.get_clock().now().nanoseconds if given.start is None else round(1e9 * given.start)
     elapsed = (times - times[0]).tolist()
     for i in in_time(elapsed):

@@ -9,7 +9,6 @@ A diabolo that a camera sees is heard by `--ros-args -r diabolo/pose:=/its/topic
 
 from __future__ import annotations
 
-import argparse
 import math
 import sys
 from collections.abc import Mapping
@@ -24,7 +23,7 @@ from diabolo.formats import WRITTEN
 from geometry_msgs.msg import PoseStamped
 from numpy.typing import NDArray
 from rclpy.node import Node
-from session import QUALITY, listen, model_of, run
+from session import QUALITY, listen, model_of, parser_of, run
 from tips import stamp_of
 
 TOPICS = {"left": "left_tip", "right": "right_tip", "diabolo": "diabolo/pose"}
@@ -80,14 +79,10 @@ def _turns(quaternions: Floats) -> Floats | None:
 
 
 def work(arguments: list[str]) -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = parser_of(__doc__)
     parser.add_argument("out", metavar="OUT.mcap", type=output_name, help="what to write, or a .csv")
     parser.add_argument("--seconds", type=float, default=LONGEST, metavar="S", help="default: 3600")
-    parser.add_argument(
-        "--model", default="consistent", metavar="NAME", help="whose diabolo and string it is"
-    )
+    parser.add_argument("--model", default="consistent", metavar="NAME", help="default: consistent")
     parser.add_argument("--string-length", type=float, default=0.0, metavar="L", help="[m]; 0: the model's")
     given = parser.parse_args(arguments)
     out = Path(given.out)

@@ -73,13 +73,15 @@ def header_of(stamp: int, frame: str = "") -> Header:
     return Header(stamp=Time(sec=stamp // 10**9, nanosec=stamp % 10**9), frame_id=frame)
 
 
-def wait_until_heard(outputs: Sequence[Publisher], seconds: float = 10.0) -> None:
-    """Raises ValueError where nobody listens to one of them within that time."""
+def wait_until_heard(outputs: Sequence[Publisher], listeners: int = 1, seconds: float = 10.0) -> None:
+    """Until so many listen to each. Raises ValueError where they do not within that time."""
     end = time.monotonic() + seconds
     for output in outputs:
-        while output.get_subscription_count() == 0:
+        while (found := output.get_subscription_count()) < listeners:
             if time.monotonic() > end:
-                raise ValueError(f"{output.topic_name}: nobody listens within {seconds:g} s; expected a node")
+                raise ValueError(
+                    f"{output.topic_name}: {found} listeners after {seconds:g} s; expected {listeners}"
+                )
             time.sleep(0.02)
 
 

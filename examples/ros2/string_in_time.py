@@ -4,18 +4,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 import numpy as np
 from diabolo import AttachedString, Model, Predictor, State, TipMotion, hang_at_rest
 from diabolo.hosts.mjcf import INERTIA
+from diabolo.rollout import LONGEST_STEP
 from numpy.typing import NDArray
 from tips import MessageError, Tips
 
 Vector: TypeAlias = NDArray[np.float64]
 FourVectors: TypeAlias = tuple[Vector, Vector, Vector, Vector]
 """Left and right, where a step begins and where it ends."""
+LARGEST = 1e4
+"""Number of a start; there are none so large in play."""
 LONGEST_GAP = 100_000_000
 """Between two stamps [ns]; what comes later, or as much earlier, is another play."""
 
@@ -25,17 +28,24 @@ class StringInTime:
 
     start: where the diabolo begins; without it, it hangs at rest below the first tips, with a spin [rad/s].
     dt: the longest step [s]; equal ones fill the time between two stamps.
-    warn: is told the kind of what is odd, and a sentence.
+    warn: is told what is odd, its kind and a sentence.
     """
 
     def __init__(
         self,
         model: Model,
         warn: Callable[[str, str], None],
-        start: Vector | None = None,
+        start: Sequence[float] | None = None,
         spin: float = 0.0,
         dt: float = 2e-3,
     ) -> None:
+        """Raises ValueError."""
+        if start is not None and not (len(start) == 7 and np.abs(start).max() <= LARGEST):
+            raise ValueError(f"start: {list(start)}; expected position, velocity and spin, seven numbers")
+        if not abs(spin) <= LARGEST:
+            raise ValueError(f"spin: {spin:g} rad/s; expected a number within {LARGEST:g}")
+        if not 1e-5 <= dt <= LONGEST_STEP:
+            raise ValueError(f"dt: {dt:g} s; expected 1e-5 to {LONGEST_STEP:g}")
         self._model, self._warn = model, warn
         self._start, self._spin, self._dt = start, spin, dt
         self._predictor = Predictor(model)
@@ -44,25 +54,24 @@ class StringInTime:
         self._began: int | None = None
 
     def advance(self, stamp: int, tips: Tips) -> None:
-        """On to the tips at a stamp [ns]. Raises MessageError, and stays, where that is not after the last one."""
+        """On to the tips at a stamp [ns]. Raises MessageError, and stays, where it is not after the last."""
         if self._began is None:
             self._begin(stamp, tips)
         elif abs(stamp - self._stamp) > LONGEST_GAP:
             seconds = 1e-9 * (stamp - self._stamp)
-            self._warn("stamps", f"{seconds:+.3f} s after the last one; the play begins anew")
+            self._warn("stamps jump", f"{seconds:+.3f} s after the last one; the play begins anew")
             self._begin(stamp, tips)
         elif stamp <= self._stamp:
-            seconds = 1e-9 * (self._stamp - stamp)
-            raise MessageError("stamps", f"{seconds:.6f} s before the last one; expected later")
+            seconds = 1e-9 * (stamp - self._stamp)
+            raise MessageError("late stamps", f"{seconds:+.6f} s after the last one; expected more")
         else:
             self._move(stamp, tips)
         self._stamp, self._tips = stamp, tips
 
     def _begin(self, stamp: int, tips: Tips) -> None:
-        left, right = tips
-        sticks = np.concatenate([left.direction, right.direction])
+        (left, stick), (right, other) = tips
         if self._start is None:
-            self.state = hang_at_rest(self._model, left.place, right.place, self._spin, sticks)
+            self.state = hang_at_rest(self._model, left, right, self._spin, np.concatenate([stick, other]))
         else:
             self.state = State(self._start[:3], self._start[3:6], self._start[6])
         self.turned = 0.0
@@ -86,7 +95,7 @@ class StringInTime:
             )
 
     def _step(self, places: FourVectors, sticks: FourVectors, dt: float, time: float) -> None:
-        """One of the predictor, and the tensions that it means. Raises MessageError where it is not finite."""
+        """One of the predictor, and its tensions. Raises MessageError where it is not finite."""
         state, spin = self.state, self.state.spin
         self._string.memory = [0.0, 0.0, 0.0, *state.string_acceleration, state.string_state]
         try:

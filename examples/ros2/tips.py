@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,7 +26,7 @@ class MessageError(ValueError):
 
     def __init__(self, kind: str, sentence: str) -> None:
         super().__init__(f"{kind}: {sentence}")
-        self.kind = kind
+        self.kind, self.sentence = kind, sentence
 
 
 class Tip(NamedTuple):
@@ -73,26 +73,31 @@ class TipPairs:
     def __init__(self) -> None:
         self._waiting: dict[str, dict[int, Tip]] = {side: {} for side in SIDES}
 
-    def add(self, side: str, stamp: int, tip: Tip) -> Iterator[tuple[int, Tips]]:
-        """The pair that this tip completes, if it does. Raises MessageError where too many have no partner."""
+    def add(self, side: str, stamp: int, tip: Tip) -> Tips | None:
+        """The pair that this tip completes, if any. Raises MessageError where too many have no partner."""
         mine, others = (self._waiting[one] for one in (side, "right" if side == "left" else "left"))
         if stamp not in others:
             mine[stamp] = tip
             if len(mine) > MOST_WAITING:
-                mine.clear()
-                raise MessageError(
-                    f"{side}_tip", f"{MOST_WAITING} stamps without the other tip; expected the same"
-                )
-            return
-        other = others.pop(stamp)
-        yield stamp, Tips(tip, other) if side == "left" else Tips(other, tip)
+                del mine[next(iter(mine))]
+                raise MessageError(f"{side}_tip, stamps", f"{MOST_WAITING} that the other tip has not")
+            return None
+        other = others[stamp]
+        mine.clear()  # they are older, and their partners were lost
+        for older in list(others):
+            del others[older]
+            if older == stamp:
+                break
+        return Tips(tip, other) if side == "left" else Tips(other, tip)
 
 
 class JointTips:
     """Tips of two arms by the names of their joints."""
 
     def __init__(self, arms: Sequence[StickArm], names: Sequence[str]) -> None:
-        """names: the six of the left arm, then those of the right one."""
+        """names: the six of the left arm, then those of the right one. Raises ValueError."""
+        if len({*names}) != len(JOINTS):
+            raise ValueError(f"joints: {len({*names})} names; expected {len(JOINTS)}, such as {JOINTS[0]}")
         self._arms, self._names = arms, list(names)
 
     def tips_of(self, message: Any) -> Tips:
