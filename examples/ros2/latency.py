@@ -19,7 +19,7 @@ from geometry_msgs.msg import PoseStamped
 from numpy.typing import NDArray
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
-from senders import TipSender, in_time, wait_until_heard
+from senders import JointSender, TipSender, in_time, wait_until_heard
 from session import QUALITY, parser_of, run
 from tips import stamp_of
 
@@ -42,9 +42,8 @@ class Meter(Node):
             self.delays.append(now - self.sent[stamp])
             self.poses[stamp] = message
 
-    def measure(self, motion: TipMotion, times: Floats, begin: int) -> None:
-        """begin: the first stamp [ns]. Returns when all poses are heard, or 2 s after the last tip."""
-        sender = TipSender(self, motion, times)
+    def measure(self, sender: TipSender | JointSender, times: Floats, begin: int) -> None:
+        """times: the sender's [s]; begin: the first stamp [ns]. Ends 2 s after the last tip, or before."""
         wait_until_heard(sender.outputs)
         executor = EventsExecutor()
         executor.add_node(self)
@@ -79,7 +78,8 @@ def work(arguments: list[str]) -> None:
     times = np.arange(int(given.seconds * given.rate)) / given.rate
     meter = Meter()
     gc.freeze()
-    meter.measure(swing(times), times, meter.get_clock().now().nanoseconds)
+    sender = TipSender(meter, swing(times), times)
+    meter.measure(sender, times, meter.get_clock().now().nanoseconds)
     if not meter.delays:
         raise ValueError("no pose was heard; expected a running diabolo_node.py")
     middle, late, worst = 1e3 * np.quantile(meter.delays, (0.5, 0.99, 1.0))

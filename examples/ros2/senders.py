@@ -30,18 +30,18 @@ class TipSender:
     def __init__(self, node: Node, motion: TipMotion, times: Floats, frame: str = "world") -> None:
         """times: when the motion is looked at [s]."""
         self.outputs = [node.create_publisher(PoseStamped, f"{side}_tip", QUALITY) for side in SIDES]
-        self._frame = frame
+        self._frame, self._message = frame, PoseStamped()
         self._places = [places.tolist() for places in motion.at(times)[:2]]
         self._turns = [[turn_of(stick) for stick in sticks] for sticks in motion.directions_at(times)]
 
     def send(self, index: int, stamp: int) -> None:
         """Both tips at a time, with a stamp [ns]."""
+        self._message.header = header_of(stamp, self._frame)
+        place, turn = self._message.pose.position, self._message.pose.orientation
         for output, places, turns in zip(self.outputs, self._places, self._turns, strict=True):
-            message = PoseStamped(header=header_of(stamp, self._frame))
-            place, turn = message.pose.position, message.pose.orientation
             place.x, place.y, place.z = places[index]
             turn.x, turn.y, turn.z, turn.w = turns[index]
-            output.publish(message)
+            output.publish(self._message)
 
 
 class JointSender:
@@ -51,11 +51,11 @@ class JointSender:
         """times: when the motion is looked at [s]. Raises ValueError where an arm does not reach a tip."""
         sides = [_joints(side, tips, times) for side, tips in zip(SIDES, motion.at(times)[:2], strict=True)]
         self.outputs = [node.create_publisher(JointState, "joint_states", QUALITY)]
-        self._rows = np.hstack(sides).tolist()
+        self.rows = np.hstack(sides).tolist()
 
     def send(self, index: int, stamp: int) -> None:
         """All joints at a time, with a stamp [ns]."""
-        self.outputs[0].publish(JointState(header=header_of(stamp), name=JOINTS, position=self._rows[index]))
+        self.outputs[0].publish(JointState(header=header_of(stamp), name=JOINTS, position=self.rows[index]))
 
 
 def _joints(side: str, tips: Floats, times: Floats) -> Floats:

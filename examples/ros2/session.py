@@ -25,8 +25,8 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
-QUALITY = QoSProfile(depth=1000)
-"""Reliable; two seconds at 500 Hz wait for who is slow."""
+QUALITY = QoSProfile(depth=5000)
+"""Reliable; ten seconds at 500 Hz wait for who is slow."""
 
 
 def run(work: Callable[[list[str]], None]) -> int:

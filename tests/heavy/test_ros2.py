@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -79,10 +79,21 @@ def meter() -> Iterator[object]:
 
 
 def swing(seconds: float) -> tuple[TipMotion, np.ndarray]:
+    """A motion of the tips, and its times."""
     import latency
 
     times = np.arange(int(seconds * RATE)) / RATE
     return latency.swing(times), times
+
+
+def played(peer: object, motion: TipMotion, times: np.ndarray) -> None:
+    """Sent by the peer, and all of it is answered as the plain predictor says."""
+    from senders import TipSender
+
+    peer.measure(TipSender(peer, motion, times), times, FIRST)
+    assert peer.lost == 0
+    left, right = motion.at(times)[:2]
+    np.testing.assert_allclose(places(peer.poses), predicted(left, right), rtol=0.0, atol=1e-9)
 
 
 def predicted(left: np.ndarray, right: np.ndarray, spin: float = 100.0) -> np.ndarray:
@@ -102,95 +113,77 @@ def places(poses: dict) -> np.ndarray:
 
 
 def test_at_500_hz_nothing_is_lost_and_the_poses_are_the_predictor_s() -> None:
-    motion, times = swing(10.0)
     with node(), meter() as peer:
-        peer.measure(motion, times, FIRST)
-        assert peer.lost == 0
-        left, right = motion.at(times)[:2]
-        np.testing.assert_allclose(places(peer.poses), predicted(left, right), rtol=0.0, atol=1e-9)
+        played(peer, *swing(10.0))
         print("median delay [ms]:", 1e3 * np.median(peer.delays))
         assert np.median(peer.delays) < 0.25
 
 
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_cleanly(by: int, tmp_path: Path) -> None:
-    motion, times = swing(0.5)
-    with node(tmp_path / "log") as process, meter() as peer:
-        peer.measure(motion, times, FIRST)
+def test_a_signal_amidst_play_ends_it_cleanly(by: int, tmp_path: Path) -> None:
+    with (
+        node(tmp_path / "log") as process,
+        running("play.py", SWING, "--rate", RATE) as player,
+        meter() as peer,
+    ):
+        wait_for(lambda: peer.count_publishers("diabolo/pose") > 0 and peer.count_publishers("left_tip") > 0)
+        time.sleep(1.0)
+        assert player.poll() is None
         assert end(process, by) == 0
     assert (tmp_path / "log").read_text() == ""
 
 
 def test_a_killed_peer_is_survived(tmp_path: Path) -> None:
-    motion, times = swing(2.0)
     with node(tmp_path / "log") as process, meter() as peer:
         with running("play.py", SWING) as killed:
-            wait_for(peer, lambda: peer.count_publishers("left_tip") > 0)
+            wait_for(lambda: peer.count_publishers("left_tip") > 0)
             time.sleep(1.0)
             assert killed.poll() is None
-        peer.measure(motion, times, FIRST)
-        assert peer.lost == 0
-        left, right = motion.at(times)[:2]
-        np.testing.assert_allclose(places(peer.poses), predicted(left, right), rtol=0.0, atol=1e-9)
+        played(peer, *swing(2.0))
         assert end(process) == 0
     assert "stamps jump" in (tmp_path / "log").read_text()
 
 
-def wait_for(peer: object, done, seconds: float = 20.0) -> None:
+def wait_for(done: Callable[[], bool], seconds: float = 20.0) -> None:
     limit = time.monotonic() + seconds
     while not done():
         assert time.monotonic() < limit, "nothing happened"
         time.sleep(0.02)
 
 
-def spoilt(message, how: str):
-    """A pose that is no good."""
-    if how == "position":
-        message.pose.position.x = float("nan")
-    elif how == "frame":
-        message.header.frame_id = "map"
-    elif how == "orientation":
-        message.pose.orientation.w = 0.5
-    return message
-
-
 def test_bad_poses_are_warned_of_once_and_change_nothing(tmp_path: Path) -> None:
     from geometry_msgs.msg import PoseStamped
-    from senders import header_of, wait_until_taken
+    from senders import TipSender, header_of, wait_until_heard, wait_until_taken
     from session import QUALITY
 
     motion, times = swing(1.0)
+    bad = [PoseStamped(header=header_of(FIRST, frame)) for frame in ("world", "map", "world")]
+    bad[0].pose.position.x = float("nan")
+    bad[2].pose.orientation.w = 0.5
     with node(tmp_path / "log") as process, meter() as peer:
         output = peer.create_publisher(PoseStamped, "left_tip", QUALITY)
-        wait_for(peer, lambda: output.get_subscription_count() > 0)
-        for how in ("position", "frame", "orientation") * 5:
-            output.publish(spoilt(PoseStamped(header=header_of(FIRST, "world")), how))
+        wait_until_heard([output])
+        for message in bad * 5:
+            output.publish(message)
         wait_until_taken([output])
-        peer.measure(motion, times, FIRST)
-        late, first = peer.poses.copy(), peer.delays.copy()
-        from senders import TipSender
-
-        again = TipSender(peer, motion, times)
-        wait_for(peer, lambda: min(one.get_subscription_count() for one in again.outputs) > 0)
+        played(peer, motion, times)
+        late = TipSender(peer, motion, times)
+        wait_until_heard(late.outputs)
         for i in range(3):
-            again.send(i, FIRST + round(1e9 * times[-1]) - 10_000_000 * i)
-        wait_until_taken(again.outputs)
-        assert len(late) == len(first) == len(times)
-        left, right = motion.at(times)[:2]
-        np.testing.assert_allclose(places(late), predicted(left, right), rtol=0.0, atol=1e-9)
+            late.send(i, FIRST + round(1e9 * times[-1]) - 10_000_000 * i)
+        wait_until_taken(late.outputs)
         time.sleep(0.5)
         assert end(process) == 0
     log = (tmp_path / "log").read_text()
     for kind in ("left_tip, position", "left_tip, frame", "left_tip, orientation", "late stamps"):
-        lines = [line for line in log.splitlines() if kind in line]
-        assert len(lines) == 2, log  # and how often, at the end
-        assert lines[1].endswith(" times in all")
+        said = [line for line in log.splitlines() if kind in line]
+        assert len(said) == 2, log
+        assert said[1].endswith(" times in all")
 
 
 def test_joints_of_two_arms_move_the_tips(tmp_path: Path) -> None:
     from diabolo.robot import StickArm
-    from rclpy.experimental import EventsExecutor
-    from senders import JointSender, header_of, in_time, wait_until_heard, wait_until_taken
+    from senders import JointSender, header_of, wait_until_heard
     from sensor_msgs.msg import JointState
 
     times = np.arange(500) / RATE
@@ -201,25 +194,13 @@ def test_joints_of_two_arms_move_the_tips(tmp_path: Path) -> None:
         sender = JointSender(peer, TipMotion(times, left, right), times)
         wait_until_heard(sender.outputs)
         sender.outputs[0].publish(JointState(header=header_of(FIRST), name=["left_1"], position=[0.0]))
-        executor = EventsExecutor()
-        executor.add_node(peer)
-        for i in in_time(times.tolist(), executor.spin_once):
-            stamp = FIRST + round(1e9 * times[i])
-            peer.sent[stamp] = time.perf_counter()
-            sender.send(i, stamp)
-        wait_until_taken(sender.outputs)
-        limit = time.monotonic() + 5.0
-        while peer.lost and time.monotonic() < limit:
-            executor.spin_once(0.01)
+        peer.measure(sender, times, FIRST)
         assert peer.lost == 0
-        rows = np.array(sender._rows)
-        tips = [
-            StickArm(side).tip_position(rows[:, part])
-            for side, part in (("left", slice(6)), ("right", slice(6, 12)))
-        ]
-        np.testing.assert_allclose(tips, [left, right], atol=1e-6)
-        np.testing.assert_allclose(places(peer.poses), predicted(*tips), rtol=0.0, atol=1e-9)
         assert end(process) == 0
+    joints = np.split(np.array(sender.rows), 2, axis=1)
+    tips = [StickArm(side).tip_position(row) for side, row in zip(("left", "right"), joints, strict=True)]
+    np.testing.assert_allclose(tips, [left, right], rtol=0.0, atol=1e-6)
+    np.testing.assert_allclose(places(peer.poses), predicted(*tips), rtol=0.0, atol=1e-9)
     assert (tmp_path / "log").read_text().count("joints missing: left_2") == 1
 
 
