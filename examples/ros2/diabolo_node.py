@@ -20,7 +20,7 @@ from outputs import Outputs
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
-from session import QUALITY, listen, model_of, run
+from session import QUALITY, listen, model_of, parser_of, run
 from std_msgs.msg import Header
 from string_in_time import StringInTime
 from tips import JOINTS, SIDES, JointTips, MessageError, TipPairs, Tips, stamp_of, tip_of
@@ -105,7 +105,8 @@ class DiaboloNode(Node):
                 self.get_logger().warning(f"{kind}: {count} times in all")
 
 
-def work(_: list[str]) -> None:
+def work(arguments: list[str]) -> None:
+    parser_of(__doc__).parse_args(arguments)
     node = DiaboloNode()
     listen(node)
     node.report()

@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from senders import JointSender, TipSender, in_time, wait_until_heard
-from session import QUALITY, parser_of, run
+from session import QUALITY, listen, parser_of, run
 from tips import stamp_of
 
 Floats = NDArray[np.float64]
+PATIENCE = 20.0  # after the last tip [s]
 
 
 class Meter(Node):
@@ -43,7 +44,7 @@ class Meter(Node):
             self.poses[stamp] = message
 
     def measure(self, sender: TipSender | JointSender, times: Floats, begin: int) -> None:
-        """times: the sender's [s]; begin: the first stamp [ns]. Ends 2 s after the last tip, or before."""
+        """times: the sender's [s]; begin: the first stamp [ns]. Ends when all is heard, or given up."""
         wait_until_heard(sender.outputs)
         executor = EventsExecutor()
         executor.add_node(self)
@@ -51,13 +52,23 @@ class Meter(Node):
             stamp = begin + round(1e9 * times[i])
             self.sent[stamp] = time.perf_counter()
             sender.send(i, stamp)
-        end = time.monotonic() + 2.0
+        end = time.monotonic() + PATIENCE
         while len(self.poses) < len(self.sent) and time.monotonic() < end:
             executor.spin_once(0.01)
 
     @property
     def lost(self) -> int:
         return len(self.sent) - len(self.poses)
+
+
+class Echo(Node):
+    """Answers each right tip with a pose at once: what ROS itself takes."""
+
+    def __init__(self) -> None:
+        super().__init__("echo")
+        self._output = self.create_publisher(PoseStamped, "diabolo/pose", QUALITY)
+        self.create_subscription(PoseStamped, "left_tip", lambda _: None, QUALITY)
+        self.create_subscription(PoseStamped, "right_tip", self._output.publish, QUALITY)
 
 
 def swing(times: Floats) -> TipMotion:
@@ -72,7 +83,11 @@ def work(arguments: list[str]) -> None:
     parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="default: 60")
     parser.add_argument("--rate", type=float, default=500.0, metavar="HZ", help="default: 500")
+    parser.add_argument("--echo", action="store_true", help="be a node that answers with the tip instead")
     given = parser.parse_args(arguments)
+    if given.echo:
+        listen(Echo())
+        return
     if not (0.1 <= given.seconds <= 3600.0 and 1.0 <= given.rate <= 10_000.0):
         raise ValueError("--seconds, --rate: expected 0.1 to 3600 s and 1 to 10000 Hz")
     times = np.arange(int(given.seconds * given.rate)) / given.rate

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import rclpy
 from diabolo import Model
+from diabolo.cli import Parser
 from diabolo.cli.arguments import read_model
 from rclpy.exceptions import ParameterException
 from rclpy.experimental import EventsExecutor
@@ -54,7 +55,7 @@ def run(work: Callable[[list[str]], None]) -> int:
 def parser_of(text: str | None) -> argparse.ArgumentParser:
     """Of a program whose help is the text of its file."""
     layout = argparse.RawDescriptionHelpFormatter
-    return argparse.ArgumentParser(description=text, formatter_class=layout, allow_abbrev=False)
+    return Parser(description=text, formatter_class=layout, allow_abbrev=False)
 
 
 def listen(node: Node, seconds: float = math.inf) -> None:
