@@ -9,14 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from diabolo.robot import StickArm
+from diabolo.rollout import FARTHEST
 from numpy.typing import NDArray
 from turns import first_axis
 
 SIDES = ("left", "right")
 JOINTS = [f"{side}_{i}" for side in SIDES for i in range(1, 7)]
 """Names of the arms' joints, as in the cell of diabolo.hosts.mujoco."""
-FARTHEST = 100.0
-"""Where a tip may be, from the origin along an axis [m]."""
 MOST_WAITING = 1000
 """Tips of one side without one of the other."""
 

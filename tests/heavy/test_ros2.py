@@ -204,6 +204,35 @@ def test_joints_of_two_arms_move_the_tips(tmp_path: Path) -> None:
     assert (tmp_path / "log").read_text().count("joints missing: left_2") == 1
 
 
+def test_tips_are_paired_by_their_stamps_whatever_is_lost() -> None:
+    from tips import Tip, TipPairs
+
+    seed = random.SystemRandom().randrange(10**6)
+    print("seed", seed)
+    rng = random.Random(seed)
+    stamps = {side: [i for i in range(500) if rng.random() < 0.8] for side in ("left", "right")}
+    wanted = sorted({*stamps["left"]} & {*stamps["right"]})
+    pairs, found = TipPairs(), []
+    while sides := [side for side, left in stamps.items() if left]:
+        side = rng.choice(sides)
+        stamp = stamps[side].pop(0)
+        if tips := pairs.add(side, stamp, Tip(np.full(3, stamp), np.full(3, len(side)))):
+            assert [tip.place[0] for tip in tips] == [stamp, stamp]
+            assert [tip.direction[0] for tip in tips] == [4, 5]  # left, right
+            found.append(stamp)
+    assert found == wanted
+
+
+@pytest.mark.parametrize("axis", [[1, 0, 0], [-1, 0, 0], [0, 0, 1], [0.6, -0.64, 0.48]])
+def test_a_turned_axle_keeps_its_direction(axis: list[float]) -> None:
+    from turns import first_axis, turn_of
+
+    for angle in np.linspace(-10.0, 10.0, 21):
+        turn = turn_of(np.array(axis, float), angle)
+        assert np.linalg.norm(turn) == pytest.approx(1.0)
+        np.testing.assert_allclose(first_axis(*turn), axis, rtol=0.0, atol=1e-12)
+
+
 def heard(folder: Path, name: str, *played: object) -> Path:
     """A bag of what a node and a player say, recorded until SIGINT."""
     bag = folder / name
