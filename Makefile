@@ -31,7 +31,7 @@ package_sources := pyproject.toml CMakeLists.txt LICENSE examples/mujoco/plugin/
   $(shell find cmake include batch diagnose python -type f -not -name '*.pyc')
 our_sources = git ls-files -co --exclude-standard '*.hpp' '*.cpp'
 
-.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco gazebo hosts rerun page browser agents \
+.PHONY: help demo install test test-core test-cpp test-long test-plant test-python test-all ur-rtde prove prove-player mujoco gazebo hosts ros2 rerun page browser agents \
   sanitize fuzz stress bench build-benchmarks check-benchmarks format check-format lint check-tree check-prose stubs check-stubs clean
 
 help: ## List the targets
@@ -157,7 +157,7 @@ prove-player: $(VENV)/.package plant ## Play a few plans on the independent plan
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest
 
-test-all: test test-long mujoco gazebo hosts rerun browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
+test-all: test test-long mujoco gazebo hosts ros2 rerun browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
 
 hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
 	@$(install_package) '.[dart,drake,test]'
@@ -166,6 +166,10 @@ hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
 rerun: $(VENV)/.package-with-tests ## Write files of rerun, and read them again
 	@$(install_package) '.[rerun,test]'
 	@$(VENV)/bin/python -m pytest -m rerun tests/heavy
+
+ros2: $(VENV)/.package-with-tests ## Play in ROS 2: two processes over DDS
+	@$(pip) -r tools/ros2-requirements.txt
+	@$(VENV)/bin/python -m pytest -m ros2 tests/heavy
 
 # Debian's emscripten looks for its parser of scripts where Debian's Node.js does; others need to be told.
 page: ## Make one page to play with, without a network: our string and the published rules (build/page)

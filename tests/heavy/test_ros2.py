@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: MIT
+"""The node of ROS 2 in a process of its own; this one is its peer, over DDS on the loopback."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+from diabolo import Model, Predictor, TipMotion, hang_at_rest, load_recording
+
+rclpy = pytest.importorskip("rclpy", reason="ROS 2 is not installed: make ros2")
+
+pytestmark = [
+    pytest.mark.ros2,
+    pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"),  # of a library of rclpy's
+]
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples" / "ros2"
+SWING = ROOT / "data" / "recordings" / "swing.csv"
+sys.path.insert(0, str(EXAMPLES))
+FIRST = 100_000_000_000  # stamp [ns]
+RATE = 500.0
+
+
+@pytest.fixture(scope="module", autouse=True)
+def ros() -> Iterator[None]:
+    domain = str(random.SystemRandom().randrange(1, 100))
+    print("ROS_DOMAIN_ID", domain)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_DOMAIN_ID", domain)
+        patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        patch.setenv("FASTDDS_DEFAULT_PROFILES_FILE", str(EXAMPLES / "loopback.xml"))
+        rclpy.init()
+        yield
+        rclpy.try_shutdown()
+
+
+@contextmanager
+def running(program: str, *arguments: object, log: Path | None = None) -> Iterator[subprocess.Popen[bytes]]:
+    """A program of the examples; what it says goes to a log."""
+    command = [sys.executable, str(EXAMPLES / program), *map(str, arguments)]
+    with (log or Path(os.devnull)).open("wb") as said:
+        process = subprocess.Popen(command, stdout=said, stderr=said)
+        try:
+            yield process
+        finally:
+            process.kill()
+            process.wait()
+
+
+def node(log: Path | None = None, **parameters: object):
+    given = [word for name, value in parameters.items() for word in ("-p", f"{name}:={value}")]
+    return running("diabolo_node.py", *(["--ros-args", *given] if given else []), log=log)
+
+
+def end(process: subprocess.Popen[bytes], by: int = signal.SIGTERM) -> int:
+    process.send_signal(by)
+    return process.wait(20)
+
+
+@contextmanager
+def meter() -> Iterator[object]:
+    from latency import Meter
+
+    peer = Meter()
+    try:
+        yield peer
+    finally:
+        peer.destroy_node()
+
+
+def swing(seconds: float) -> tuple[TipMotion, np.ndarray]:
+    """A motion of the tips, and its times."""
+    import latency
+
+    times = np.arange(int(seconds * RATE)) / RATE
+    return latency.swing(times), times
+
+
+def played(peer: object, motion: TipMotion, times: np.ndarray) -> None:
+    """Sent by the peer, and all of it is answered as the plain predictor says."""
+    from senders import TipSender
+
+    peer.measure(TipSender(peer, motion, times), times, FIRST)
+    assert peer.lost == 0
+    left, right = motion.at(times)[:2]
+    np.testing.assert_allclose(places(peer.poses), predicted(left, right)[:, :3], rtol=0.0, atol=1e-9)
+
+
+def predicted(left: np.ndarray, right: np.ndarray, spin: float = 100.0) -> np.ndarray:
+    """States of the plain predictor below tips that come at RATE, from rest, (N, 7)."""
+    model = Model.consistent()
+    predictor, state = Predictor(model), hang_at_rest(model, left[0], right[0], spin)
+    path = [state.to_array()]
+    for i in range(1, len(left)):
+        predictor.step(state, left[i - 1], right[i - 1], left[i], right[i], 1.0 / RATE)
+        path.append(state.to_array())
+    return np.array(path)
+
+
+def places(poses: dict) -> np.ndarray:
+    points = [poses[stamp].pose.position for stamp in sorted(poses)]
+    return np.array([[p.x, p.y, p.z] for p in points])
+
+
+def test_at_500_hz_nothing_is_lost_and_the_poses_are_the_predictor_s() -> None:
+    with node(), meter() as peer:
+        played(peer, *swing(10.0))
+        print("median delay [ms]:", 1e3 * np.median(peer.delays))
+        assert np.median(peer.delays) < 5.0  # others may keep the machine busy
+
+
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_amidst_play_ends_it_cleanly(by: int, tmp_path: Path) -> None:
+    with (
+        node(tmp_path / "log") as process,
+        running("play.py", SWING, "--rate", RATE) as player,
+        meter() as peer,
+    ):
+        wait_for(lambda: peer.count_publishers("diabolo/pose") > 0 and peer.count_publishers("left_tip") > 0)
+        time.sleep(1.0)
+        assert player.poll() is None
+        assert end(process, by) == 0
+    assert (tmp_path / "log").read_text() == ""
+
+
+def test_a_killed_peer_is_survived(tmp_path: Path) -> None:
+    with node(tmp_path / "log") as process, meter() as peer:
+        with running("play.py", SWING) as killed:
+            wait_for(lambda: peer.count_publishers("left_tip") > 0)
+            time.sleep(1.0)
+            assert killed.poll() is None
+        played(peer, *swing(2.0))
+        assert end(process) == 0
+    assert "stamps jump" in (tmp_path / "log").read_text()
+
+
+def wait_for(done: Callable[[], bool], seconds: float = 20.0) -> None:
+    limit = time.monotonic() + seconds
+    while not done():
+        assert time.monotonic() < limit, "nothing happened"
+        time.sleep(0.02)
+
+
+def test_bad_poses_are_warned_of_once_and_change_nothing(tmp_path: Path) -> None:
+    from geometry_msgs.msg import PoseStamped
+    from senders import TipSender, header_of, wait_until_heard, wait_until_taken
+    from session import QUALITY
+
+    motion, times = swing(1.0)
+    bad = [PoseStamped(header=header_of(FIRST, frame)) for frame in ("world", "map", "world")]
+    bad[0].pose.position.x = float("nan")
+    bad[2].pose.orientation.w = 0.5
+    with node(tmp_path / "log") as process, meter() as peer:
+        output = peer.create_publisher(PoseStamped, "left_tip", QUALITY)
+        wait_until_heard([output])
+        for message in bad * 5:
+            output.publish(message)
+        wait_until_taken([output])
+        played(peer, motion, times)
+        late = TipSender(peer, motion, times)
+        wait_until_heard(late.outputs)
+        for i in range(3):
+            late.send(i, FIRST + round(1e9 * times[-1]) - 10_000_000 * i)
+        wait_until_taken(late.outputs)
+        time.sleep(0.5)
+        assert end(process) == 0
+    log = (tmp_path / "log").read_text()
+    for kind in ("left_tip, position", "left_tip, frame", "left_tip, orientation", "late stamps"):
+        said = [line for line in log.splitlines() if kind in line]
+        assert len(said) == 2, log
+        assert said[1].endswith(" times in all")
+
+
+def test_joints_of_two_arms_move_the_tips(tmp_path: Path) -> None:
+    from diabolo.robot import StickArm
+    from senders import JointSender, header_of, wait_until_heard
+    from sensor_msgs.msg import JointState
+
+    times = np.arange(500) / RATE
+    beat = 0.05 * (1.0 - np.cos(2.0 * np.pi * times))
+    left = np.stack([np.full_like(times, 0.6), np.full_like(times, 0.45), 1.2 + beat], axis=1)
+    right = left * [1.0, -1.0, 1.0]
+    with node(tmp_path / "log", source="joints") as process, meter() as peer:
+        sender = JointSender(peer, TipMotion(times, left, right), times)
+        wait_until_heard(sender.outputs)
+        sender.outputs[0].publish(JointState(header=header_of(FIRST), name=["left_shoulder_pan_joint"], position=[0.0]))
+        peer.measure(sender, times, FIRST)
+        assert peer.lost == 0
+        assert end(process) == 0
+    joints = np.split(np.array(sender.rows), 2, axis=1)
+    tips = [StickArm(side).tip_position(row) for side, row in zip(("left", "right"), joints, strict=True)]
+    np.testing.assert_allclose(tips, [left, right], rtol=0.0, atol=1e-6)
+    np.testing.assert_allclose(places(peer.poses), predicted(*tips)[:, :3], rtol=0.0, atol=1e-9)
+    assert (tmp_path / "log").read_text().count("joints missing: left_shoulder_lift_joint") == 1
+
+
+def test_tips_are_paired_by_their_stamps_whatever_is_lost() -> None:
+    from tips import Tip, TipPairs
+
+    seed = random.SystemRandom().randrange(10**6)
+    print("seed", seed)
+    rng = random.Random(seed)
+    stamps = {side: [i for i in range(500) if rng.random() < 0.8] for side in ("left", "right")}
+    wanted = sorted({*stamps["left"]} & {*stamps["right"]})
+    pairs, found = TipPairs(), []
+    while sides := [side for side, left in stamps.items() if left]:
+        side = rng.choice(sides)
+        stamp = stamps[side].pop(0)
+        if tips := pairs.add(side, stamp, Tip(np.full(3, stamp), np.full(3, len(side)))):
+            assert [tip.place[0] for tip in tips] == [stamp, stamp]
+            assert [tip.direction[0] for tip in tips] == [4, 5]  # left, right
+            found.append(stamp)
+    assert found == wanted
+
+
+@pytest.mark.parametrize("axis", [[1, 0, 0], [-1, 0, 0], [0, 0, 1], [0.6, -0.64, 0.48]])
+def test_a_turned_axle_keeps_its_direction(axis: list[float]) -> None:
+    from turns import first_axis, turn_of
+
+    for angle in np.linspace(-10.0, 10.0, 21):
+        turn = turn_of(np.array(axis, float), angle)
+        assert np.linalg.norm(turn) == pytest.approx(1.0)
+        np.testing.assert_allclose(first_axis(*turn), axis, rtol=0.0, atol=1e-12)
+
+
+def heard(folder: Path, name: str, *played: object) -> Path:
+    """A bag of what a node and a player say, recorded until SIGINT."""
+    bag = folder / name
+    with node(), running("record.py", bag, log=folder / "log") as recorder:
+        with running("play.py", *played, "--listeners", 2, log=folder / "played") as player:
+            assert player.wait(60) == 0, (folder / "played").read_text()
+        time.sleep(1.0)
+        assert end(recorder, signal.SIGINT) == 0, (folder / "log").read_text()
+    return bag
+
+
+def test_a_recorded_bag_replays_to_the_same_play(tmp_path: Path) -> None:
+    motion, times = swing(3.0)
+    left, right = motion.at(times)[:2]
+    plan = tmp_path / "plan.csv"
+    columns = ",".join(["time", *(f"{side}_{axis}" for side in ("left", "right") for axis in "xyz")])
+    np.savetxt(plan, np.column_stack([times, left, right]), "%.17g", ",", header=columns, comments="")
+    first = load_recording(heard(tmp_path, "first.mcap", plan))
+    again = load_recording(heard(tmp_path, "again.mcap", tmp_path / "first.mcap"))
+    states = predicted(left, right)
+    middle = 0.5 * (states[1:, 6] + states[:-1, 6])
+    for take in (first, again):
+        assert len(take) == len(times)
+        np.testing.assert_allclose(take.left, left, rtol=0.0, atol=1e-9)
+        seen = take.diabolo_valid  # none before node and recorder have found each other
+        assert seen.mean() > 0.8
+        np.testing.assert_allclose(take.diabolo[seen], states[seen, :3], rtol=0.0, atol=1e-9)
+        spin = take.spin()[:-1]
+        known = np.isfinite(spin)
+        assert known.mean() > 0.8
+        np.testing.assert_allclose(spin[known], middle[known], rtol=0.0, atol=1e-3)
+    topics = "left=/left_tip,right=/right_tip,diabolo=/diabolo"
+    command = [sys.executable, "-m", "diabolo", "diagnose", str(tmp_path / "first.mcap"), "--topics", topics]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("program", "arguments", "sentence"),
+    [
+        ("diabolo_node.py", "--ros-args -p source:=eyes", "source: 'eyes'; expected tips or joints"),
+        ("diabolo_node.py", "--ros-args -p dt:=0.0", "dt: 0 s; expected 1e-5 to 0.02"),
+        ("diabolo_node.py", "--ros-args -p spin:=.nan", "spin: nan rad/s"),
+        ("diabolo_node.py", "--ros-args -p start:=[1.0]", "start: [1.0]; expected"),
+        ("diabolo_node.py", "--ros-args -p model:=none.json", "model none.json: no such file"),
+        ("diabolo_node.py", "--ros-args -p string_length:=-1.0", "string_length: -1 m; must be"),
+        ("diabolo_node.py", "--ros-args -p string_length:=long", "string_length"),
+        ("diabolo_node.py", "--ros-args -p source:=joints -p joints:=[a]", "joints: 1 names; expected 12"),
+        ("diabolo_node.py", "--model m.json", "unrecognized arguments: --model"),
+        ("diabolo_node.py", "--ros-args -p spin:=50", "'spin' to '50' of type 'INTEGER', expecting"),
+        ("play.py", "none.csv", "none.csv"),
+        ("play.py", f"{SWING} --rate 0", "--rate 0: 0 samples; expected"),
+        ("play.py", f"{SWING} --rate nan", "--rate nan"),
+        ("play.py", f"{SWING} --start -1", "--start -1; expected"),
+        ("play.py", f"{SWING} --joints", "expected a plan of two arms"),
+        ("record.py", "take.txt", "take.txt: expected a name that ends in"),
+        ("record.py", "nowhere/take.mcap", "there is no folder"),
+        ("record.py", "take.mcap --seconds nan", "--seconds nan; expected"),
+        ("record.py", "take.mcap --seconds 0.1", "left_tip: 0 messages were heard; expected two or more"),
+        ("latency.py", "--rate 0", "expected 0.1 to 3600 s"),
+    ],
+)
+def test_bad_input_is_one_sentence(program: str, arguments: str, sentence: str, tmp_path: Path) -> None:
+    command = [sys.executable, str(EXAMPLES / program), *arguments.split()]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=60)
+    assert done.returncode == 2, done.stderr
+    assert sentence in done.stderr
+    assert "Traceback" not in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert not list(tmp_path.iterdir())
