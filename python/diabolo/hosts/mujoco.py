@@ -52,13 +52,13 @@ def load_plugin() -> Path:
     return library
 
 
-def build_plugin() -> Path:
-    """Compiles the plugin, unless it has been; see `load_plugin`."""
+def build_plugin(source: Path = SOURCE) -> Path:
+    """Compiles the plugin, or another of `source`, unless it has been; see `load_plugin`."""
     spec = importlib.util.find_spec("mujoco")
     if spec is None or spec.origin is None:
         raise RuntimeError("MuJoCo is not installed; expected it from: pip install 'diabolo[mujoco]'")
-    command = _command(Path(spec.origin).parent)
-    kept = _cache() / f"libdiabolo_string-{_digest(command)}.so"
+    command = _command(Path(spec.origin).parent, source)
+    kept = _cache() / f"libdiabolo_{source.stem}-{_digest(command, source)}.so"
     if kept.exists():
         return kept
     try:
@@ -68,7 +68,7 @@ def build_plugin() -> Path:
             done = subprocess.run([*command, "-o", str(made)], capture_output=True, text=True)
             if done.returncode != 0 or not made.exists():
                 said = done.stderr.strip() or f"exit status {done.returncode}, and no library"
-                raise RuntimeError(f"{command[0]} does not compile {SOURCE.name}: {said}")
+                raise RuntimeError(f"{command[0]} does not compile {source.name}: {said}")
             made.replace(kept)
     except OSError as error:
         raise RuntimeError(
@@ -78,7 +78,7 @@ def build_plugin() -> Path:
     return kept
 
 
-def _command(mujoco: Path) -> list[str]:
+def _command(mujoco: Path, source: Path) -> list[str]:
     named = os.environ.get("CXX") or "c++"
     try:
         compiler = shlex.split(named)
@@ -93,7 +93,7 @@ def _command(mujoco: Path) -> list[str]:
     others = (ours / "directories.txt").read_text().split(";")
     found = [option for each in [*others, str(mujoco / "include")] for option in ("-idirafter", each.strip())]
     flags = ["-std=c++20", "-O2", "-DNDEBUG", "-fPIC", "-shared", "-fvisibility=hidden"]
-    return [*compiler, *flags, f"-I{ours}", *found, str(SOURCE), str(libraries[0])]
+    return [*compiler, *flags, f"-I{ours}", *found, str(source), str(libraries[0])]
 
 
 def _cache() -> Path:
@@ -101,11 +101,11 @@ def _cache() -> Path:
     return (named if named.is_absolute() else Path.home() / ".cache") / "diabolo"
 
 
-def _digest(command: list[str]) -> str:
+def _digest(command: list[str], source: Path) -> str:
     """Of all that decides what the compiler makes."""
     parts = [*command, importlib.metadata.version("mujoco")]
     digest = hashlib.sha256("\0".join(parts).encode())
-    for file in [SOURCE, *sorted(Path(get_include()).rglob("*.hpp"))]:
+    for file in [source, *sorted(Path(get_include()).rglob("*.hpp"))]:
         digest.update(file.read_bytes())
     return digest.hexdigest()[:16]
 
