@@ -23,7 +23,7 @@ LARGEST_TREE = 6_900_000  # bytes of all files together
 # hold the words that a user types. A header includes lower bands, its own room, or a room beside it that does
 # not need its own.
 NOUNS = ("parameters", "rules", "state", "sticks", "version")
-VERBS = ("predictor", "full_predictor", "rollout", "model")
+VERBS = ("predictor", "full_predictor", "rollout", "strand_tensions", "model")
 BANDS: tuple[tuple[str, ...], ...] = (
     ("math", "text"),  # ground
     ("nouns",),

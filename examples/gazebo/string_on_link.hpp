@@ -74,7 +74,7 @@ class StringOnLink {
     bool placed;  ///< whether `place` is where it is to be after the step
   };
 
-  /// The same where tips are seen from step to step; see diabolo::placed_tip() and moving_tip().
+  /// A step whose tips are seen only from step to step; see diabolo::placed_tip() and moving_tip().
   diabolo::StringWrench step(const diabolo::HostBody& body, const std::array<SeenTip, 2>& tips, double time,
                              double dt) {
     std::array<diabolo::TipStep, 2> steps;

@@ -17,11 +17,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from diabolo import Model, Parameters
+from diabolo import Model, Parameters, hang_at_rest
 from diabolo.checks import check_drawing
 from diabolo.files import check_outputs
 from diabolo.hosts import mujoco as host
-from diabolo.robot import FAULTS, SeedGrid, StickArm, StickMap
+from diabolo.robot import StickArm, joints_of
 from diabolo_in_mujoco import render, take_camera
 
 import mujoco  # isort: skip (diabolo_in_mujoco says how it draws)
@@ -40,30 +40,18 @@ def tips(times: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def joints(arms: list[StickArm], wanted: dict[str, np.ndarray]) -> np.ndarray:
-    """Of both arms [rad], shape (n, 12). Raises ValueError where a tip is out of reach."""
-    found = []
-    for arm in arms:
-        angles, faults = StickMap(arm, SeedGrid.build(arm)).solve(wanted[arm.side])
-        if faults.any():
-            raise ValueError(f"the {arm.side} tip is {FAULTS[faults.max()]}; expected it within reach")
-        found.append(angles)
-    return np.hstack(found)
-
-
 def play(model: Model) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray, float]:
     """The last instant, the path of the diabolo [m], and how far the tips were off the late plan [m]."""
     arms = [StickArm("left"), StickArm("right")]
     wanted = tips(np.arange(0.0, DURATION, DT))
-    commands = joints(arms, wanted)
+    commands = np.hstack([joints_of(arm, wanted[arm.side]) for arm in arms])
     host.load_plugin()
     physics = mujoco.MjModel.from_xml_string(host.cell(arms, model, DT))
     data = mujoco.MjData(physics)
     data.qpos[:12] = commands[0]
     left, right = wanted["left"][0], wanted["right"][0]
-    half, length = 0.5 * np.linalg.norm(left - right), 0.5 * model.parameters.string_length
     diabolo = data.joint("diabolo")
-    diabolo.qpos[:3] = 0.5 * (left + right) - [0.0, 0.0, np.sqrt(length**2 - half**2)]
+    diabolo.qpos[:3] = hang_at_rest(model, left, right, SPIN).position
     diabolo.qvel[3] = -SPIN
     path, reached = [], []
     for data.ctrl[:] in commands:

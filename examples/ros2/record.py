@@ -16,7 +16,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from diabolo import DiaboloProperties, Model, Recording, save_recording
+from diabolo import Model, Recording, played_properties, save_recording
 from diabolo.cli.arguments import output_name
 from diabolo.files import check_outputs
 from diabolo.formats import WRITTEN
@@ -62,7 +62,7 @@ class Recorder(Node):
             1e9 / float(np.median(np.diff(stamps))),
             **{f"{role}_orientation": _turns(track[:, 3:]) for role, track in tracks.items()},
             name=title,
-            properties=DiaboloProperties(body.mass, 0.127, 0.143, body.axle_radius),
+            properties=played_properties(body),
             string_length=body.string_length,
         )
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from builtin_interfaces.msg import Time
 from diabolo import TipMotion
-from diabolo.robot import FAULTS, SeedGrid, StickArm, StickMap
+from diabolo.robot import StickArm, joints_of
 from geometry_msgs.msg import PoseStamped
 from numpy.typing import NDArray
 from rclpy.duration import Duration
@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 
 
 class TipSender:
-    """Of poses on left_tip and right_tip, body x along the stick."""
+    """Publishes poses on left_tip and right_tip, body x along the stick."""
 
     def __init__(self, node: Node, motion: TipMotion, times: Floats, frame: str = "world") -> None:
         """times: when the motion is looked at [s]."""
@@ -45,11 +45,12 @@ class TipSender:
 
 
 class JointSender:
-    """Of both arms' joints on joint_states."""
+    """Publishes both arms' joints on joint_states."""
 
     def __init__(self, node: Node, motion: TipMotion, times: Floats) -> None:
         """times: when the motion is looked at [s]. Raises ValueError where an arm does not reach a tip."""
-        sides = [_joints(side, tips, times) for side, tips in zip(SIDES, motion.at(times)[:2], strict=True)]
+        tips = motion.at(times)[:2]
+        sides = [joints_of(StickArm(side), its) for side, its in zip(SIDES, tips, strict=True)]
         self.outputs = [node.create_publisher(JointState, "joint_states", QUALITY)]
         self.rows = np.hstack(sides).tolist()
 
@@ -58,23 +59,13 @@ class JointSender:
         self.outputs[0].publish(JointState(header=header_of(stamp), name=JOINTS, position=self.rows[index]))
 
 
-def _joints(side: str, tips: Floats, times: Floats) -> Floats:
-    """Of an arm, shape (N, 6) [rad]."""
-    arm = StickArm(side)
-    joints, faults = StickMap(arm, SeedGrid.build(arm)).solve(tips)
-    if (failed := np.flatnonzero(faults)).size:
-        why = FAULTS[int(faults[failed[0]])]
-        raise ValueError(f"{side} tip at {times[failed[0]]:.3f} s: {why}; expected a plan of two arms")
-    return joints
-
-
 def header_of(stamp: int, frame: str = "") -> Header:
-    """Of a message that was measured at a stamp [ns]."""
+    """The header of a message that was measured at a stamp [ns]."""
     return Header(stamp=Time(sec=stamp // 10**9, nanosec=stamp % 10**9), frame_id=frame)
 
 
 def wait_until_heard(outputs: Sequence[Publisher], listeners: int = 1, seconds: float = 10.0) -> None:
-    """Until so many listen to each. Raises ValueError where they do not within that time."""
+    """Wait until so many listen to each. Raises ValueError where they do not within that time."""
     end = time.monotonic() + seconds
     for output in outputs:
         while (found := output.get_subscription_count()) < listeners:
@@ -95,6 +86,6 @@ def in_time(times: Sequence[float], idle: Callable[[float], object] = time.sleep
 
 
 def wait_until_taken(outputs: Sequence[Publisher], seconds: float = 2.0) -> None:
-    """Until all that was published has come to those who listen, at most so long."""
+    """Wait until all that was published has come to those who listen, at most so long."""
     for output in outputs:
         output.wait_for_all_acked(Duration(seconds=seconds))

@@ -8,8 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 import numpy as np
-from diabolo import AttachedString, Model, Predictor, State, TipMotion, hang_at_rest
-from diabolo.hosts.mjcf import INERTIA
+from diabolo import Model, Predictor, State, TipMotion, hang_at_rest
 from diabolo.rollout import LONGEST_STEP
 from numpy.typing import NDArray
 from tips import MessageError, Tips
@@ -49,8 +48,6 @@ class StringInTime:
         self._model, self._warn = model, warn
         self._start, self._spin, self._dt = start, spin, dt
         self._predictor = Predictor(model)
-        body = model.parameters
-        self._string = AttachedString(model, body.mass, INERTIA[0], [0.0, 0.0, -body.gravity])
         self._began: int | None = None
 
     def advance(self, stamp: int, tips: Tips) -> None:
@@ -97,17 +94,13 @@ class StringInTime:
     def _step(self, places: FourVectors, sticks: FourVectors, dt: float, time: float) -> None:
         """One of the predictor, and its tensions. Raises MessageError where it is not finite."""
         state, spin = self.state, self.state.spin
-        self._string.memory = [0.0, 0.0, 0.0, *state.string_acceleration, state.string_state]
         try:
-            wrench = self._string.step(
-                state.position, state.velocity, state.axis, -spin, *places, dt, directions=sticks, time=time
-            )
             status = self._predictor.step(state, *places, dt, directions=sticks, time=time)
         except FloatingPointError as error:
             self._began = None
             raise MessageError("prediction", f"{error}; the play begins anew") from None
         self.turned -= 0.5 * (spin + state.spin) * dt
-        self.tensions = (wrench.left_tension, wrench.right_tension)
+        self.tensions = status.tensions
         if status.overstretched:
             apart, length = np.linalg.norm(places[2] - places[3]), self._model.parameters.string_length
             self._warn("tips", f"{apart:.3f} m apart; the string is {length:g} m long")

@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from diabolo import robot
+from diabolo.arms import SIDES
 from diabolo.robot import StickArm
 from diabolo.rollout import FARTHEST
 from numpy.typing import NDArray
 from turns import first_axis
 
-SIDES = ("left", "right")
 JOINTS = [f"{side}_{joint}" for side in SIDES for joint in robot.JOINTS]
 """Names of the arms' joints, the left arm's first."""
 MOST_WAITING = 1000

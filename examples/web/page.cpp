@@ -13,6 +13,7 @@
 #include "diabolo/json/agent_file.hpp"
 #include "diabolo/learn/live_agent.hpp"
 #include "diabolo/model.hpp"
+#include "diabolo/strand_tensions.hpp"
 #include "diabolo/string/hanging.hpp"
 
 namespace {
@@ -107,12 +108,12 @@ struct World {
       follow(wanted);
     time += kDt;
     const Tips<double> end = tips();
+    const State<double> before = state;
     ours->step(state, begin, end, kDt);
     published->step(ghost, begin, end, kDt);
     turned += state.spin * kDt;
-    const Vector3<double> strands =
-        (end.left - state.position).normalized() + (end.right - state.position).normalized();
-    tension = model.parameters.mass * state.string_acceleration.norm() / std::max(strands.norm(), 0.02);
+    const auto [left, right] = strand_tensions(*ours, before, state, begin, end, kDt);
+    tension = 0.5 * (left + right);
   }
 };
 

@@ -2,12 +2,14 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "diabolo/model.hpp"
+#include "diabolo/strand_tensions.hpp"
 
 #include "effects.hpp"
 #include "step_tips.hpp"
@@ -25,10 +27,16 @@ Simulator make_predictor(const Model& model, const py::kwargs& given) {
   return Simulator(model.parameters, effects);
 }
 
-StepStatus<double> step(const Simulator& predictor, State<double>& state, const Array& left0,
-                        const Array& right0, const Array& left1, const Array& right1, double dt,
-                        const std::optional<std::array<Array, 4>>& velocities,
-                        const std::optional<std::array<Array, 4>>& directions, double time) {
+/// What happened in a step, and the tensions of the strands.
+struct Step {
+  StepStatus<double> status;
+  std::pair<double, double> tensions;
+};
+
+Step step(const Simulator& predictor, State<double>& state, const Array& left0, const Array& right0,
+          const Array& left1, const Array& right1, double dt,
+          const std::optional<std::array<Array, 4>>& velocities,
+          const std::optional<std::array<Array, 4>>& directions, double time) {
   const StepTips tips(left0, right0, left1, right1, dt, velocities, directions, time);
   State<double> next = state;
   const StepStatus<double> status = predictor.step(next, tips.begin, tips.end, dt);
@@ -36,22 +44,33 @@ StepStatus<double> step(const Simulator& predictor, State<double>& state, const 
     PyErr_SetString(PyExc_FloatingPointError, "step: the state is no longer finite");
     throw py::error_already_set();
   }
+  const Step made{status, strand_tensions(predictor, state, next, tips.begin, tips.end, dt)};
   state = next;
-  return status;
+  return made;
 }
 
 }  // namespace
 
 void bind_predictor(py::module_& module) {
-  py::class_<StepStatus<double>>(module, "StepStatus", "What happened in one step.")
-      .def_readonly("overstretched", &StepStatus<double>::overstretched,
-                    "The tips are as far apart as the string is long, or farther, whatever the diabolo does.")
-      .def_readonly("snapped_taut", &StepStatus<double>::snapped_taut,
-                    "The string came taut within the step.")
-      .def_readonly("caught", &StepStatus<double>::caught, "The string was under a flying diabolo again.")
-      .def("__repr__", [](const StepStatus<double>& s) {
-        return py::str("StepStatus(overstretched={}, snapped_taut={}, caught={})")
-            .format(s.overstretched, s.snapped_taut, s.caught);
+  const auto said = [](bool StepStatus<double>::*field) {
+    return [field](const Step& made) { return made.status.*field; };
+  };
+  py::class_<Step>(module, "StepStatus", "What happened in one step.")
+      .def_property_readonly(
+          "overstretched", said(&StepStatus<double>::overstretched),
+          "The tips are as far apart as the string is long, or farther, whatever the diabolo does.")
+      .def_property_readonly("snapped_taut", said(&StepStatus<double>::snapped_taut),
+                             "The string came taut within the step.")
+      .def_property_readonly("caught", said(&StepStatus<double>::caught),
+                             "The string was under a flying diabolo again.")
+      .def_property_readonly(
+          "tensions", [](const Step& made) { return made.tensions; },
+          "Mean tensions of the left and the right strand over the step [N], for the mass of the parameters.")
+      .def("__repr__", [](const Step& made) {
+        return py::str(
+                   "StepStatus(overstretched={}, snapped_taut={}, caught={}, tensions=({:.4g}, {:.4g}) N)")
+            .format(made.status.overstretched, made.status.snapped_taut, made.status.caught,
+                    made.tensions.first, made.tensions.second);
       });
 
   py::class_<Simulator>(module, "Predictor", R"(Predicts the diabolo from the motion of the stick tips.

@@ -424,6 +424,8 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   cls.def("__repr__", [](const Recording& r) {
     return py::str("<Recording '{}': {} samples at {:g} Hz>").format(r.name, r.size(), r.rate);
   });
+  module.def("played_properties", &played_properties, "parameters"_a,
+             "The diabolo of a model: cups of the paper's red one, the model's mass and axle.");
   module.def(
       "played_recording", &make_played, "name"_a, "time"_a, "left"_a, "right"_a, "states"_a, "rate"_a,
       "properties"_a, "string_length"_a,

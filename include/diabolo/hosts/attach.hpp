@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "diabolo/full_predictor.hpp"
+#include "diabolo/strand_tensions.hpp"
 #include "diabolo/string/tip_geometry.hpp"
 
 // Our string on a body of somebody else's simulator. The host integrates, and knows contacts, joints and all
@@ -115,39 +116,22 @@ class AttachedString {
       settle_on_string(state, begin, string.length, PlaneProjector<double>());
   }
 
-  /// The two strands, from the middle of the diabolo's way over the step: unit vectors to the tips.
-  struct Strands {
-    Vector3<double> left, right;
-
-    /// Tensions that add up to a pull; both as large where the strands are all but in line.
-    std::pair<double, double> tensions(const Vector3<double>& pull) const {
-      const double cosine = left.dot(right), square = 1.0 - cosine * cosine;
-      if (!(square > 1e-6)) return {500.0 * pull.norm(), 500.0 * pull.norm()};
-      const double to_left = left.dot(pull), to_right = right.dot(pull);
-      return {std::max(0.0, (to_left - cosine * to_right) / square),
-              std::max(0.0, (to_right - cosine * to_left) / square)};
-    }
-  };
-
   /// Splits what the string gives the diabolo among its two strands, and gives it back to the tips.
   void pull_strands(const HostBody& body, const State<double>& before, const State<double>& after,
                     const Tips<double>& begin, const Tips<double>& end, double dt,
                     const Vector3<double>& reached, StringWrench& wrench) const {
-    const Parameters<double>& parameters = predictor_.parameters();
-    const Vector3<double> middle = 0.5 * (before.position + after.position),
-                          others = predictor_.effects().acceleration(before, begin, dt, parameters);
-    const Strands strands{(0.5 * (begin.left + end.left) - middle).normalized(),
-                          (0.5 * (begin.right + end.right) - middle).normalized()};
-    std::tie(wrench.left_tension, wrench.right_tension) =
-        strands.tensions(mass_ * ((after.velocity - before.velocity) / dt - others));
-    const Vector3<double> given = mass_ * ((reached - body.velocity) / dt - others);
+    const Strands strands = Strands::halfway(before, after, begin, end);
+    const Vector3<double> pull = string_pull(predictor_, before, after, begin, dt);
+    std::tie(wrench.left_tension, wrench.right_tension) = strands.tensions(mass_ * pull);
+    const Vector3<double> given =
+        mass_ * (pull + (reached - body.velocity - after.velocity + before.velocity) / dt);
     const auto [left, right] = strands.tensions(given);
     // What lies outside the strands' plane, or would push a tip, goes to both alike.
     const Vector3<double> rest = 0.5 * (given - left * strands.left - right * strands.right);
     wrench.on_left = -left * strands.left - rest;
     wrench.on_right = -right * strands.right - rest;
     const double passed = (end.right - after.position).norm() - (begin.right - before.position).norm();
-    wrench.slip = passed / dt - parameters.axle_radius * after.spin;
+    wrench.slip = passed / dt - predictor_.parameters().axle_radius * after.spin;
   }
 
   FullPredictor<double> predictor_;

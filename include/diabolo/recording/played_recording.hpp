@@ -8,11 +8,17 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/parameters.hpp"
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/state.hpp"
 
 namespace diabolo {
+
+/// The diabolo of a model: cups of the paper's red one, the model's mass and axle.
+inline DiaboloProperties played_properties(const Parameters<double>& parameters) {
+  return {parameters.mass, kRedDiabolo.diameter, kRedDiabolo.length, parameters.axle_radius};
+}
 
 /// A predicted play as a recording, sample by sample: time [s], tips [m], and the diabolo's states. Its
 /// orientations turn about world -x by the spin, body x along world x, so that readers see the spin again

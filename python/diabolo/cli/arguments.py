@@ -77,7 +77,6 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
         metavar=("HEIGHT", "SPACING", "FORWARD"),
         nargs=3,
         type=float,
-        default=[0.70, 1.10, 0.0],
         help="where two UR5e stand whose joints a bag tells of: height, distance and x of their bases [m]; "
         "default 0.7 1.1 0",
     )
@@ -163,8 +162,7 @@ def reading_of(arguments: argparse.Namespace) -> Reading:
 
 
 def arms_of(arguments: argparse.Namespace) -> list[StickArm]:
-    height, spacing, forward = arguments.arms
-    return [StickArm(side, height=height, spacing=spacing, forward=forward) for side in SIDES]
+    return [StickArm(side, *(arguments.arms or ())) for side in SIDES]
 
 
 def read_excerpt(text: str, reading: Reading) -> Excerpt:

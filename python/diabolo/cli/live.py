@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from ..live.server import LiveServer
 
 FRAME = 1.0 / 60.0
-"""From a frame to the next [s]."""
+"""Time from a frame to the next [s]."""
 LONGEST_TURN = 0.05
-"""That is played at once [s]: on a machine that falls behind, time goes slower and nothing jumps."""
+"""Longest time that is played at once [s]: a machine that falls behind plays slower, and nothing jumps."""
 UNWATCHED = 3.0
-"""Without a page, after which the play ends [s]; a page that is loaded anew is back before."""
+"""Time without a page after which the play ends [s]; a page that is loaded anew is back before."""
 LASTS, LONGEST = 3600.0, 86_400.0
-"""By default, and at most [s]."""
+"""How long a play lasts by default, and at most [s]."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -49,7 +49,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def check_options(arguments: argparse.Namespace) -> None:
     """Raise ValueError where one does not fit the others, or is out of its range."""
-    ours, others = ("port", "seconds", "out"), ("duration", "calibration", "up", "columns", "topics")
+    ours, others = ("port", "seconds", "out"), ("duration", "calibration", "up", "columns", "topics", "arms")
     for name in others if arguments.live else ours:
         if getattr(arguments, name) is not None:
             kind = "does not belong to --live" if arguments.live else "belongs to --live"

@@ -22,6 +22,7 @@ from .._core import (
     StickMap,
     TipLimits,
     Waypoint,
+    played_properties,
     played_recording,
 )
 from ..enums import StringState
@@ -180,9 +181,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = summary(played, model.name)
     title = out.stem if out else arguments.action
     p = model.parameters
-    recording = recording_of(
-        played, title, DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius), p.string_length
-    )
+    recording = recording_of(played, title, played_properties(p), p.string_length)
     if out:
         recording.save(out)
     if arguments.plot:

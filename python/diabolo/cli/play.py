@@ -147,15 +147,21 @@ def recording_of(
     agent: Agent, poses: list[Pose], outcomes: dict[str, NDArray[Any]], options: dict[str, Any]
 ) -> Recording:
     """The first episode, a sample for each period."""
-    from .._core import DiaboloProperties, played_recording
+    from .._core import played_properties, played_recording
     from ..envs.spaces import models_of
 
     poses = poses[: round(outcomes["seconds"][0] / agent.period) + 1]
     states = np.array([[*state.position, *state.velocity, state.spin] for state, _, _ in poses])
     lefts, rights = (np.array([pose[side] for pose in poses]) for side in (1, 2))
     p = models_of(options["model"], options["difficulty"])[outcomes["model"][0]].parameters
-    properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
     time = agent.period * np.arange(len(poses))
     return played_recording(
-        options["task"], time, lefts, rights, states, 1.0 / agent.period, properties, p.string_length
+        options["task"],
+        time,
+        lefts,
+        rights,
+        states,
+        1.0 / agent.period,
+        played_properties(p),
+        p.string_length,
     )

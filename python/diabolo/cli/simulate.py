@@ -12,20 +12,19 @@ from numpy.typing import NDArray
 
 from .. import files
 from .._core import (
-    DiaboloProperties,
     Model,
     Recording,
     TipMotion,
-    hanging_state,
     largest_spin,
+    played_properties,
     played_recording,
 )
 from ..enums import StringState
 from ..evaluation import DEFAULT_MODELS, predict
-from ..live.play import FARTHEST
 from ..live.play import RATE as LIVE_RATE
 from ..motions import MOTIONS
-from ..rollout import rollout
+from ..player import hang_at_rest
+from ..rollout import FARTHEST, rollout
 from . import live
 from .arguments import (
     RECORDING_HELP,
@@ -194,8 +193,7 @@ def on_motion(
     tips = MOTIONS[name](duration)
     length = model.parameters.string_length
     start = tips.at(0.0)
-    hanging = hanging_state(start[0], start[1], length)
-    initial = np.concatenate([hanging.position, np.zeros(3), [spin]])
+    initial = hang_at_rest(model, start[0], start[1], spin).to_array()
     samples = int(duration * RATE)
     result = rollout(
         model,
@@ -210,6 +208,5 @@ def on_motion(
     left, right, _, _ = tips.at(time)
     states = np.vstack([initial, result.states])
     codes = np.concatenate([[np.uint8(StringState.ON_STRING)], result.string_states])
-    p = model.parameters
-    properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
+    properties = played_properties(model.parameters)
     return played_recording(title, time, left, right, states, RATE, properties, length), codes

@@ -23,7 +23,7 @@ SCHEMA = "diabolo.recording/1"
 POSE, POINT = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 TOPICS = {"left": "/left_tip", "right": "/right_tip", "diabolo": "/diabolo"}
-"""Of what is written."""
+"""Topics that save() writes."""
 
 
 @dataclass

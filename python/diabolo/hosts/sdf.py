@@ -26,7 +26,7 @@ from .description import (
 )
 
 PLUGIN = 'filename="DiaboloString" name="diabolo::String"'
-"""Of our string in Gazebo."""
+"""Attributes by which Gazebo finds our string."""
 TIP = 1e-3, [1e-7] * 3
 """Mass [kg] and inertia [kg m^2] of a tip: links have to have some."""
 AXES = ("xx", "yy", "zz")

@@ -10,17 +10,17 @@ from .._core import TipLimits
 from ..motions import FORWARD
 
 FOLLOW = 22.0
-"""A hand goes after the pointer as a weight on a critically damped spring of this rate [1/s]."""
+"""Rate of the critically damped spring by which a hand goes after the pointer [1/s]."""
 FASTEST, HARDEST = TipLimits().speed, TipLimits().acceleration
-"""That it moves [m/s], and speeds up or slows down [m/s^2]: as in a plan for a person."""
+"""Largest speed [m/s] and acceleration [m/s^2] of a hand, as in a plan for a person."""
 WIDEST = 0.995
-"""Of the string's length: hands go no farther apart."""
+"""Share of the string's length beyond which hands do not part."""
 AT_REST = 0.9
-"""Of the string's length: hands that begin are no farther apart."""
+"""Share of the string's length beyond which hands that begin are not apart."""
 HOME = ((0.4, 1.25), (-0.4, 1.25))
 """Where the left and the right tip begin: to the left and up [m]."""
 REACH = ((-1.2, 1.2), (0.5, 2.2))
-"""Of a tip, to the left and up [m]. These, HOME and the law are the same on the page of `make page`."""
+"""Where a tip may be, to the left and up [m]. REACH, HOME and the law are those of `make page`, too."""
 
 
 class Hands:

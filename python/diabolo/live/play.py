@@ -9,18 +9,25 @@ from array import array
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import DiaboloProperties, Model, Predictor, Recording, hanging_state, played_recording
+from .._core import (
+    Model,
+    Predictor,
+    Recording,
+    StepStatus,
+    played_properties,
+    played_recording,
+)
 from ..enums import StringState
+from ..player import hang_at_rest
+from ..rollout import FARTHEST
 from .hands import Hands, in_plane
 from .wish import Wish
 
 DT = 1e-3
-"""Of a step [s]."""
+"""Length of a step [s]."""
 STEPS_PER_SAMPLE = 8
 RATE = 1.0 / (DT * STEPS_PER_SAMPLE)
-"""Of what is recorded [Hz]."""
-FARTHEST = 100.0
-"""From the origin, that a recording may hold [m]; there a play begins again."""
+"""Sampling rate of what is recorded [Hz]."""
 COLUMNS = 13  # both tips, position, velocity, spin
 
 
@@ -42,8 +49,7 @@ class Play:
         self.model, self.spin = model, spin
         self.predictor = Predictor(model)
         self.hands = Hands(model.parameters.string_length)
-        p = model.parameters
-        self.properties = DiaboloProperties(p.mass, 0.127, 0.143, p.axle_radius)
+        self.properties = played_properties(model.parameters)
         self.wish = Wish()
         self.stretches = 0
         self.longest = self.current = Stretch()
@@ -64,24 +70,22 @@ class Play:
         wanted = in_plane((self.wish.left, self.wish.right))
         count = round(self.owed // DT)
         self.owed -= count * DT
-        impulse = np.zeros(3)
+        pulled = np.zeros(2)
         for _ in range(count):
             try:
-                self._step(wanted)
+                pulled += self._step(wanted).tensions
             except FloatingPointError:  # the model leaves what numbers can hold
                 return self._hang()
             if self._is_dropped():
                 return self._hang()
-            impulse += self.state.string_acceleration * DT
             if self.steps % STEPS_PER_SAMPLE == 0:
                 self._sample()
         if count:
-            self.pull = self.model.parameters.mass * impulse / (count * DT)
+            self.tensions = pulled / count
 
     def frame(self) -> str:
         """What the page shows, as JSON: places [m], orientation x, y, z, w, spin [rad/s], tensions [N]."""
         half = 0.5 * self.turned
-        tensions = strand_tensions(self.hands.position, self.state.position, self.pull)
         shown = {
             "stretch": self.stretches,
             "time": round(self.steps * DT, 3),
@@ -91,7 +95,7 @@ class Play:
             "orientation": [round(-np.sin(half), 4), 0.0, 0.0, round(np.cos(half), 4)],
             "spin": round(self.state.spin, 1),
             "string": StringState(self.state.string_state).name.lower(),
-            "tensions": tensions.round(2).tolist(),
+            "tensions": self.tensions.round(2).tolist(),
         }
         return json.dumps(shown, allow_nan=False, separators=(",", ":"))
 
@@ -114,17 +118,18 @@ class Play:
         )
         return take, np.array(longest.string_states, dtype=np.uint8)
 
-    def _step(self, wanted: NDArray[np.float64]) -> None:
+    def _step(self, wanted: NDArray[np.float64]) -> StepStatus:
         before, velocities = self.hands.position, self.hands.velocity
         self.hands.follow(wanted, DT)
         after = self.hands.position
         velocities = np.concatenate([velocities, self.hands.velocity])
         time = self.steps * DT
-        self.predictor.step(
+        status = self.predictor.step(
             self.state, before[0], before[1], after[0], after[1], DT, list(velocities), time=time
         )
         self.turned = (self.turned + self.state.spin * DT) % (4.0 * np.pi)
         self.steps += 1
+        return status
 
     def _is_dropped(self) -> bool:
         """Whether it is a string's length below the hands, or far away."""
@@ -135,9 +140,8 @@ class Play:
     def _hang(self) -> None:
         """At rest below hands at rest where the pointer wants them."""
         self.hands.rest_at(in_plane((self.wish.left, self.wish.right)))
-        length = self.model.parameters.string_length
-        self.state = hanging_state(self.hands.position[0], self.hands.position[1], length, self.spin)
-        self.pull = np.zeros(3)
+        self.state = hang_at_rest(self.model, *self.hands.position, self.spin)
+        self.tensions = np.zeros(2)
         self._begin_stretch()
 
     def _begin_stretch(self) -> None:
@@ -150,16 +154,3 @@ class Play:
     def _sample(self) -> None:
         self.current.rows.extend((*self.hands.position.ravel(), *self.state.to_array()))
         self.current.string_states.append(self.state.string_state)
-
-
-def strand_tensions(
-    tips: NDArray[np.float64], diabolo: NDArray[np.float64], pull: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Of the left and the right strand [N], which add up to a pull on the diabolo, shape (3,) [N].
-
-    tips: shape (2, 3) [m]. Strands that are all but in line or on each other share the pull.
-    """
-    strands = tips - diabolo
-    strands /= np.maximum(np.linalg.norm(strands, axis=1, keepdims=True), 1e-9)
-    tensions = np.asarray(np.linalg.lstsq(strands.T, pull, rcond=1e-3)[0], dtype=np.float64)
-    return tensions.clip(0.0)

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 from ..checks import shown
 from .hands import HOME, REACH
 
-FASTEST = 2.0
-"""That time may go, per second of the clock."""
+FASTEST_TIME = 2.0
+"""Seconds of play in a second of the clock, at most."""
 
 
 class Wish(NamedTuple):
@@ -37,7 +37,7 @@ def wish_of(body: bytes) -> Wish:
     return Wish(
         _tip("left", wish.left),
         _tip("right", wish.right),
-        _within("speed", wish.speed, 0.0, FASTEST),
+        _within("speed", wish.speed, 0.0, FASTEST_TIME),
         wish.begin,
     )
 
