@@ -63,7 +63,10 @@ class DiaboloString : public gz::sim::System,
   }
 
   void Reset(const gz::sim::UpdateInfo&, EntityComponentManager&) override {
-    if (string_) string_->reset();
+    if (string_) {
+      string_->reset();
+      failed_ = false;  // what went wrong in motion; a wrong element stays one
+    }
     held_ = {};
     const std::lock_guard lock(mutex_);
     wanted_.reset();
@@ -72,7 +75,7 @@ class DiaboloString : public gz::sim::System,
  private:
   using Places = std::array<Vector3<double>, 2>;
 
-  /// Says once what is wrong; from then on the string does nothing.
+  /// Says once what is wrong; the string does nothing from then on, or to the next reset.
   template <class Action>
   void guarded(const EntityComponentManager& ecm, const Action& action) {
     try {
@@ -111,7 +114,12 @@ class DiaboloString : public gz::sim::System,
       const std::string child = k == 0 ? "left" : "right";
       const auto found = gz::sim::entitiesFromScopedName(element_.needed(child), ecm);
       tips_[k] = checked(Link(found.size() == 1 ? *found.begin() : gz::sim::kNullEntity), child, ecm);
+      if (tips_[k].Entity() == link_.Entity() || tips_[k].Entity() == spinning_.Entity())
+        throw std::invalid_argument("<" + child + ">: a link of the diabolo; expected another model");
     }
+    if (tips_[0].Entity() == tips_[1].Entity())
+      throw std::invalid_argument("<right>: the same link as <left>; expected two");
+    check_links(model_.LinkCount(ecm), link_.Entity() == spinning_.Entity());
     const auto inertial = [&ecm](const Link& link) {
       const auto* component = ecm.Component<gz::sim::components::Inertial>(link.Entity());
       if (component == nullptr) throw std::invalid_argument("a link has no inertia; expected one");

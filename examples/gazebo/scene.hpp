@@ -69,6 +69,7 @@ inline void read_plugin(const sdf::Model& model, const sdf::ElementPtr& plugin, 
                     spinning = scene.element("spinning_link").empty() ? link : scene.element("spinning_link");
   const sdf::Link& pulled = link_of(*scene.world, "link", scene.model, link);
   const sdf::Link& turning = link_of(*scene.world, "spinning_link", scene.model, spinning);
+  check_links(model.LinkCount(), spinning == link);
   scene.body = body_of(pulled.Inertial(), turning.Inertial());
   if (spinning != link) scene.axle = axle_of(model, link, spinning);
   for (const char* const tip : {"left", "right"}) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -36,6 +37,13 @@ Body body_of(const Inertial& link, const Inertial& spinning) {
       throw std::invalid_argument("<link>: its centre of mass is beside its origin; expected it there");
   const double mass = link.MassMatrix().Mass();
   return {&link == &spinning ? mass : mass + spinning.MassMatrix().Mass(), spinning.Moi()(0, 0)};
+}
+
+/// Throws std::invalid_argument where the diabolo's model has further links, whose mass nobody would count.
+inline void check_links(std::uint64_t count, bool spins_itself) {
+  if (count != (spins_itself ? 1 : 2))
+    throw std::invalid_argument("<link>: the model has " + std::to_string(count) + " links; expected <link>" +
+                                (spins_itself ? "" : " and <spinning_link>") + " alone");
 }
 
 /// Our string on a link, by whoever moves it: the engine alone, or a Gazebo server.

@@ -13,15 +13,20 @@ The drum is the axle of a diabolo that is held in its place; MuJoCo's tendon wra
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
-import mujoco
 import numpy as np
 from diabolo.checks import check_drawing
+from diabolo.cli import Parser
+from diabolo.cli.arguments import output_name
 from diabolo.files import check_outputs, whole_file
 from diabolo.hosts.mujoco import load_plugin
+
+try:
+    import mujoco
+except ModuleNotFoundError as error:
+    sys.exit(f"capstan.py: {error}; expected it from: pip install 'diabolo[mujoco]'")
 
 DT, SETTLES, SEEN = 1e-3, 0.2, 0.1  # step, and what is waited for and looked at [s]
 WEIGHT, GRAVITY = 0.2, 9.80665  # of the left one [kg], [m/s^2]
@@ -139,9 +144,10 @@ def draw(rows: list[dict[str, float]], picture: Path) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--picture", type=Path, help="draw it")
-    picture = parser.parse_args().picture
+    parser = Parser(description=__doc__.splitlines()[0], allow_abbrev=False)
+    parser.add_argument("--picture", type=output_name, help="draw it")
+    name = parser.parse_args().picture
+    picture = Path(name) if name else None
     try:
         if picture:
             check_drawing(picture, "matplotlib")

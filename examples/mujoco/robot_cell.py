@@ -12,22 +12,29 @@ diabolo_in_mujoco.py says what drawing needs.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
-from diabolo import Model, Parameters, hang_at_rest
+from diabolo import Model, hang_at_rest
 from diabolo.checks import check_drawing
+from diabolo.cli import Parser
+from diabolo.cli.arguments import output_name, read_model
+from diabolo.evaluation import DEFAULT_MODELS
 from diabolo.files import check_outputs
 from diabolo.hosts import mujoco as host
 from diabolo.robot import StickArm, joints_of
-from diabolo_in_mujoco import render, take_camera
 
-import mujoco  # isort: skip (diabolo_in_mujoco says how it draws)
+try:
+    from diabolo_in_mujoco import render, take_camera
+
+    import mujoco  # isort: skip (diabolo_in_mujoco says how it draws)
+except ModuleNotFoundError as error:
+    sys.exit(f"robot_cell.py: {error}; expected it from: pip install 'diabolo[mujoco]'")
 
 DT, DURATION, LAG = 1e-3, 4.0, 0.02  # step, play, and what the servos take about [s]
 SPIN = 60.0  # to begin with [rad/s]
+SHORTEST, LONGEST = 0.75, 2.2  # string: longer than the tips are apart, and clear of the floor [m]
 
 
 def tips(times: np.ndarray) -> dict[str, np.ndarray]:
@@ -42,6 +49,11 @@ def tips(times: np.ndarray) -> dict[str, np.ndarray]:
 
 def play(model: Model) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray, float]:
     """The last instant, the path of the diabolo [m], and how far the tips were off the late plan [m]."""
+    length = model.parameters.string_length
+    if not SHORTEST <= length <= LONGEST:
+        raise ValueError(
+            f"string_length: {length:g} m; expected {SHORTEST:g} to {LONGEST:g} m between these tips"
+        )
     arms = [StickArm("left"), StickArm("right")]
     wanted = tips(np.arange(0.0, DURATION, DT))
     commands = np.hstack([joints_of(arm, wanted[arm.side]) for arm in arms])
@@ -65,26 +77,31 @@ def play(model: Model) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray, float
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--model", type=Path, help="a model file, as a diagnosis writes it")
-    parser.add_argument("--picture", type=Path, default=Path("robot_cell.png"))
+    parser = Parser(description=__doc__.splitlines()[0], allow_abbrev=False)
+    parser.add_argument(
+        "--model",
+        metavar="NAME",
+        default="consistent",
+        help="published, paper, consistent (default) or a model file",
+    )
+    parser.add_argument("--picture", metavar="FILE", type=output_name, default="robot_cell.png")
     arguments = parser.parse_args()
+    picture = Path(arguments.picture)
     try:
-        check_drawing(arguments.picture, "PIL.Image")
-        check_outputs([arguments.picture], [arguments.model] if arguments.model else [])
-        model = Model.load(arguments.model) if arguments.model else Model(Parameters())
-        physics, data, path, off = play(model)
+        check_drawing(picture, "PIL.Image")
+        check_outputs([picture], [] if arguments.model in DEFAULT_MODELS else [arguments.model])
+        physics, data, path, off = play(read_model(arguments.model))
     except (ValueError, OSError, RuntimeError) as error:
         print(f"robot_cell.py: {error}", file=sys.stderr)
         return 2
     print(f"tips within {1e3 * off:.1f} mm of the plan, {1e3 * LAG:.0f} ms late")
     print(f"the diabolo rose and fell by {1e3 * np.ptp(path[:, 2]):.0f} mm")
     try:
-        render(physics, data, path[-400:], arguments.picture, take_camera((0.2, 0.0, 0.75), 2.5, 150))
+        render(physics, data, path[-400:], picture, take_camera((0.2, 0.0, 0.75), 2.5, 150))
     except Exception as error:  # whatever a graphics stack may raise
         print(f"robot_cell.py: cannot render here ({error})", file=sys.stderr)
         return 2
-    print(f"Picture: {arguments.picture}")
+    print(f"Picture: {picture}")
     return 0
 
 

@@ -9,9 +9,6 @@ It steps by the stamps of what it hears, and by no clock: the same messages give
 from __future__ import annotations
 
 import sys
-from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 
 from diabolo.robot import StickArm
@@ -23,7 +20,7 @@ from sensor_msgs.msg import JointState
 from session import QUALITY, listen, model_of, parser_of, run
 from std_msgs.msg import Header
 from string_in_time import StringInTime
-from tips import JOINTS, SIDES, JointTips, MessageError, TipPairs, Tips, stamp_of, tip_of
+from tips import JOINTS, SIDES, JointTips, Refusals, TipPairs, Tips, stamp_of, tip_of
 
 DEFAULTS = {
     "model": "consistent",  # or published, paper, a model file
@@ -45,12 +42,19 @@ class DiaboloNode(Node):
         super().__init__("diabolo")
         self.declare_parameters("", list(DEFAULTS.items()))
         self.declare_parameter("start", Parameter.Type.DOUBLE_ARRAY)
+        self._refuse_unknown()
         given = {name: self.get_parameter(name).value for name in DEFAULTS}
-        self._frame, self._warned = given["frame"], Counter[str]()
+        self._frame, self.refusals = given["frame"], Refusals(self.get_logger().warning)
         model = model_of(given["model"], given["string_length"])
-        self._play = StringInTime(model, self._warn, self._start(), given["spin"], given["dt"])
+        self._play = StringInTime(model, self.refusals.add, self._start(), given["spin"], given["dt"])
         self._outputs = Outputs(self)
         self._listen(given)
+
+    def _refuse_unknown(self) -> None:
+        """A misspelt parameter would be ignored."""
+        for name in self._parameter_overrides:
+            if not self.has_parameter(name):
+                raise ValueError(f"parameter {name!r}; expected {', '.join(DEFAULTS)} or start")
 
     def _start(self) -> list[float] | None:
         """Position, velocity and spin, where it is not to hang at rest."""
@@ -71,13 +75,13 @@ class DiaboloNode(Node):
             raise ValueError(f"source: {given['source']!r}; expected tips or joints")
 
     def _hear_tip(self, side: str, message: PoseStamped) -> None:
-        with self._refusing():
+        with self.refusals.catching():
             tip = tip_of(f"{side}_tip", message, self._frame)
             if tips := self._pairs.add(side, stamp_of(message), tip):
                 self._advance(tips, message)
 
     def _hear_joints(self, message: JointState) -> None:
-        with self._refusing():
+        with self.refusals.catching():
             self._advance(self._arms.tips_of(message), message)
 
     def _advance(self, tips: Tips, message: PoseStamped | JointState) -> None:
@@ -85,31 +89,12 @@ class DiaboloNode(Node):
         self._play.advance(stamp_of(message), tips)
         self._outputs.publish(self._play, Header(stamp=message.header.stamp, frame_id=self._frame))
 
-    @contextmanager
-    def _refusing(self) -> Iterator[None]:
-        try:
-            yield
-        except MessageError as refused:
-            self._warn(refused.kind, refused.sentence)
-
-    def _warn(self, kind: str, sentence: str) -> None:
-        """Of each kind once, not five hundred times a second."""
-        self._warned[kind] += 1
-        if self._warned[kind] == 1:
-            self.get_logger().warning(f"{kind}: {sentence}")
-
-    def report(self) -> None:
-        """How often each kind was there."""
-        for kind, count in self._warned.items():
-            if count > 1:
-                self.get_logger().warning(f"{kind}: {count} times in all")
-
 
 def work(arguments: list[str]) -> None:
     parser_of(__doc__).parse_args(arguments)
     node = DiaboloNode()
     listen(node)
-    node.report()
+    node.refusals.report()
 
 
 if __name__ == "__main__":

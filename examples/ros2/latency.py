@@ -18,10 +18,9 @@ from diabolo import TipMotion
 from geometry_msgs.msg import PoseStamped
 from numpy.typing import NDArray
 from rclpy.executors import Executor
-from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from senders import JointSender, TipSender, in_time, wait_until_heard
-from session import QUALITY, listen, parser_of, run
+from session import QUALITY, executor_of, listen, parser_of, run
 from tips import stamp_of
 
 Floats = NDArray[np.float64]
@@ -29,35 +28,38 @@ PATIENCE = 20.0  # after the last tip [s]
 
 
 class Meter(Node):
-    """Moves the tips and hears the poses. poses: of the diabolo, by their stamp [ns]; delays: theirs [s]."""
+    """Moves the tips and hears the poses.
+
+    poses: of the diabolo, by their stamp [ns]; delays: theirs [s]; last: the stamp of the last pose, also of
+    one whose tips another one sent; 0: none was heard.
+    """
 
     def __init__(self) -> None:
         super().__init__("latency")
         self.create_subscription(PoseStamped, "diabolo/pose", self._hear, QUALITY)
-        self._found = False
+        self.last = 0
         self.sent: dict[int, float] = {}
         self.poses: dict[int, PoseStamped] = {}
         self.delays: list[float] = []
 
     def _hear(self, message: PoseStamped) -> None:
         now, stamp = time.perf_counter(), stamp_of(message)
-        self._found = True
+        self.last = stamp
         if stamp in self.sent:
             self.delays.append(now - self.sent[stamp])
             self.poses[stamp] = message
 
     def measure(self, sender: TipSender | JointSender, times: Floats, begin: int) -> None:
         """times: the sender's [s]; begin: the first stamp [ns]. Ends when all is heard, or given up."""
-        executor = EventsExecutor()
-        executor.add_node(self)
-        self._find(sender, begin, executor)
-        for i in in_time(times.tolist(), executor.spin_once):
-            stamp = begin + round(1e9 * times[i])
-            self.sent[stamp] = time.perf_counter()
-            sender.send(i, stamp)
-        end = time.monotonic() + PATIENCE
-        while len(self.poses) < len(self.sent) and time.monotonic() < end:
-            executor.spin_once(0.01)
+        with executor_of(self) as executor:
+            self._find(sender, begin, executor)
+            for i in in_time(times.tolist(), executor.spin_once):
+                stamp = begin + round(1e9 * times[i])
+                self.sent[stamp] = time.perf_counter()
+                sender.send(i, stamp)
+            end = time.monotonic() + PATIENCE
+            while len(self.poses) < len(self.sent) and time.monotonic() < end:
+                executor.spin_once(0.01)
 
     def _find(self, sender: TipSender | JointSender, begin: int, executor: Executor) -> None:
         """Until the first tips, sent a minute early, are answered: then both ways are open."""
@@ -65,7 +67,7 @@ class Meter(Node):
         for attempt in range(1000):
             sender.send(0, begin - (3000 - attempt) * 20_000_000)
             executor.spin_once(0.02)
-            if self._found:
+            if self.last:
                 return
         raise ValueError("no pose is heard; expected a running diabolo_node.py")
 
@@ -92,6 +94,16 @@ def swing(times: Floats) -> TipMotion:
     return TipMotion(times, left, right)
 
 
+def times_of(seconds: float, rate: float) -> Floats:
+    """Of so long a play. Raises ValueError."""
+    if not (0.1 <= seconds <= 3600.0 and 1.0 <= rate <= 10_000.0):
+        raise ValueError(f"--seconds {seconds:g} --rate {rate:g}; expected 0.1 to 3600 s and 1 to 10000 Hz")
+    count = int(seconds * rate)
+    if count < 2:
+        raise ValueError(f"--seconds {seconds:g} --rate {rate:g}: {count} samples; expected two or more")
+    return np.arange(count) / rate
+
+
 def work(arguments: list[str]) -> None:
     parser = parser_of(__doc__)
     parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="default: 60")
@@ -101,13 +113,15 @@ def work(arguments: list[str]) -> None:
     if given.echo:
         listen(Echo())
         return
-    if not (0.1 <= given.seconds <= 3600.0 and 1.0 <= given.rate <= 10_000.0):
-        raise ValueError("--seconds, --rate: expected 0.1 to 3600 s and 1 to 10000 Hz")
-    times = np.arange(int(given.seconds * given.rate)) / given.rate
+    times = times_of(given.seconds, given.rate)
     meter = Meter()
     gc.freeze()
     sender = TipSender(meter, swing(times), times)
     meter.measure(sender, times, meter.get_clock().now().nanoseconds)
+    if not meter.delays:
+        raise ValueError(
+            f"none of {len(times)} tips was answered in {PATIENCE:g} s; expected a running diabolo_node.py"
+        )
     middle, late, worst = 1e3 * np.quantile(meter.delays, (0.5, 0.99, 1.0))
     print(
         f"{len(times)} sent, {meter.lost} lost; tip to pose [ms]: median {middle:.2f}, 99 % {late:.2f}, "

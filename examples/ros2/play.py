@@ -27,8 +27,11 @@ def motion_of(path: str, topics: str | None) -> TipMotion:
     file = Path(path)
     if file.is_file() and file.suffix == ".csv" and not file.with_suffix(".json").exists():
         with file.open(encoding="utf-8-sig", errors="replace") as lines:
-            if "left_x" in lines.readline(200):
-                return load_tip_plan(path)
+            is_plan = "left_x" in lines.readline(200)
+        if is_plan and topics is not None:
+            raise ValueError(f"{path}: topics are given, but it is a plan; expected them of a bag")
+        if is_plan:
+            return load_tip_plan(path)
     return TipMotion.of_recording(load_recording(path, topics=topics))
 
 
@@ -53,6 +56,8 @@ def work(arguments: list[str]) -> None:
     given = parser.parse_args(arguments)
     if given.start is not None and not 0.0 <= given.start <= LATEST:
         raise ValueError(f"--start {given.start:g}; expected 0 to {LATEST:.0f}")
+    if given.listeners < 0:
+        raise ValueError(f"--listeners {given.listeners}; expected 0 or more")
     motion = motion_of(given.file, given.topics)
     times = times_of(motion, given.rate)
     node = Node("player")

@@ -64,7 +64,7 @@ def header_of(stamp: int, frame: str = "") -> Header:
     return Header(stamp=Time(sec=stamp // 10**9, nanosec=stamp % 10**9), frame_id=frame)
 
 
-def wait_until_heard(outputs: Sequence[Publisher], listeners: int = 1, seconds: float = 10.0) -> None:
+def wait_until_heard(outputs: Sequence[Publisher], listeners: int = 1, seconds: float = 60.0) -> None:
     """Wait until so many listen to each. Raises ValueError where they do not within that time."""
     end = time.monotonic() + seconds
     for output in outputs:

@@ -11,7 +11,8 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import rclpy
@@ -19,6 +20,7 @@ from diabolo import Model
 from diabolo.cli import Parser
 from diabolo.cli.arguments import read_model
 from rclpy.exceptions import ParameterException
+from rclpy.executors import Executor
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -40,7 +42,7 @@ def run(work: Callable[[list[str]], None]) -> int:
     for one in SIGNALS:
         signal.signal(one, signal.default_int_handler)
     try:
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)  # its own end ROS amidst a step
+        _begin()
         work(remove_ros_args(sys.argv)[1:])
     except KeyboardInterrupt:
         pass
@@ -50,6 +52,13 @@ def run(work: Callable[[list[str]], None]) -> int:
     finally:
         rclpy.try_shutdown()
     return 0
+
+
+def _begin() -> None:
+    try:
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)  # its own end ROS amidst a step
+    except RuntimeError as error:
+        raise ValueError(f"--ros-args: {error}; expected arguments of ROS") from error
 
 
 def parser_of(text: str | None) -> argparse.ArgumentParser:
@@ -64,11 +73,22 @@ def listen(node: Node, seconds: float = math.inf) -> None:
     stopped = threading.Event()
     for one in SIGNALS:
         signal.signal(one, lambda *_: stopped.set())
+    end = time.monotonic() + seconds
+    with executor_of(node) as executor:
+        while not stopped.is_set() and (left := end - time.monotonic()) > 0.0:
+            executor.spin_once(timeout_sec=min(left, 0.1))  # its spin() never sleeps
+
+
+@contextmanager
+def executor_of(node: Node) -> Iterator[Executor]:
+    """It hands a node what it hears, as long as it is spun."""
     executor = EventsExecutor()
     executor.add_node(node)
-    end = time.monotonic() + seconds
-    while not stopped.is_set() and (left := end - time.monotonic()) > 0.0:
-        executor.spin_once(timeout_sec=min(left, 0.1))  # its spin() never sleeps
+    try:
+        yield executor
+    finally:
+        executor.remove_node(node)
+        executor.shutdown()
 
 
 def model_of(name: str, string_length: float) -> Model:

@@ -40,7 +40,9 @@ class StringInTime:
     ) -> None:
         """Raises ValueError."""
         if start is not None and not (len(start) == 7 and np.abs(start).max() <= LARGEST):
-            raise ValueError(f"start: {list(start)}; expected position, velocity and spin, seven numbers")
+            raise ValueError(
+                f"start: {list(start)}; expected position, velocity, spin: seven numbers within {LARGEST:g}"
+            )
         if not abs(spin) <= LARGEST:
             raise ValueError(f"spin: {spin:g} rad/s; expected a number within {LARGEST:g}")
         if not 1e-5 <= dt <= LONGEST_STEP:

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +19,8 @@ from turns import first_axis
 
 JOINTS = [f"{side}_{joint}" for side in SIDES for joint in robot.JOINTS]
 """Names of the arms' joints, the left arm's first."""
+LARGEST_ANGLE = 6.4
+"""Of a joint [rad]: a full turn either way, and a little."""
 MOST_WAITING = 1000
 """Tips of one side without one of the other."""
 
@@ -27,6 +31,32 @@ class MessageError(ValueError):
     def __init__(self, kind: str, sentence: str) -> None:
         super().__init__(f"{kind}: {sentence}")
         self.kind, self.sentence = kind, sentence
+
+
+class Refusals:
+    """Warns of each kind of message that is not used once, not five hundred times a second."""
+
+    def __init__(self, warn: Callable[[str], object]) -> None:
+        self._warn, self._counts = warn, Counter[str]()
+
+    def add(self, kind: str, sentence: str) -> None:
+        self._counts[kind] += 1
+        if self._counts[kind] == 1:
+            self._warn(f"{kind}: {sentence}")
+
+    @contextmanager
+    def catching(self) -> Iterator[None]:
+        """Add what is refused within."""
+        try:
+            yield
+        except MessageError as refused:
+            self.add(refused.kind, refused.sentence)
+
+    def report(self) -> None:
+        """How often each kind was there."""
+        for kind, count in self._counts.items():
+            if count > 1:
+                self._warn(f"{kind}: {count} times in all")
 
 
 class Tip(NamedTuple):
@@ -96,19 +126,34 @@ class JointTips:
 
     def __init__(self, arms: Sequence[StickArm], names: Sequence[str]) -> None:
         """names: the six of the left arm, then those of the right one. Raises ValueError."""
-        if len({*names}) != len(JOINTS):
-            raise ValueError(f"joints: {len({*names})} names; expected {len(JOINTS)}, such as {JOINTS[0]}")
+        if not len(names) == len({*names}) == len(JOINTS):
+            raise ValueError(
+                f"joints: {len(names)} names; expected {len(JOINTS)}, each once, such as {JOINTS[0]}"
+            )
         self._arms, self._names = arms, list(names)
 
     def tips_of(self, message: Any) -> Tips:
         """Of a JointState. Raises MessageError."""
-        given = dict(zip(message.name, message.position, strict=False))
-        if missing := [name for name in self._names if name not in given]:
-            raise MessageError("joint_states, joints missing", ", ".join(missing))
-        joints = np.array([given[name] for name in self._names])
-        if not np.isfinite(joints).all():
-            raise MessageError("joint_states, position", f"{joints.tolist()} rad; expected finite numbers")
+        joints = np.array(self._angles_of(message))
         return Tips(*map(self._tip, self._arms, joints.reshape(2, 6)))
+
+    def _angles_of(self, message: Any) -> list[float]:
+        """In the order of the names [rad]."""
+        names, positions = list(message.name), message.position
+        if missing := [name for name in self._names if name not in names]:
+            raise MessageError("joint_states, joints missing", ", ".join(missing))
+        if not len(positions) == len(names) == len({*names}):
+            raise MessageError(
+                "joint_states, name",
+                f"{len(positions)} positions of {len({*names})} joints; expected one of each",
+            )
+        given = dict(zip(names, positions, strict=True))
+        for name in self._names:
+            if not abs(given[name]) <= LARGEST_ANGLE:
+                raise MessageError(
+                    "joint_states, position", f"{name} is {given[name]:g}; expected rad, within 2 pi"
+                )
+        return [given[name] for name in self._names]
 
     @staticmethod
     def _tip(arm: StickArm, joints: NDArray[np.float64]) -> Tip:

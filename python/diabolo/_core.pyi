@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
   """Name, unit and range of a numeric parameter."""
   @property
@@ -883,6 +883,9 @@ class StepStatus:
   @property
   def snapped_taut(self) -> bool:
     """The string came taut within the step."""
+  @property
+  def tensions(self) -> tuple[float, float]:
+    """Mean tensions of the left and the right strand over the step [N], for the mass of the parameters."""
 class Predictor:
   """
   Predicts the diabolo from the motion of the stick tips.
@@ -2285,6 +2288,8 @@ def plan_action(action: str, models: collections.abc.Sequence[Model], start: Sta
   """See diabolo.plan_action."""
 def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: StickSpline, goals: Goals, limits: TipLimits, dt: _Real = 0.004) -> float:
   """The paper's residual of a motion; infinite where it breaks a limit."""
+def played_properties(parameters: Parameters) -> DiaboloProperties:
+  """The diabolo of a model: cups of the paper's red one, the model's mass and axle."""
 def played_recording(name: str, time: _Reals, left: _Reals, right: _Reals, states: _Reals, rate: _Real, properties: DiaboloProperties, string_length: _Real) -> Recording:
   """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin."""
 def predict(recording: Recording, model: Model, row: _Whole | None, start: str) -> tuple:

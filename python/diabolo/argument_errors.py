@@ -15,6 +15,7 @@ from .checks import LARGEST_SEED, number, numbers, recording_of, shown, whole_nu
 
 NUMBERS = "an array of numbers"
 RECORDING = "diabolo._core.Recording"
+SEQUENCE = r"(collections\.abc\.Sequence|list)\["
 
 
 class Parameter(NamedTuple):
@@ -141,6 +142,8 @@ def _fits(value: Any, kind: str) -> bool:
 
 def _fits_one(value: Any, kind: str) -> bool:
     inner = _inside(kind)
+    if size := _fixed_size(kind):
+        return _is_sequence(value) and len(value) == size and _fits(value, inner[0])
     if kind == "None":
         return value is None
     if kind in ("str", "bool"):
@@ -149,6 +152,8 @@ def _fits_one(value: Any, kind: str) -> bool:
         return _is_taken(lambda: number("", value))
     if kind in ("int", "typing.SupportsInt", "typing.SupportsIndex"):
         return _is_taken(lambda: whole_number("", value, -LARGEST_SEED, LARGEST_SEED))
+    if re.match(SEQUENCE, kind):
+        return _is_sequence(value) and all(_fits(item, inner[0]) for item in value)
     if "ArrayLike" in kind or "NDArray" in kind or "numpy.ndarray" in kind:
         return _is_array(value, _extents(kind))
     if kind.startswith("diabolo._core."):
@@ -159,8 +164,6 @@ def _fits_one(value: Any, kind: str) -> bool:
         return isinstance(value, Mapping) and all(
             _fits(key, inner[0]) and _fits(item, inner[1]) for key, item in value.items()
         )
-    if re.match(r"(collections\.abc\.Sequence|list)\[", kind):
-        return _is_sequence(value) and all(_fits(item, inner[0]) for item in value)
     if re.match(r"tuple\[", kind):
         return _is_sequence(value) and len(value) == len(inner) and all(map(_fits, value, inner))
     return True
@@ -192,6 +195,12 @@ def _extents(kind: str) -> list[int]:
     return [int(extent) for extent in found[1].split(", ")] if found else []
 
 
+def _fixed_size(kind: str) -> int:
+    """Of a sequence with so many items, such as "FixedSize(4)"; 0 of others."""
+    found = re.search(r', "FixedSize\((\d+)\)"\]$', kind)
+    return int(found[1]) if found else 0
+
+
 def _inside(kind: str) -> list[str]:
     """What stands in the brackets that a type ends with."""
     if not kind.endswith("]"):
@@ -220,6 +229,10 @@ def _expected_one(kind: str) -> str:
     }
     if kind in words:
         return words[kind]
+    if size := _fixed_size(kind):
+        return f"{_expected(_inside(kind)[0])}, {size} of them"
+    if re.match(SEQUENCE, kind):
+        return f"a list, each {_expected(_inside(kind)[0])}"
     if "ArrayLike" in kind or "NDArray" in kind or "numpy.ndarray" in kind:
         extents = [extent for extent in _extents(kind) if extent != 1]
         return NUMBERS + (f" of the shape ({', '.join(map(str, extents))},)" if extents else "")
@@ -227,8 +240,6 @@ def _expected_one(kind: str) -> str:
         return "the name of a file"
     if "Mapping[" in kind:
         return "a dict, each {} to {}".format(*map(_expected, _inside(kind)))
-    if re.match(r"(collections\.abc\.Sequence|list)\[", kind):
-        return f"a list, each {_expected(_inside(kind)[0])}"
     if re.match(r"tuple\[", kind):
         return "a tuple of " + ", ".join(_expected(one) for one in _inside(kind))
     return kind.rpartition(".")[2]

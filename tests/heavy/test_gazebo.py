@@ -183,6 +183,11 @@ def test_what_gazebo_plays_is_compared_with_reality(player: Player, tmp_path: Pa
             "<left>: a link of the diabolo; expected another model",
         ),
         ("<left>left_tip::tip<", "<left>ground::link<", '<left>: the model "ground" is static'),
+        (
+            "<joint name=",
+            '<link name="more"/><joint name=',
+            "<link>: the model has 3 links; expected <link> and <sp",
+        ),
         ("<xyz>1 0 0<", "<xyz>0 1 0<", "<spinning_link>: the model has no revolute joint"),
         ("<model>consistent<", "<colour>red<", "<colour> is unknown; expected link, spinning_link, left"),
         ("<model>consistent<", "<model>none.json<", "none.json: there is no such file"),

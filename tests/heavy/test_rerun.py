@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from diabolo import Recording, load_recording, save_recording
+from diabolo import Recording, RecordingError, load_recording, save_recording
 from diabolo.cli import main
 
 pytest.importorskip("rerun", reason="rerun is not installed: pip install '.[rerun]'")
@@ -58,6 +58,11 @@ def test_a_take_is_there_row_by_row(tmp_path: Path) -> None:
         np.testing.assert_array_equal(told, values)
     seconds = 1e-9 * np.array(found["/height"]["time"])
     np.testing.assert_allclose(seconds, take.time - take.time[0], rtol=0.0, atol=2e-9)
+
+
+def test_what_cannot_be_written_is_told_in_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match=r"nowhere/a\.rrd: cannot be written \(.*No such file"):
+        save_recording(load_recording(SWING), tmp_path / "nowhere" / "a.rrd")
 
 
 def test_points_alone_and_a_diabolo_that_is_never_seen_are_written(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import random
 import signal
@@ -78,6 +79,14 @@ def meter() -> Iterator[object]:
         peer.destroy_node()
 
 
+def hear(peer: object, stamp: int = 1) -> None:
+    """Wait for a pose of this stamp [ns] or a later one."""
+    from session import executor_of
+
+    with executor_of(peer) as executor:
+        wait_for(lambda: peer.last >= stamp, lambda: executor.spin_once(0.02))
+
+
 def swing(seconds: float) -> tuple[TipMotion, np.ndarray]:
     """A motion of the tips, and its times."""
     import latency
@@ -116,7 +125,7 @@ def test_at_500_hz_nothing_is_lost_and_the_poses_are_the_predictor_s() -> None:
     with node(), meter() as peer:
         played(peer, *swing(10.0))
         print("median delay [ms]:", 1e3 * np.median(peer.delays))
-        assert np.median(peer.delays) < 5.0  # others may keep the machine busy
+        assert np.quantile(peer.delays, 0.1) < 0.2  # others may keep the machine busy
 
 
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
@@ -126,8 +135,7 @@ def test_a_signal_amidst_play_ends_it_cleanly(by: int, tmp_path: Path) -> None:
         running("play.py", SWING, "--rate", RATE) as player,
         meter() as peer,
     ):
-        wait_for(lambda: peer.count_publishers("diabolo/pose") > 0 and peer.count_publishers("left_tip") > 0)
-        time.sleep(1.0)
+        hear(peer)
         assert player.poll() is None
         assert end(process, by) == 0
     assert (tmp_path / "log").read_text() == ""
@@ -136,19 +144,18 @@ def test_a_signal_amidst_play_ends_it_cleanly(by: int, tmp_path: Path) -> None:
 def test_a_killed_peer_is_survived(tmp_path: Path) -> None:
     with node(tmp_path / "log") as process, meter() as peer:
         with running("play.py", SWING) as killed:
-            wait_for(lambda: peer.count_publishers("left_tip") > 0)
-            time.sleep(1.0)
+            hear(peer)
             assert killed.poll() is None
         played(peer, *swing(2.0))
         assert end(process) == 0
-    assert "stamps jump" in (tmp_path / "log").read_text()
+    assert "stamps jump: -" in (tmp_path / "log").read_text()
 
 
-def wait_for(done: Callable[[], bool], seconds: float = 20.0) -> None:
+def wait_for(done: Callable[[], bool], idle: Callable[[], object], seconds: float = 60.0) -> None:
     limit = time.monotonic() + seconds
     while not done():
         assert time.monotonic() < limit, "nothing happened"
-        time.sleep(0.02)
+        idle()
 
 
 def test_bad_poses_are_warned_of_once_and_change_nothing(tmp_path: Path) -> None:
@@ -157,25 +164,41 @@ def test_bad_poses_are_warned_of_once_and_change_nothing(tmp_path: Path) -> None
     from session import QUALITY
 
     motion, times = swing(1.0)
-    bad = [PoseStamped(header=header_of(FIRST, frame)) for frame in ("world", "map", "world")]
+    bad = [PoseStamped(header=header_of(FIRST, frame)) for frame in ("world", "map", "world", "world")]
     bad[0].pose.position.x = float("nan")
     bad[2].pose.orientation.w = 0.5
-    with node(tmp_path / "log") as process, meter() as peer:
+    bad[3].header = header_of(60 * FIRST, "world")  # a good one for the node, which waits for the other tip
+    bag, said = tmp_path / "take.mcap", tmp_path / "recorded"
+    with (
+        node(tmp_path / "log") as process,
+        running("record.py", bag, log=said) as recorder,
+        meter() as peer,
+    ):
         output = peer.create_publisher(PoseStamped, "left_tip", QUALITY)
-        wait_until_heard([output])
+        wait_until_heard([output], 2)
         for message in bad * 5:
             output.publish(message)
         wait_until_taken([output])
         played(peer, motion, times)
         late = TipSender(peer, motion, times)
-        wait_until_heard(late.outputs)
+        wait_until_heard(late.outputs, 2)
+        last = FIRST + round(1e9 * times[-1])
         for i in range(3):
-            late.send(i, FIRST + round(1e9 * times[-1]) - 10_000_000 * i)
+            late.send(i, last - 10_000_000 * i)
+        late.send(3, last + 2_000_000)
+        hear(peer, last + 2_000_000)
         wait_until_taken(late.outputs)
-        time.sleep(0.5)
         assert end(process) == 0
-    log = (tmp_path / "log").read_text()
-    for kind in ("left_tip, position", "left_tip, frame", "left_tip, orientation", "late stamps"):
+        assert end(recorder) == 0, said.read_text()
+    bad_kinds = ["left_tip, position", "left_tip, frame", "left_tip, orientation"]
+    warned_of((tmp_path / "log").read_text(), *bad_kinds, "late stamps")
+    warned_of(said.read_text(), *bad_kinds, "left_tip, stamp")
+    assert bag.exists()
+
+
+def warned_of(log: str, *kinds: str) -> None:
+    """Each once, and how often at the end."""
+    for kind in kinds:
         said = [line for line in log.splitlines() if kind in line]
         assert len(said) == 2, log
         assert said[1].endswith(" times in all")
@@ -204,6 +227,27 @@ def test_joints_of_two_arms_move_the_tips(tmp_path: Path) -> None:
     np.testing.assert_allclose(tips, [left, right], rtol=0.0, atol=1e-6)
     np.testing.assert_allclose(places(peer.poses), predicted(*tips)[:, :3], rtol=0.0, atol=1e-9)
     assert (tmp_path / "log").read_text().count("joints missing: left_shoulder_lift_joint") == 1
+
+
+@pytest.mark.parametrize(
+    ("count", "angles", "sentence"),
+    [
+        (12, [0.1] * 11, "name: 11 positions of 12 joints; expected one of each"),
+        (13, [0.1] * 13, "name: 13 positions of 12 joints; expected one of each"),  # one of them twice
+        (12, [0.1, 90.0] + [0.1] * 10, "left_shoulder_lift_joint is 90; expected rad"),
+        (12, [0.1, math.nan] + [0.1] * 10, "left_shoulder_lift_joint is nan; expected rad"),
+    ],
+)
+def test_joints_that_are_not_one_angle_each_are_refused(
+    count: int, angles: list[float], sentence: str
+) -> None:
+    from diabolo.robot import StickArm
+    from sensor_msgs.msg import JointState
+    from tips import JOINTS, SIDES, JointTips, MessageError
+
+    arms = JointTips([StickArm(side) for side in SIDES], JOINTS)
+    with pytest.raises(MessageError, match=sentence):
+        arms.tips_of(JointState(name=[*JOINTS, *JOINTS][:count], position=angles))
 
 
 def test_tips_are_paired_by_their_stamps_whatever_is_lost() -> None:
@@ -235,13 +279,14 @@ def test_a_turned_axle_keeps_its_direction(axis: list[float]) -> None:
         np.testing.assert_allclose(first_axis(*turn), axis, rtol=0.0, atol=1e-12)
 
 
-def heard(folder: Path, name: str, *played: object) -> Path:
-    """A bag of what a node and a player say, recorded until SIGINT."""
-    bag = folder / name
-    with node(), running("record.py", bag, log=folder / "log") as recorder:
-        with running("play.py", *played, "--listeners", 2, log=folder / "played") as player:
+def heard(folder: Path, name: str, file: Path, seconds: float) -> Path:
+    """A bag of what a node and a player say, recorded until SIGINT. seconds: as long as the file plays."""
+    bag, options = folder / name, ("--listeners", 2, "--start", FIRST // 10**9)
+    with node(), meter() as peer, running("record.py", bag, log=folder / "log") as recorder:
+        with running("play.py", file, *options, log=folder / "played") as player:
+            hear(peer, FIRST + round(1e9 * (seconds - 0.5 / RATE)))
             assert player.wait(60) == 0, (folder / "played").read_text()
-        time.sleep(1.0)
+        time.sleep(1.0)  # the recorder, too, has heard it by then
         assert end(recorder, signal.SIGINT) == 0, (folder / "log").read_text()
     return bag
 
@@ -252,8 +297,8 @@ def test_a_recorded_bag_replays_to_the_same_play(tmp_path: Path) -> None:
     plan = tmp_path / "plan.csv"
     columns = ",".join(["time", *(f"{side}_{axis}" for side in ("left", "right") for axis in "xyz")])
     np.savetxt(plan, np.column_stack([times, left, right]), "%.17g", ",", header=columns, comments="")
-    first = load_recording(heard(tmp_path, "first.mcap", plan))
-    again = load_recording(heard(tmp_path, "again.mcap", tmp_path / "first.mcap"))
+    first = load_recording(heard(tmp_path, "first.mcap", plan, times[-1]))
+    again = load_recording(heard(tmp_path, "again.mcap", tmp_path / "first.mcap", times[-1]))
     states = predicted(left, right)
     middle = 0.5 * (states[1:, 6] + states[:-1, 6])
     for take in (first, again):
@@ -282,7 +327,13 @@ def test_a_recorded_bag_replays_to_the_same_play(tmp_path: Path) -> None:
         ("diabolo_node.py", "--ros-args -p model:=none.json", "model none.json: no such file"),
         ("diabolo_node.py", "--ros-args -p string_length:=-1.0", "string_length: -1 m; must be"),
         ("diabolo_node.py", "--ros-args -p string_length:=long", "string_length"),
-        ("diabolo_node.py", "--ros-args -p source:=joints -p joints:=[a]", "joints: 1 names; expected 12"),
+        (
+            "diabolo_node.py",
+            "--ros-args -p source:=joints -p joints:=[a]",
+            "joints: 1 names; expected",
+        ),
+        ("diabolo_node.py", "--ros-args -p bogus:=1", "parameter 'bogus'; expected model, string_length"),
+        ("diabolo_node.py", "--ros-args --bogus", "--ros-args: ['--bogus']; expected"),
         ("diabolo_node.py", "--model m.json", "unrecognized arguments: --model"),
         ("diabolo_node.py", "--ros-args -p spin:=50", "'spin' to '50' of type 'INTEGER', expecting"),
         ("play.py", "none.csv", "none.csv"),
@@ -290,11 +341,13 @@ def test_a_recorded_bag_replays_to_the_same_play(tmp_path: Path) -> None:
         ("play.py", f"{SWING} --rate nan", "--rate nan"),
         ("play.py", f"{SWING} --start -1", "--start -1; expected"),
         ("play.py", f"{SWING} --joints", "expected all within reach"),
-        ("record.py", "take.txt", "take.txt: expected a name that ends in"),
+        ("play.py", f"{SWING} --listeners -3", "--listeners -3; expected 0 or more"),
+        ("record.py", "take.csv", "take.csv: expected a name that ends in .mcap"),
         ("record.py", "nowhere/take.mcap", "there is no folder"),
         ("record.py", "take.mcap --seconds nan", "--seconds nan; expected"),
         ("record.py", "take.mcap --seconds 0.1", "left_tip: 0 messages were heard; expected two or more"),
-        ("latency.py", "--rate 0", "expected 0.1 to 3600 s"),
+        ("latency.py", "--rate 0", "--seconds 60 --rate 0; expected 0.1 to 3600 s"),
+        ("latency.py", "--rate 2 --seconds 0.6", "--seconds 0.6 --rate 2: 1 samples; expected two or more"),
     ],
 )
 def test_bad_input_is_one_sentence(program: str, arguments: str, sentence: str, tmp_path: Path) -> None:

@@ -65,6 +65,13 @@ MASKED = np.ma.masked_greater(np.arange(7.0), 5.5)
             lambda: diabolo.baseline(np.zeros(999)),
             "baseline: recording: an array of the shape (999,), float64;",
         ),
+        (
+            lambda: diabolo.Predictor(Parameters()).step(
+                State([0.0, 0.0, 0.0]), *[np.zeros(3)] * 4, dt=1e-3, velocities=[np.zeros(3)] * 3
+            ),
+            "Predictor.step: velocities: [array([0., 0., 0.]), array([0., 0., 0.]), array([0., 0.,...; "
+            "expected a list, each an array of numbers, 4 of them or None",
+        ),
         (lambda: diabolo.Goals(waypoints=[3]), "Goals: waypoints: [3]; expected a list, each Waypoint"),
         (lambda: robot.StickMap(1, 2), "StickMap: arm: 1; expected StickArm"),
         (lambda: State([0.0, 0.0, 0.0], spin=10**400), "State: spin: 1000000000"),

@@ -3,6 +3,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -11,6 +12,7 @@ from diabolo.cli import main
 from diabolo.hosts import mjcf, sdf, urdf
 from diabolo.robot import JOINTS, StickArm
 
+SWING = Path(__file__).parents[2] / "data" / "recordings" / "swing.csv"
 NAMES = {f"{side}_{joint}" for side in ("left", "right") for joint in JOINTS}
 
 
@@ -38,6 +40,20 @@ def test_a_model_s_file_is_named_as_seen_from_the_world_s(tmp_path: Path) -> Non
     assert json.loads(keys["model"] or "") == json.loads(model.to_json())
 
 
+def test_a_preset_is_meant_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "paper").mkdir()
+    (tmp_path / "worlds").mkdir()
+    assert main(["convert", "paper", "worlds/cell.sdf"]) == 0
+    assert ElementTree.parse("worlds/cell.sdf").findtext(".//plugin/model") == "paper"
+
+
+@pytest.mark.parametrize("name", ["", " ", "a\x01.json", "\ud800", 5, None, Path("model.json")])
+def test_a_model_s_file_has_a_name(name: Any) -> None:
+    with pytest.raises(ValueError, match=r"^model_file: .*; expected the name of a model's file or of a pre"):
+        sdf.world(model_file=name)
+
+
 @pytest.mark.parametrize("write", [urdf.urdf, sdf.world, mjcf.cell])
 def test_arms_are_one_of_each_side(write: object) -> None:
     with pytest.raises(ValueError, match=r"arms: \['left', 'left'\]; expected one of the left and one"):
@@ -54,7 +70,11 @@ def test_arms_are_one_of_each_side(write: object) -> None:
         ),
         (["consistent", "cell.sdf", "--up", "y"], "--up: it says how a recording is read; cell.sdf is of a"),
         (["consistent", "cell.sdf", "--arms", "0.7", "0", "0"], "spacing: 0 m; must be > 0"),
-        (["consistent", "cell.sdf", "--arms", "nan", "1", "0"], "height: nan m; must be finite"),
+        (["consistent", "cell.sdf", "--arms", "nan", "1", "0"], "--arms: height: nan m; must be finite"),
+        (["consistent", "cell.sdf", "--arms", "1e9", "1", "0"], "--arms: 1e+09 m; expected at most 100 m"),
+        (["consistent", "take.csv"], "consistent: a model; expected OUT to end in .urdf, .xml, .sdf"),
+        (["model.json", "take.csv"], "model.json: a model; expected OUT to end in .urdf, .xml, .sdf"),
+        ([str(SWING), "cell.sdf"], "swing.csv: a recording; expected OUT to end in .csv, .mcap"),
         (["consistent", "nowhere/cell.sdf"], "there is no folder"),
     ],
 )

@@ -14,6 +14,7 @@ from diabolo.cli.diagnose import input_file
 from diabolo.formats.bodies import Body, at_common_times
 from diabolo.formats.c3d import quaternions
 from diabolo.formats.exports import read_qualisys, read_vicon
+from diabolo.robot import StickArm
 from numpy.typing import NDArray
 
 SWING = Path(__file__).parents[2] / "data" / "recordings" / "swing.csv"
@@ -256,6 +257,10 @@ def test_a_broken_file_ends_in_one_sentence(
     [
         (lambda folder: load_recording(folder), "a directory; expected a file, or a bag"),
         (lambda _: load_recording(SWING, topics=GIVEN), "topics are given; expected them of bags"),
+        (
+            lambda _: load_recording(SWING, arms=[StickArm("left"), StickArm("right")]),
+            "arms are given; expected them of bags only",
+        ),
         (lambda _: load_recording(SWING, topics="left"), "topics 'left'; expected left=NAME,right=NAME"),
         (lambda _: load_recording(SWING, topics={"middle": "a"}), "topics: found 'middle'; expected left"),
         (
@@ -273,10 +278,19 @@ def test_a_library_that_is_not_there_is_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "rerun", None)
+    monkeypatch.setattr("diabolo.cli.arguments.load_recording", None)  # it is said before the work
     assert main(["convert", str(SWING), str(tmp_path / "a.rrd")]) == 2
     assert capsys.readouterr().err == (
         "diabolo: writing a.rrd: needs rerun (pip install '.[rerun]' in the project's root)\n"
     )
+
+
+@pytest.mark.parametrize("option", [["--up", "y"], ["--arms", "0.7", "1.1", "0"]])
+def test_a_built_in_motion_reads_no_recording(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], option: list[str]
+) -> None:
+    assert main(["simulate", str(tmp_path / "a.csv"), "--motion", "swing", *option]) == 2
+    assert f"{option[0]}: it says how a recording is read; --motion reads none" in capsys.readouterr().err
 
 
 def test_stamps_that_go_back_are_refused_with_the_body() -> None:

@@ -119,14 +119,18 @@ def test_the_plugin_s_loader_says_what_it_lacks(monkeypatch: pytest.MonkeyPatch,
         host.build_plugin()
     monkeypatch.setenv("CXX", "no-such-compiler")
     with pytest.raises(RuntimeError, match="no C\\+\\+ compiler 'no-such-compiler'"):
-        host._command(tmp_path)
+        host._command(tmp_path, host.SOURCE)
     monkeypatch.setenv("CXX", 'g++ "')
     with pytest.raises(RuntimeError, match="No closing quotation"):
-        host._command(tmp_path)
+        host._command(tmp_path, host.SOURCE)
+    for source in ("nope.cpp", Path("nope.cpp")):
+        with pytest.raises(RuntimeError, match=r"^nope\.cpp: there is no such file; expected the source"):
+            host.build_plugin(source)
 
 
 def test_scenes_are_refused_that_cannot_be() -> None:
-    for timestep in (0.0, -1.0, float("inf"), float("nan"), True, "x"):
+    assert 'timestep="0.002"' in host.scene(timestep=np.float64(0.002))
+    for timestep in (0.0, -1.0, float("inf"), float("nan"), 1e-320, 10**400, "x"):
         with pytest.raises(ValueError, match="timestep: "):
             host.scene(timestep=timestep)
     with pytest.raises(ValueError, match="expected a Model"):
@@ -138,7 +142,7 @@ def test_scenes_are_refused_that_cannot_be() -> None:
 def test_a_cache_that_cannot_be_written_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    monkeypatch.setattr(host, "_command", lambda folder: ["c++"])
+    monkeypatch.setattr(host, "_command", lambda folder, source: ["c++"])
     monkeypatch.setattr(host.importlib.metadata, "version", lambda name: "4.0.0")
     spec = host.importlib.util.spec_from_file_location("mujoco", tmp_path / "mujoco" / "__init__.py")
     monkeypatch.setattr(host.importlib.util, "find_spec", lambda name: spec)

@@ -119,6 +119,40 @@ def test_joints_of_others_are_left_alone(played: tuple[Recording, Joints], tmp_p
         load_recording(tmp_path / "bag", arms=MOUNTS)  # which of them is not said
 
 
+def test_joints_of_arms_that_hold_a_diabolo_may_be_on_topics_with_its_name(
+    played: tuple[Recording, Joints], tmp_path: Path
+) -> None:
+    recording, joints = played
+    topics = {f"/diabolo/{side}/joints": ([*JOINTS], joints[side]) for side in SIDES}
+    write(tmp_path / "bag", recording, topics)
+    given = {side: f"/diabolo/{side}/joints:{side}" for side in SIDES} | {"diabolo": "/mocap/diabolo"}
+    found = load_recording(tmp_path / "bag", topics=given, arms=MOUNTS)
+    np.testing.assert_allclose(found.left, recording.left, rtol=0.0, atol=1e-9)
+
+
+def test_joint_states_without_positions_are_left_alone(
+    played: tuple[Recording, Joints], tmp_path: Path
+) -> None:
+    recording, joints = played
+    tension = (["left", "right"], np.zeros((len(recording), 0)))
+    write(tmp_path / "bag", recording, {"/diabolo/tension": tension, "/joint_states": together(joints)})
+    np.testing.assert_allclose(
+        load_recording(tmp_path / "bag", arms=MOUNTS).left, recording.left, rtol=0.0, atol=1e-9
+    )
+    fingers = (["finger"], np.zeros((len(recording), 1)))
+    write(tmp_path / "other", recording, {"/diabolo/tension": tension, "/gripper": fingers})
+    with pytest.raises(RecordingError, match="/gripper: joints 'finger'; expected left_shoulder_pan"):
+        load_recording(tmp_path / "other")
+
+
+def test_degrees_are_refused(played: tuple[Recording, Joints], tmp_path: Path) -> None:
+    recording, joints = played
+    names, angles = together(joints)
+    write(tmp_path / "bag", recording, {"/joint_states": (names, np.degrees(angles))})
+    with pytest.raises(RecordingError, match=r"/joint_states: left_.* is .*; expected rad, within 2 pi"):
+        load_recording(tmp_path / "bag", arms=MOUNTS)
+
+
 def test_what_is_not_finite_is_a_dropout(played: tuple[Recording, Joints], tmp_path: Path) -> None:
     recording, joints = played
     names, angles = together(joints)
@@ -134,12 +168,17 @@ def test_what_is_not_finite_is_a_dropout(played: tuple[Recording, Joints], tmp_p
     ("names", "complaint"),
     [
         (
-            [*NAMES["left"], *NAMES["right"][:5], "right_tool"],
+            [*NAMES["left"], *NAMES["right"][:5], "right_tool", "finger"],
             "/joint_states: no angle of right_wrist_3_joint; expected right_shoulder_pan_joint to",
         ),
         (
             [f"{side}_{k}" for side in SIDES for k in range(6)],
             "/joint_states: joints 'left_0', 'left_1', .*; expected left_shoulder_pan_joint to right_wrist_3",
+        ),
+        ([*NAMES["left"], *NAMES["right"]], "/joint_states: 13 positions of 12 joints; expected one of each"),
+        (
+            [*NAMES["left"], *NAMES["right"], "right_elbow_joint"],
+            "/joint_states: right_elbow_joint is named twice; expected each joint once",
         ),
         ([], "/joint_states: joints none; expected"),
     ],

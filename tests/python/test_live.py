@@ -20,7 +20,8 @@ import diabolo
 import numpy as np
 import pytest
 from conftest import Command
-from diabolo._core import hanging_state
+from diabolo.cli.live import play_live
+from diabolo.live.broadcast import Broadcast
 from diabolo.live.hands import HOME, REACH, Hands, in_plane
 from diabolo.live.page import live_html
 from diabolo.live.play import DT, RATE, Play
@@ -95,7 +96,8 @@ def test_a_play_is_what_the_predictor_makes_of_its_tips(name: str) -> None:
     model = model_of(name)
     play, predictor, hands = Play(model, 80.0), diabolo.Predictor(model), Hands(1.45)
     hands.string_length = model.parameters.string_length
-    state = hanging_state(*hands.position, hands.string_length, 80.0)
+    left, right = hands.position
+    state = diabolo.hang_at_rest(model, left, right, 80.0)
     step = 0
     for wish in (Wish((0.5, 1.4), (-0.3, 1.1)), Wish((0.4, 1.1), (-0.5, 1.4))):
         play.obey(wish)
@@ -120,6 +122,22 @@ def test_time_is_owed_and_never_lost() -> None:
     steps = play.steps
     play.advance(1.0)
     assert play.steps == steps
+
+
+def test_a_play_begins_at_rest_on_a_string_that_gives() -> None:
+    play = Play(diabolo.Model(string_elasticity=diabolo.StringElasticity(compliance=2e-3, damping=5.0)), 0.0)
+    begin = play.state.position.copy()
+    play.advance(0.5)
+    assert np.abs(play.state.position - begin).max() < 1e-6
+
+
+def test_tensions_of_a_string_that_rubs_are_in_the_ratio_of_the_capstan() -> None:
+    play = Play(diabolo.Model(string_friction=diabolo.StringFriction(coefficient=0.2)), 80.0)
+    play.advance(0.1)
+    to_left, to_right = play.hands.position - play.state.position
+    cosine = to_left @ to_right / np.linalg.norm(to_left) / np.linalg.norm(to_right)
+    left, right = play.tensions
+    assert left / right == pytest.approx(np.exp(0.2 * (np.pi - np.arccos(cosine))), rel=0.01)
 
 
 def test_at_rest_the_strands_carry_the_weight() -> None:
@@ -300,12 +318,7 @@ def test_what_is_none_of_its_business_is_refused(
     assert answer(server, "GET", "/")[0] == 200
 
 
-def test_noise_and_too_many_connections_do_not_stop_it(server: LiveServer) -> None:
-    noise = [socket.create_connection(("127.0.0.1", server.server_port)) for _ in range(2 * MOST_CONNECTIONS)]
-    for connection in noise:
-        connection.sendall(b"\x00\xff nonsense\r\n" if connection.fileno() % 2 else b"GET / HT")
-    for connection in noise:
-        connection.close()
+def eventually_answers(server: LiveServer) -> None:
     until = time.monotonic() + 20
     while True:
         try:
@@ -314,6 +327,36 @@ def test_noise_and_too_many_connections_do_not_stop_it(server: LiveServer) -> No
         except (OSError, http.client.HTTPException):
             assert time.monotonic() < until, "those that have gone still count"
             time.sleep(0.05)
+
+
+def test_a_browser_leaves_port_80_out() -> None:
+    try:
+        server = LiveServer(80, "")
+    except ValueError as error:
+        pytest.skip(str(error))
+    with server:
+        for host in ("127.0.0.1", "localhost", "localhost:80"):
+            assert answer(server, "GET", "/", Host=host)[0] == 200
+        assert answer(server, "GET", "/", Host="example.org")[0] == 421
+
+
+def test_noise_and_too_many_connections_do_not_stop_it(server: LiveServer) -> None:
+    noise = [socket.create_connection(("127.0.0.1", server.server_port)) for _ in range(2 * MOST_CONNECTIONS)]
+    for connection in noise:
+        connection.sendall(b"\x00\xff nonsense\r\n" if connection.fileno() % 2 else b"GET / HT")
+    for connection in noise:
+        connection.close()
+    eventually_answers(server)
+
+
+def test_what_connects_beyond_the_most_is_turned_away(server: LiveServer) -> None:
+    address = ("127.0.0.1", server.server_port)
+    silent = [socket.create_connection(address) for _ in range(MOST_CONNECTIONS)]
+    with pytest.raises((OSError, http.client.HTTPException)):
+        answer(server, "GET", "/")
+    for connection in silent:
+        connection.close()
+    eventually_answers(server)
 
 
 def test_it_hears_this_machine_only(server: LiveServer) -> None:
@@ -381,6 +424,7 @@ class Live:
         seen: list[dict[str, Any]] = []
         while len(seen) < frames:
             line = self.stream.readline()
+            assert line, "the stream has ended"
             if line.startswith(b"data: "):
                 seen.append(json.loads(line[6:]))
         return seen
@@ -423,7 +467,8 @@ def test_what_was_played_is_a_recording(live: Any, tmp_path: Path, command: Comm
     assert "125 Hz" in command("info", "played.csv").stdout
     for reader in (("view", "played.csv", "--out", "v.html"), ("evaluate", "played.csv")):
         assert command(*reader).returncode == 0
-    assert command("diagnose", "played.csv").stdout
+    diagnosed = command("diagnose", "played.csv")
+    assert diagnosed.returncode == 0, diagnosed.stderr
 
 
 @pytest.mark.parametrize("watched", [True, False])
@@ -437,6 +482,24 @@ def test_ctrl_c_ends_it_in_order(live: Any, tmp_path: Path, watched: bool) -> No
     assert output.startswith("ended by Ctrl-C\nplayed.csv: ")
     assert (tmp_path / "played.csv").exists() == watched
     assert ("nothing was played" in output) != watched
+
+
+def test_who_stops_reading_loses_no_play(live: Any, tmp_path: Path) -> None:
+    play = live("--out", "played.csv")
+    play.process.stdout.close()
+    play.watch(30)
+    play.close_page()
+    assert play.process.wait(timeout=30) == 0
+    assert diabolo.load_recording(tmp_path / "played.csv").rate == pytest.approx(RATE)
+
+
+def test_a_second_ctrl_c_loses_no_play(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Broadcast, "end", interrupted)
+    play = Play(diabolo.Model.named("consistent"), 100.0)
+    assert play_live(play, 0, 0.01) == "0.01 s are over"
 
 
 def test_sigterm_stops_it_and_leaves_nothing(live: Any, tmp_path: Path) -> None:

@@ -90,6 +90,7 @@ struct World {
 struct Model {
   explicit Model(Entity = kNullEntity);
   std::string Name(const EntityComponentManager&) const;
+  std::uint64_t LinkCount(const EntityComponentManager&) const;
   sim::Entity LinkByName(const EntityComponentManager&, const std::string&) const;
   void SetWorldPoseCmd(EntityComponentManager&, const math::Pose3d&);
 };

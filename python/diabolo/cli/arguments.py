@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +19,10 @@ from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..files import STDOUT
 from ..formats import load_recording
 
+OF_RECORDINGS = ("calibration", "up", "columns", "topics")
+"""Options that say how a recording is read, but for --arms."""
+FARTHEST_BASE = 100.0
+"""An arm stands no farther from the world's origin [m]."""
 RECORDING_HELP = (
     "a Motive export, a tidy recording, a bag of ROS or another of docs/recordings.md; NAME.csv:0-180 takes "
     "the rows 0 to 180 of it only"
@@ -141,7 +145,7 @@ class Reading:
     up: str | None
     columns: str | None
     topics: str | None
-    arms: list[StickArm]
+    arms: list[StickArm] | None
 
     def load(self, path: str) -> Recording:
         return load_recording(
@@ -161,8 +165,23 @@ def reading_of(arguments: argparse.Namespace) -> Reading:
     return Reading(calibration, arguments.up, arguments.columns, arguments.topics, arms)
 
 
-def arms_of(arguments: argparse.Namespace) -> list[StickArm]:
-    return [StickArm(side, *(arguments.arms or ())) for side in SIDES]
+def check_not_given(arguments: argparse.Namespace, options: Sequence[str], why: str) -> None:
+    """Raise ValueError about the first of these options that is given."""
+    for option in options:
+        if getattr(arguments, option) is not None:
+            raise ValueError(f"--{option}: it says how a recording is read; {why}")
+
+
+def arms_of(arguments: argparse.Namespace) -> list[StickArm] | None:
+    """The arms of --arms; None without it."""
+    if arguments.arms is None:
+        return None
+    if far := [one for one in arguments.arms if abs(one) > FARTHEST_BASE]:
+        raise ValueError(f"--arms: {far[0]:g} m; expected at most {FARTHEST_BASE:g} m")
+    try:
+        return [StickArm(side, *arguments.arms) for side in SIDES]
+    except ValueError as error:
+        raise ValueError(f"--arms: {error}") from None
 
 
 def read_excerpt(text: str, reading: Reading) -> Excerpt:

@@ -12,14 +12,24 @@ import numpy as np
 
 from .. import files
 from ..checks import warn_of
-from ..formats import WITH_JSON, WRITTEN, save_recording
+from ..evaluation import DEFAULT_MODELS
+from ..formats import READERS, WITH_JSON, WRITTEN, check_writer, save_recording
 from ..hosts import mjcf, sdf, urdf
-from .arguments import add_calibration, add_command, arms_of, output_name, read_model, reading_of
+from .arguments import (
+    OF_RECORDINGS,
+    add_calibration,
+    add_command,
+    arms_of,
+    check_not_given,
+    output_name,
+    read_model,
+    reading_of,
+)
 
 CELLS = (".urdf", ".xml", ".sdf")
 """Suffixes of what is written from a model."""
-OF_RECORDINGS = ("calibration", "up", "columns", "topics")
-"""Options that say how a recording is read."""
+RECORDED = (".csv", ".tsv", *READERS)
+"""Suffixes of recordings."""
 
 
 def add_parser(commands: Any) -> None:
@@ -74,6 +84,8 @@ def _convert_recording(arguments: argparse.Namespace, target: Path) -> Done:
     inputs = [arguments.recording] + ([arguments.calibration] if arguments.calibration else [])
     beside = target.with_suffix(".json") if target.suffix in WITH_JSON else None
     files.check_outputs([target, beside, arguments.json], inputs)
+    check_writer(target)
+    check_is_recording(Path(arguments.recording))
     recording = reading_of(arguments).load(arguments.recording)
     warn_of([recording])
     save_recording(recording, target)
@@ -84,13 +96,19 @@ def _convert_recording(arguments: argparse.Namespace, target: Path) -> Done:
     )
 
 
+def check_is_recording(path: Path) -> None:
+    """Raise ValueError about a model."""
+    if path.suffix == ".json" or (str(path) in DEFAULT_MODELS and not path.exists()):
+        raise ValueError(f"{path}: a model; expected OUT to end in {', '.join(CELLS)}")
+
+
 def _convert_model(arguments: argparse.Namespace, target: Path) -> Done:
     name = arguments.recording
-    for option in OF_RECORDINGS:
-        if getattr(arguments, option) is not None:
-            raise ValueError(f"--{option}: it says how a recording is read; {target.name} is of a model")
-    is_file = Path(name).exists()
+    check_not_given(arguments, OF_RECORDINGS, f"{target.name} is of a model")
+    is_file = name not in DEFAULT_MODELS and Path(name).exists()
     files.check_outputs([target, arguments.json], [name] if is_file else [])
+    if is_file and (Path(name).suffix in RECORDED or Path(name).is_dir()):
+        raise ValueError(f"{name}: a recording; expected OUT to end in {', '.join(WRITTEN)}")
     arms, model = arms_of(arguments), read_model(name)
     if target.suffix == ".urdf":
         text = urdf.urdf(arms)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -68,16 +69,16 @@ def check_options(arguments: argparse.Namespace) -> None:
 
 def played(
     arguments: argparse.Namespace, model: Model, spin: float
-) -> tuple[Recording, NDArray[np.uint8]] | None:
-    """What was played and its string states; None where nothing was."""
+) -> tuple[str, tuple[Recording, NDArray[np.uint8]] | None]:
+    """Why the play ended; what was played and its string states, None where nothing was."""
     from ..live.play import Play
 
     play = Play(model, spin)
-    print(play_live(play, arguments.port or 0, arguments.seconds or LASTS), flush=True)
+    why = play_live(play, arguments.port or 0, arguments.seconds or LASTS)
     found = play.recording("played" if arguments.out is None else Path(arguments.out).stem)
     if found is None and arguments.out:
-        print(f"{arguments.out}: not written, since nothing was played", flush=True)
-    return found
+        why += f"\n{arguments.out}: not written, since nothing was played"
+    return why, found
 
 
 def play_live(play: Play, port: int, seconds: float) -> str:
@@ -91,7 +92,8 @@ def play_live(play: Play, port: int, seconds: float) -> str:
             sentence = _go_on(play, server, seconds)
         except KeyboardInterrupt:
             sentence = "ended by Ctrl-C"
-        server.frames.end(sentence)
+        with suppress(KeyboardInterrupt):  # a second one; what was played is kept
+            server.frames.end(sentence)
     return sentence
 
 

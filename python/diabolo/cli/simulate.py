@@ -27,9 +27,11 @@ from ..player import hang_at_rest
 from ..rollout import FARTHEST, rollout
 from . import live
 from .arguments import (
+    OF_RECORDINGS,
     RECORDING_HELP,
     add_calibration,
     add_command,
+    check_not_given,
     output_name,
     read_excerpt,
     read_model,
@@ -92,18 +94,23 @@ def run(arguments: argparse.Namespace) -> None:
     model = read_model(arguments.model)
     spin = 100.0 if arguments.spin is None else arguments.spin
     simulated: tuple[Recording, NDArray[np.uint8]] | None
+    sentences = []
     if arguments.live:
         check_spin(spin, LIVE_RATE)
-        simulated = live.played(arguments, model, spin)
+        why, simulated = live.played(arguments, model, spin)
+        sentences.append(why)
     elif arguments.on:
         if arguments.duration is not None or arguments.spin is not None:
             raise ValueError("--duration and --spin belong to --motion; a recording has its own")
         simulated = on_recording(arguments, model)
     else:
+        check_not_given(arguments, (*OF_RECORDINGS, "arms"), "--motion reads none")
         duration = 5.0 if arguments.duration is None else arguments.duration
         simulated = on_motion(arguments.motion, model, duration, spin, Path(arguments.tidy).stem)
     if target and simulated:
-        write(arguments.json, target, model, *simulated)
+        sentences.append(write(arguments.json, target, model, *simulated))
+    if arguments.json != files.STDOUT:
+        print(*sentences, sep="\n", flush=True)
 
 
 def target_of(arguments: argparse.Namespace) -> Path | None:
@@ -119,8 +126,8 @@ def target_of(arguments: argparse.Namespace) -> Path | None:
 
 def write(
     summary: str | None, target: Path, model: Model, played: Recording, string_states: NDArray[np.uint8]
-) -> None:
-    """The recording, and what is in it: as JSON to `summary`, and as a sentence."""
+) -> str:
+    """Write the recording, and what is in it as JSON to `summary`; returns that as a sentence."""
     played.save(target)
     shares = {state.name.lower(): float(np.mean(string_states == state)) for state in StringState}
     height = played.diabolo[:, 2]
@@ -134,14 +141,11 @@ def write(
         "string_state_share": shares,
     }
     files.write_json(summary, found)
-    if summary != files.STDOUT:
-        states = ", ".join(
-            f"{100.0 * share:.0f} % {name.replace('_', ' ')}" for name, share in shares.items()
-        )
-        print(
-            f"{target}: {len(played)} samples, {found['duration_s']:.2f} s, "
-            f"the diabolo between {height.min():.2f} and {height.max():.2f} m high; string: {states}"
-        )
+    states = ", ".join(f"{100.0 * share:.0f} % {name.replace('_', ' ')}" for name, share in shares.items())
+    return (
+        f"{target}: {len(played)} samples, {found['duration_s']:.2f} s, "
+        f"the diabolo between {height.min():.2f} and {height.max():.2f} m high; string: {states}"
+    )
 
 
 def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording, NDArray[np.uint8]]:

@@ -24,7 +24,9 @@ NO_SETUP = (
     "nothing in it says how long the string is and what the diabolo is like: the paper's are taken for "
     "granted (--calibration)"
 )
-WRITTEN = (".csv", ".mcap", ".parquet", ".rrd")
+WRITERS = {".csv": (), ".mcap": ("mcap", "rosbags"), ".parquet": ("pyarrow",), ".rrd": ("rerun",)}
+"""The libraries that a recording is written with, by the suffix of its file."""
+WRITTEN = tuple(WRITERS)
 """Suffixes of what save_recording() writes."""
 WITH_JSON = (".csv", ".parquet")
 """Those of them that have a JSON file beside."""
@@ -51,10 +53,12 @@ def load_recording(
     Raises RecordingError with the file, what was found and what was expected, and ValueError where a library
     is not installed.
     """
-    path, names, arms = Path(os.fspath(path)), topics_of(topics), two_arms(arms)
+    path, names, used = Path(os.fspath(path)), topics_of(topics), two_arms(arms)
     reader = reader_of(path)
     if names and reader in (None, "parquet"):
         raise RecordingError(f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only")
+    if arms is not None and reader != "bag":
+        raise RecordingError(f"{path}: arms are given; expected them of bags only")
     if reader is None:
         return _core.load_recording(path, calibration or Calibration.published(), up=up, columns=columns)
     if reader == "parquet":
@@ -64,7 +68,7 @@ def load_recording(
         return _core.read_recording(text, path, calibration or Calibration.published(), up, columns)
     if columns is not None:
         raise RecordingError(f"{path}: columns are mapped, but it is no table; expected --topics")
-    return _recording_of_bodies(path, reader, calibration, up, names, arms)
+    return _recording_of_bodies(path, reader, calibration, up, names, used)
 
 
 def _recording_of_bodies(
@@ -112,26 +116,35 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
     """
     path = Path(os.fspath(path))
     instance_of("recording", recording, Recording)
+    check_writer(path)
     if path.suffix == ".csv":
         recording.save(path)
     elif path.suffix == ".mcap":
         from . import bag
 
-        check_library(f"writing {path.name}", "mcap", "formats")
-        check_library(f"writing {path.name}", "rosbags", "formats")
         bag.save(recording, path)
     elif path.suffix == ".parquet":
         from . import parquet
 
-        check_library(f"writing {path.name}", "pyarrow", "formats")
         parquet.save(recording, path)
-    elif path.suffix == ".rrd":
+    else:
         from . import rrd
 
-        check_library(f"writing {path.name}", "rerun", "rerun")
         rrd.save(recording, path)
-    else:
+
+
+def check_writer(path: str | os.PathLike[str]) -> None:
+    """Raise where save_recording() could not write a file of this name.
+
+    Raises:
+        RecordingError: its suffix is none of WRITTEN.
+        ValueError: a library is not installed.
+    """
+    path = Path(os.fspath(path))
+    if path.suffix not in WRITERS:
         raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
+    for library in WRITERS[path.suffix]:
+        check_library(f"writing {path.name}", library, "rerun" if library == "rerun" else "formats")
 
 
 def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:

@@ -60,7 +60,7 @@ def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | Non
             ]
             for connection, logged, raw in bag.messages(connections=known) if known else ():
                 message = bag.deserialize(raw, connection.msgtype)
-                if connection.msgtype == JOINT_STATE:
+                if connection.msgtype == JOINT_STATE and len(message.position):
                     joints.setdefault(connection.topic, message.name)
                 for name, header, numbers in ROWS_OF[connection.msgtype](connection.topic, message):
                     if names and name not in names:
@@ -76,13 +76,17 @@ def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | Non
         raise unreadable(path, "a bag of ROS", error) from error
     if not found.keys() >= {*names}:
         return read(path, (), arms)  # all, for the sentence about those that are not there
-    if joints and all("diabolo" in name.lower() for name in found):
+    if joints and all("diabolo" in name.lower() and not _is_arm(rows) for name, rows in found.items()):
         topic, there = next(iter(joints.items()))
         raise RecordingError(f"{path}, {topic}: {unknown_joints(there)}")
     if not found:
         raise RecordingError(f"{path}: no poses in it; expected messages of {', '.join(sorted(ROWS_OF))}")
     holding = dict(zip(SIDES, two_arms(arms), strict=True))
     return [_body(path, name, rows, holding) for name, rows in found.items()]
+
+
+def _is_arm(rows: Rows) -> bool:
+    return len(rows.numbers[0]) == len(JOINTS)
 
 
 def setup_of(path: Path) -> Calibration | None:

@@ -15,28 +15,46 @@ from .bodies import Floats
 from .c3d import quaternions
 
 Angles = tuple[float, ...]
+LARGEST = 6.4
+"""Angle of a joint: a UR5e turns by 2 pi either way [rad]."""
 
 
 def angles_of(topic: str, message: Any) -> Iterator[tuple[str, Angles]]:
     """Of each arm that a JointState tells of, the name of its stick and the six angles [rad].
 
     Joints are named left_shoulder_pan_joint to right_wrist_3_joint; on a topic whose name tells the side,
-    shoulder_pan_joint will do. The sticks are named TOPIC:left and TOPIC:right. Other joints are left alone.
+    shoulder_pan_joint will do. The sticks are named TOPIC:left and TOPIC:right. Other joints are left alone,
+    and so are messages without positions, such as our own node's of tensions.
 
     Raises:
-        RecordingError: there are some of an arm's six joints, but not all.
+        RecordingError: an arm's six joints are not there once each, with an angle that a UR5e can have.
     """
-    found = dict(zip(message.name, message.position, strict=False))
+    if not len(message.position):
+        return
     told = [side for side in SIDES if side in topic.lower()]
     for side in SIDES:
         names = [f"{side}_{joint}" for joint in JOINTS]
-        if told == [side] and not found.keys() & {*names}:
+        if told == [side] and not {*message.name} & {*names}:
             names = [*JOINTS]
-        missing = [name for name in names if name not in found]
-        if missing and len(missing) < len(names):
-            raise RecordingError(f"{topic}: no angle of {missing[0]}; expected {names[0]} to {names[-1]}")
-        if not missing:
-            yield f"{topic}:{side}", tuple(float(found[name]) for name in names)
+        if {*message.name} & {*names}:
+            yield f"{topic}:{side}", _angles(topic, message, names)
+
+
+def _angles(topic: str, message: Any, names: list[str]) -> Angles:
+    """Of the joints of these names; raises RecordingError where they are not there once each."""
+    if len(message.position) != len(message.name):
+        raise RecordingError(
+            f"{topic}: {len(message.position)} positions of {len(message.name)} joints; expected one of each"
+        )
+    found = dict(zip(message.name, message.position, strict=True))
+    for name in names:
+        if name not in found:
+            raise RecordingError(f"{topic}: no angle of {name}; expected {names[0]} to {names[-1]}")
+        if message.name.count(name) > 1:
+            raise RecordingError(f"{topic}: {name} is named twice; expected each joint once")
+        if LARGEST < abs(found[name]) < np.inf:
+            raise RecordingError(f"{topic}: {name} is {found[name]:g}; expected rad, within 2 pi")
+    return tuple(float(found[name]) for name in names)
 
 
 def unknown_joints(names: list[str]) -> str:

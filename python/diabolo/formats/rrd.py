@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import Recording
+from .._core import Recording, RecordingError
 from ..files import whole_file
 from .bodies import Floats
 
@@ -32,7 +33,7 @@ def save(recording: Recording, path: Path) -> None:
     def send(entity: str, kind: Any, counts: NDArray[np.int64], **columns: Any) -> None:
         stream.send_columns(entity, [time], kind.columns(**columns).partition(counts))
 
-    with whole_file(path) as temporary:
+    with whole_file(path) as temporary, _closed(stream, path):
         stream.save(temporary, default_blueprint=_layout())
         stream.send_recording_name(recording.name)
         stream.log("world", rr.ViewCoordinates.FLU, static=True)
@@ -51,8 +52,21 @@ def save(recording: Recording, path: Path) -> None:
         for name, values in (("height", recording.diabolo[:, 2]), ("spin", recording.spin())):
             seen = np.isfinite(values)
             send(name, rr.Scalars, np.where(seen, 1, 0), scalars=values[seen])
+
+
+@contextmanager
+def _closed(stream: Any, path: Path) -> Iterator[None]:
+    """Everything is written in the end, and the file is closed; rerun's errors become a sentence."""
+    try:
+        yield
         stream.flush()
         stream.disconnect()
+    except RuntimeError as error:
+        why = " ".join(str(error).split())
+        raise RecordingError(f"{path}: cannot be written ({why})") from error
+    finally:
+        with suppress(Exception):
+            stream.disconnect()
 
 
 def _layout() -> Any:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .._core import Model, StickArm
 from ..arms import two_arms
-from ..checks import instance_of
+from ..checks import instance_of, number
 from .description import ARM, CUP, CUPS_AT, INERTIA, RED, diabolo_inertia, links_of, numbers, tip_pose
 
 __all__ = ["INERTIA", "SENSED", "cell", "scene"]
@@ -21,6 +21,8 @@ SERVO = 2e4
 """Stiffness of a joint of a cell, critically damped [N m/rad]: it lags by some hundredths of a second."""
 ROTOR = 0.1
 """Inertia of a joint's motor behind its gear, estimated [kg m^2]."""
+SHORTEST, LONGEST = 1e-9, 1.0
+"""Time step of a scene [s]."""
 
 
 def scene(model: Model | None = None, timestep: float = 1e-3) -> str:
@@ -31,7 +33,7 @@ def scene(model: Model | None = None, timestep: float = 1e-3) -> str:
     with its own string's length and axle; its gravity is the scene's.
 
     Raises:
-        ValueError: the time step [s] is not above zero.
+        ValueError: the time step is not from 1e-9 to 1 s.
     """
     sticks = "".join(
         f'<body name="{name}" mocap="true"><site name="{name}" size="0.01" zaxis="1 0 0"/>'
@@ -51,7 +53,7 @@ def cell(arms: Sequence[StickArm] | None = None, model: Model | None = None, tim
     shape of the links are estimates. The rest is as in `scene`.
 
     Raises:
-        ValueError: there is not one left and one right arm, or the time step [s] is not above zero.
+        ValueError: there is not one left and one right arm, or the time step is not from 1e-9 to 1 s.
     """
     arms = two_arms(arms)
     servos = "".join(
@@ -106,8 +108,9 @@ def _place(pose: NDArray[np.float64]) -> str:
 def _with_diabolo(bodies: str, more: str, model: Model, timestep: float) -> str:
     """A world with the bodies that hold the sites `left` and `right`, and a diabolo between them."""
     instance_of("model", model, Model)
-    if isinstance(timestep, bool) or not isinstance(timestep, (int, float)) or not 0.0 < timestep < np.inf:
-        raise ValueError(f"timestep: {timestep!r}; expected a number of seconds above 0")
+    timestep = number("timestep", timestep)
+    if not SHORTEST <= timestep <= LONGEST:
+        raise ValueError(f"timestep: {timestep:g} s; expected {SHORTEST:g} to {LONGEST:g}")
     cups = "".join(
         f'<geom type="ellipsoid" size="{numbers(CUP)}" pos="{x} 0 0" condim="1" rgba="{numbers(RED)} 1"/>'
         for x in CUPS_AT

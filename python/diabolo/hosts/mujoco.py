@@ -52,8 +52,11 @@ def load_plugin() -> Path:
     return library
 
 
-def build_plugin(source: Path = SOURCE) -> Path:
+def build_plugin(source: str | os.PathLike[str] = SOURCE) -> Path:
     """Compiles the plugin, or another of `source`, unless it has been; see `load_plugin`."""
+    source = Path(source)
+    if not source.is_file():
+        raise RuntimeError(f"{source}: there is no such file; expected the source of a plugin")
     spec = importlib.util.find_spec("mujoco")
     if spec is None or spec.origin is None:
         raise RuntimeError("MuJoCo is not installed; expected it from: pip install 'diabolo[mujoco]'")

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
 from .._core import Model, StickArm
 from ..arms import two_arms
-from ..checks import instance_of
+from ..checks import instance_of, shown
 from .description import (
     CUP,
     CUPS_AT,
@@ -30,6 +31,8 @@ PLUGIN = 'filename="DiaboloString" name="diabolo::String"'
 TIP = 1e-3, [1e-7] * 3
 """Mass [kg] and inertia [kg m^2] of a tip: links have to have some."""
 AXES = ("xx", "yy", "zz")
+NO_TEXT = "[\x00-\x1f\ud800-\udfff\ufffe\uffff]"
+"""What no text of XML holds, or would not keep."""
 
 
 def world(
@@ -44,9 +47,12 @@ def world(
     name of a model's file, as seen from the world's, or of a preset.
 
     Raises:
-        ValueError: there is not one left and one right arm, or `model` is no Model.
+        ValueError: there is not one left and one right arm, `model` is no Model, or `model_file` no name.
     """
     model = Model() if model is None else instance_of("model", model, Model)
+    if not isinstance(model_file, str) or not model_file.strip() or re.search(NO_TEXT, model_file):
+        expected = "expected the name of a model's file or of a preset"
+        raise ValueError(f"model_file: {shown(model_file)}; {expected}")
     inside = (
         '<physics name="1 ms" type="ignored"><max_step_size>0.001</max_step_size></physics>'
         f"<gravity>0 0 {-model.parameters.gravity}</gravity>"

@@ -140,7 +140,8 @@ class Play:
     def _hang(self) -> None:
         """At rest below hands at rest where the pointer wants them."""
         self.hands.rest_at(in_plane((self.wish.left, self.wish.right)))
-        self.state = hang_at_rest(self.model, *self.hands.position, self.spin)
+        left, right = self.hands.position
+        self.state = hang_at_rest(self.model, left, right, self.spin)
         self.tensions = np.zeros(2)
         self._begin_stretch()
 

@@ -48,7 +48,8 @@ class LiveServer(ThreadingHTTPServer):
         except OSError as error:
             raise ValueError(f"port {port}: {error.strerror}; expected one that is free") from error
         self.address = f"http://{HOST}:{self.server_port}/"
-        self.names = {f"{name}:{self.server_port}" for name in (HOST, "localhost")}
+        ports = ["", ":80"] if self.server_port == 80 else [f":{self.server_port}"]
+        self.names = {name + port for name in (HOST, "localhost") for port in ports}
 
     def __enter__(self) -> LiveServer:
         threading.Thread(target=self.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True).start()
@@ -125,7 +126,7 @@ class Handler(BaseHTTPRequestHandler):
         elif not (length.isascii() and length.isdecimal()):
             self.send_error(411, f"Content-Length {shown(length)}; expected a number of bytes")
         elif len(length) > 9 or int(length) > LONGEST_BODY:
-            self.send_error(413, f"{length[:9]} bytes; expected at most {LONGEST_BODY}")
+            self.send_error(413, f"Content-Length {shown(length)}; expected at most {LONGEST_BODY} bytes")
         else:
             try:
                 self.server.wish(self.rfile.read(int(length)))
