@@ -21,13 +21,13 @@ def play() -> TipMotion:
     return TipMotion(t, left, right, "spline")
 
 
-def compare(simulate: Callable[[Model, State, TipMotion, float], NDArray[np.float64]]) -> None:
-    """Prints it for two steps. `simulate(model, start, tips, dt)` gives the places after each, (N, 3) [m]."""
+def compare(simulate: Callable[[Model, State, TipMotion, float, int], NDArray[np.float64]]) -> None:
+    """Prints it for two steps, see play_motion.Simulate."""
     model = Model(Parameters(), name="rubbing", string_friction=StringFriction(coefficient=0.2))
     tips, drop = play(), 0.5 * np.sqrt(model.parameters.string_length**2 - 0.8**2)
     start = State([0.0, 0.0, 1.3 - drop], [0.3, 0.2, 0.0], 60.0, "loose")
     for dt in (2e-3, 1e-3):
-        path = simulate(model, start, tips, dt)
+        path = simulate(model, start, tips, dt, round(DURATION / dt))
         plain = rollout(model, start.to_array(), tips, dt=dt, steps=len(path), string_state="loose").states
         farthest = np.linalg.norm(path - plain[:, :3], axis=1).max()
         print(f"dt {1e3 * dt:g} ms: {farthest:.1e} m from the predictor")

@@ -3,8 +3,10 @@
 
     pip install '.[dart]'
     python examples/hosts/diabolo_in_dart.py
+    python examples/hosts/diabolo_in_dart.py MOTION.csv SIM.csv
 
-Tips swing and beat for two seconds. It prints how far DART's body is from the plain predictor.
+Tips swing and beat for two seconds. It prints how far DART's body is from the plain predictor. Or it plays
+what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simulated SIM.csv`.
 """
 
 from __future__ import annotations
@@ -13,13 +15,13 @@ import itertools
 
 import dartpy as dart
 import numpy as np
-from beside_the_predictor import DURATION, compare
 from diabolo import AttachedString, Model, State, TipMotion
 from diabolo.hosts.mjcf import INERTIA
+from play_motion import main
 
 
-def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarray:
-    """Where DART's body is after each step, (N, 3).
+def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int) -> np.ndarray:
+    """Where DART's body is after each step, (steps, 3).
 
     The diabolo is a hub that is moved along three axes, with cups that turn on it. (DART's free joint counts
     velocities in the turning body's frame, which puts a spinning one off its straight way by the first order
@@ -45,7 +47,7 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarr
 
     string = AttachedString(model, model.parameters.mass, INERTIA[0], gravity)
     path = []
-    samples = list(zip(*tips.at(np.arange(round(DURATION / dt) + 1) * dt), strict=True))
+    samples = list(zip(*tips.at(np.arange(steps + 1) * dt), strict=True))
     for now, after in itertools.pairwise(samples):
         wrench = string.step(
             place.getPositions(),
@@ -65,4 +67,4 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarr
 
 
 if __name__ == "__main__":
-    compare(simulate)
+    main(simulate)

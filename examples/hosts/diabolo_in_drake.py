@@ -3,16 +3,18 @@
 
     pip install '.[drake]'
     python examples/hosts/diabolo_in_drake.py
+    python examples/hosts/diabolo_in_drake.py MOTION.csv SIM.csv
 
-Tips swing and beat for two seconds. It prints how far Drake's body is from the plain predictor.
+Tips swing and beat for two seconds. It prints how far Drake's body is from the plain predictor. Or it plays
+what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simulated SIM.csv`.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from beside_the_predictor import DURATION, compare
 from diabolo import AttachedString, Model, State, TipMotion
 from diabolo.hosts.mjcf import INERTIA
+from play_motion import main
 from pydrake.common.value import Value
 from pydrake.math import RigidTransform
 from pydrake.multibody.math import SpatialForce
@@ -74,8 +76,8 @@ class StringSystem(LeafSystem):
         state.get_mutable_discrete_state().set_value(self.step(context)[1])
 
 
-def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarray:
-    """Where Drake's body is after each step, (N, 3)."""
+def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int) -> np.ndarray:
+    """Where Drake's body is after each step, (steps, 3)."""
     builder = DiagramBuilder()
     plant = builder.AddSystem(MultibodyPlant(dt))
     plant.mutable_gravity_field().set_gravity_vector([0.0, 0.0, -model.parameters.gravity])
@@ -92,11 +94,11 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float) -> np.ndarr
     plant.SetFreeBodyPose(context, body, RigidTransform(start.position))
     plant.SetVelocities(context, [-start.spin, 0.0, 0.0, *start.velocity])
     path = []
-    for i in range(round(DURATION / dt)):
+    for i in range(steps):
         simulator.AdvanceTo((i + 1) * dt)
         path.append(plant.EvalBodyPoseInWorld(context, body).translation())
     return np.array(path)
 
 
 if __name__ == "__main__":
-    compare(simulate)
+    main(simulate)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""What a host of this folder does: compared with the predictor, or playing what `diabolo motion` wrote."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+from beside_the_predictor import compare
+from diabolo import DiaboloProperties, Model, Parameters, Recording, State, TipMotion
+from diabolo.robot import load_tip_plan
+from numpy.typing import NDArray
+
+Simulate: TypeAlias = Callable[[Model, State, TipMotion, float, int], NDArray[np.float64]]
+"""`simulate(model, start, tips, dt, steps)` gives the places after each step, (steps, 3) [m]."""
+DT = 1e-3  # [s]
+
+
+def main(simulate: Simulate) -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("motion", nargs="?", type=Path, help="what `diabolo motion` wrote; default: compare")
+    parser.add_argument("out", nargs="?", type=Path, help="the recording to write, for --simulated")
+    arguments = parser.parse_args()
+    if arguments.motion is None:
+        return compare(simulate)
+    if arguments.out is None:
+        parser.error("MOTION.csv without SIM.csv; expected both")
+    try:
+        played(simulate, arguments.motion).save(arguments.out)
+    except (OSError, ValueError, KeyError) as error:
+        parser.error(f"{arguments.motion}: {error}; expected what `diabolo motion` writes")
+
+
+def played(simulate: Simulate, motion: Path) -> Recording:
+    """A string without friction or stretch in the host, from each start to the next."""
+    told = json.loads(motion.with_suffix(".json").read_text(encoding="utf-8"))
+    tips, properties = load_tip_plan(motion), DiaboloProperties(**told["diabolo"])
+    body = Parameters(
+        mass=properties.mass, axle_radius=properties.axle_radius, string_length=told["string_length"]
+    )
+    ends = [start["time"] for start in told["starts"][1:]] + [tips.end]
+    pieces = [
+        piece(simulate, Model(body), start, tips, end)
+        for start, end in zip(told["starts"], ends, strict=True)
+    ]
+    time, places = (np.concatenate(part) for part in zip(*pieces, strict=True))
+    left, right, *_ = tips.at(time)
+    return Recording(
+        time - time[0],
+        left,
+        right,
+        places,
+        1.0 / DT,
+        name=motion.stem,
+        properties=properties,
+        string_length=body.string_length,
+    )
+
+
+def piece(
+    simulate: Simulate, model: Model, start: dict[str, Any], tips: TipMotion, end: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Times [s], (N,), and places [m], (N, 3), from a start to before `end`."""
+    time = start["time"] + DT * np.arange(round((end - start["time"]) / DT))
+    moved = TipMotion(time - time[0], *tips.at(time)[:2], "spline")
+    state = State(start["position"], start["velocity"], start["spin"], "loose")
+    path = simulate(model, state, moved, DT, len(time) - 1)
+    return time, np.vstack([start["position"], path])
