@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Usage: check_headers.sh JOBS
 # Every header compiles alone, after Eigen/Core, with which nearly all begin: clang reads it as a header that is
-# to be precompiled. Those that their own test includes first are left out, as the test shows it; those of json
-# too where nlohmann_json is not installed.
+# to be precompiled. Those that their own test includes first are left out: a build of the tests without
+# CMAKE_UNITY_BUILD shows it. Those of json are left out too where nlohmann_json is not installed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 jobs=$1
