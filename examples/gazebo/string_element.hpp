@@ -34,7 +34,7 @@ struct StringElement {
 
 /// Where a model file is that an SDF file names: relative to the latter's folder.
 inline std::string beside(const std::string& sdf_file, const std::string& model) {
-  const bool is_path = model != "consistent" && model != "paper" && model != "published" && model[0] != '{';
+  const bool is_path = !diabolo::is_preset(model) && model[0] != '{';
   return is_path ? (std::filesystem::path(sdf_file).parent_path() / model).string() : model;
 }
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from beside_the_predictor import compare
 from diabolo import DiaboloProperties, Model, Parameters, Recording, State, TipMotion
+from diabolo.cli import Parser
 from diabolo.robot import load_tip_plan
 from numpy.typing import NDArray
 
@@ -21,7 +21,7 @@ DT = 1e-3  # [s]
 
 
 def main(simulate: Simulate) -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = Parser(description=__doc__, allow_abbrev=False)
     parser.add_argument("motion", nargs="?", type=Path, help="what `diabolo motion` wrote; default: compare")
     parser.add_argument("out", nargs="?", type=Path, help="the recording to write, for --simulated")
     arguments = parser.parse_args()
@@ -30,9 +30,15 @@ def main(simulate: Simulate) -> None:
     if arguments.out is None:
         parser.error("MOTION.csv without SIM.csv; expected both")
     try:
-        played(simulate, arguments.motion).save(arguments.out)
-    except (OSError, ValueError, KeyError) as error:
-        parser.error(f"{arguments.motion}: {error}; expected what `diabolo motion` writes")
+        recording = played(simulate, arguments.motion)
+    except OSError as error:
+        parser.error(f"{error.filename}: {error.strerror}; expected what `diabolo motion` writes")
+    except (ValueError, KeyError, TypeError, IndexError) as error:
+        parser.error(f"{arguments.motion}: {error}; expected it and its .json from `diabolo motion`")
+    try:
+        recording.save(arguments.out)
+    except ValueError as error:
+        parser.error(str(error))
 
 
 def played(simulate: Simulate, motion: Path) -> Recording:

@@ -2,7 +2,7 @@
 """Writes the tips and the diabolo that are heard as a bag of ROS 2, until Ctrl-C.
 
     python examples/ros2/record.py take.mcap
-    diabolo diagnose take.mcap --topics left=/left_tip,right=/right_tip,diabolo=/diabolo
+    diabolo diagnose take.mcap
 
 A diabolo that a camera sees is heard by `--ros-args -r diabolo/pose:=/its/topic`.
 """

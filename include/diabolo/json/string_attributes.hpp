@@ -42,6 +42,11 @@ inline std::vector<std::string> string_attributes() {
   return names;
 }
 
+/// Whether a text is a name that model_named() knows.
+inline bool is_preset(const std::string& text) {
+  return text == "consistent" || text == "paper" || text == "published";
+}
+
 /// The model of the attributes: `attribute(key)` gives the text of one, empty where it is not there. `model`
 /// is a model file, its text, or a name as in model_named(); by default `consistent`. A number stands over
 /// that of the file. Throws std::invalid_argument or RecordingError with the attribute or the file's field.
@@ -49,11 +54,10 @@ template <class Attribute>
 Model model_of_attributes(const Attribute& attribute) {
   std::string file = attribute("model");
   file.erase(0, file.find_first_not_of(" \t\r\n"));
-  const bool named = file == "consistent" || file == "paper" || file == "published";
-  Model model = file.empty()     ? consistent_model()
-                : named          ? model_named(file)
-                : file[0] == '{' ? read_model(file, "model")
-                                 : load_model(file);
+  Model model = file.empty()      ? consistent_model()
+                : is_preset(file) ? model_named(file)
+                : file[0] == '{'  ? read_model(file, "model")
+                                  : load_model(file);
   for_each_attribute(model, [&](const std::string& key, double& value) {
     const std::string text = attribute(key);
     if (text.empty()) return;
