@@ -10,9 +10,9 @@ namespace diabolo {
 
 /// An axle that is not thin: the strands leave it along its tangents, and `radius` times the contact angle of
 /// the string, with all its wraps, lies around it. The strands pull as those to a thin axle would from tips
-/// that are moved by the radius, square to each strand and towards the other. While the string swings, what
-/// the strands lose is what the axle takes up (the strands' ends run along an involute), so that one step
-/// sees a string of constant length from tips of a constant shift. For an axle square to both strands.
+/// that are moved by the radius, square to the axle and to each strand and towards the other. While the
+/// string swings, what the strands lose is what the axle takes up (the strands' ends run along an involute),
+/// so that one step sees a string of constant length from tips of a constant shift.
 template <class Scalar>
 struct FiniteAxle : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "finite_axle";
@@ -22,17 +22,20 @@ struct FiniteAxle : NeutralEffect<Scalar> {
 
   TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips,
                              const Parameters<Scalar>&) const {
-    const StringPath<Scalar> path(state.position, tips);
-    const Vector3<Scalar> to_left = path.from_left * Scalar(Scalar(-1) / path.left_length),
-                          to_right = path.from_right * Scalar(Scalar(-1) / path.right_length);
+    const Vector3<Scalar> to_left = across(tips.left - state.position, state.axis),
+                          to_right = across(tips.right - state.position, state.axis);
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
-    return {select<Scalar>(captured, shift(to_left, to_right, path.left_length), TipShift<Scalar>().left),
-            select<Scalar>(captured, shift(to_right, to_left, path.right_length), TipShift<Scalar>().right)};
+    return {select<Scalar>(captured, shift(to_left, to_right, state.axis), TipShift<Scalar>().left),
+            select<Scalar>(captured, shift(to_right, to_left, state.axis), TipShift<Scalar>().right)};
   }
 
   Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted,
                       const Parameters<Scalar>& parameters) const {
-    const StringPath<Scalar> path(state.position, shifted);
+    StringPath<Scalar> path(state.position, shifted);  // as seen along the axle
+    path.from_left = across(path.from_left, state.axis);
+    path.from_right = across(path.from_right, state.axis);
+    path.left_length = norm(path.from_left);
+    path.right_length = norm(path.from_right);
     return select(is(state.string_state, StringState::kFlying), Scalar(0),
                   Scalar(radius * (contact_angle(path) + wrapped_angle(parameters))));
   }
@@ -44,14 +47,20 @@ struct FiniteAxle : NeutralEffect<Scalar> {
   }
 
  private:
-  /// Of the tip that the unit vector `own` points to, `length` away.
+  /// Without its part along the axle; never nothing.
+  static Vector3<Scalar> across(const Vector3<Scalar>& v, const Vector3<Scalar>& axis) {
+    return v - axis * Scalar(dot<Scalar>(v, axis) * Scalar(1.0 - 1e-9));
+  }
+
+  /// Of the tip that is at `own` from the axle, square to it; the other tip is at `other`.
   Vector3<Scalar> shift(const Vector3<Scalar>& own, const Vector3<Scalar>& other,
-                        const Scalar& length) const {
-    const Vector3<Scalar> across = other - own * dot<Scalar>(other, own);
-    const Vector3<Scalar> inward = across * Scalar(Scalar(1) / (norm(across) + Scalar(1e-9)));
-    const Scalar sine = minimum(Scalar(radius / length), Scalar(1));  // a tip within the axle is on it
+                        const Vector3<Scalar>& axis) const {
+    const Scalar away = Scalar(1) / norm(own);
+    const Vector3<Scalar> square = cross<Scalar>(axis, own) * away;
+    const Scalar side = select(dot<Scalar>(square, other) < Scalar(0), Scalar(-radius), radius);
+    const Scalar sine = minimum(Scalar(radius * away), Scalar(1));  // a tip within the axle is on it
     const Scalar cosine = positive_sqrt<Scalar>(Scalar(1) - sine * sine);
-    return inward * Scalar(radius * cosine) - own * Scalar(radius * sine);
+    return square * Scalar(side * cosine) - own * Scalar(radius * sine * away);
   }
 };
 
