@@ -115,6 +115,7 @@ void add_models(std::vector<NamedJob>& jobs, const std::string& scalar) {
   const Predictor<Scalar, StringElasticity> elastic(consistent.parameters(), effects);
   EffectSet<Scalar, FiniteAxle, Groove, GyroscopicTilt> body;
   body.template get<FiniteAxle>().radius = Scalar(0.0072);
+  body.template get<FiniteAxle>().follows_axis = Scalar(1.0);
   body.template get<Groove>().profile_radius = Scalar(0.006);
   body.template get<Groove>().half_width = Scalar(0.005);
   body.template get<GyroscopicTilt>().gain = Scalar(3.5);

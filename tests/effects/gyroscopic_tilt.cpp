@@ -70,6 +70,7 @@ Full rigid(const RigidTop& top) {
   set.get<GyroscopicTilt>().gain = top.mass * top.radius / top.axial;
   set.get<GyroscopicTilt>().inertia_ratio = top.transverse / top.axial;
   set.get<FiniteAxle>().radius = top.radius;
+  set.get<FiniteAxle>().follows_axis = 1.0;
   set.get<Groove>().profile_radius = top.profile;
   set.get<Groove>().half_width = top.half_width;
   Numbers parameters;

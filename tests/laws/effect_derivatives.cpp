@@ -17,7 +17,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr int kFields = 32;
+constexpr int kFields = 33;
 constexpr int kOutputs = 10;  // position, velocity, axle, spin
 using D = Dual<double, kFields>;
 using Outputs = Eigen::Matrix<double, kOutputs, 1>;
@@ -67,6 +67,7 @@ std::array<double, kFields> at_work() {
   set("gravity_tilt.x", 0.02);
   set("gravity_tilt.y", -0.03);
   set("finite_axle.radius", 0.007);
+  set("finite_axle.follows_axis", 0.1);
   set("string_friction.spin_gain", 4.0);
   set("stick_flex.compliance", 1.0 / 500.0);
   set("stick_flex.damping", 1.0);
@@ -75,7 +76,7 @@ std::array<double, kFields> at_work() {
   set("landing_restitution.coefficient", 1e-3);
   set("gyroscopic_tilt.gain", 1.0);
   set("gyroscopic_tilt.inertia_ratio", 1.2);
-  set("gyroscopic_tilt.decay", 0.5);
+  set("gyroscopic_tilt.decay", 5.0);
   set("groove.profile_radius", 0.006);
   set("groove.half_width", 0.005);
   set("groove.flank_brake", 0.5);
@@ -161,8 +162,8 @@ bool has_kink(const Play& play, const std::array<double, kFields>& x, int k, dou
 /// nearby, otherwise large enough for the rounding of the outcome not to count.
 double change_of(int k) {
   const std::string name = field_names()[static_cast<std::size_t>(k)];
-  const bool bends =
-      name.ends_with(".compliance") || name == "string_friction.coefficient" || name == "finite_axle.radius";
+  const bool bends = name.ends_with(".compliance") || name == "string_friction.coefficient" ||
+                     name == "finite_axle.radius" || name == "gyroscopic_tilt.inertia_ratio";
   return (bends ? 5e-5 : 1e-3) * std::abs(at_work()[static_cast<std::size_t>(k)]);
 }
 
@@ -179,10 +180,11 @@ bool of_loose_string(int k) {
          name.starts_with("unnamed_force.flight");
 }
 
-/// Acts at the groove's edge alone, which no level axle reaches; see groove.cpp.
+/// Acts at the groove's edge alone, which no level axle reaches, or is a choice; see groove.cpp and
+/// finite_axle.cpp.
 bool of_edge(int k) {
   const std::string name = field_names()[static_cast<std::size_t>(k)];
-  return name == "groove.half_width" || name == "groove.flank_brake";
+  return name == "groove.half_width" || name == "groove.flank_brake" || name == "finite_axle.follows_axis";
 }
 
 Play hanging_play(Random& random) {

@@ -231,10 +231,11 @@ struct EffectSet {
                  const Scalar& pull_difference, const Scalar& dt,
                  const Parameters<Scalar>& parameters) const {
     Vector3<Scalar> torque = Vector3<Scalar>::Constant(Scalar(0));
-    each([&]<class Effect>(const Effect& effect) {
-      if constexpr (hides(&Effect::axle_torque, &Neutral::axle_torque))
-        torque = torque + effect.axle_torque(state, given, result, pull_difference, parameters);
-    });
+    if (any(result.taut || result.snapped_taut))
+      each([&]<class Effect>(const Effect& effect) {
+        if constexpr (hides(&Effect::axle_torque, &Neutral::axle_torque))
+          torque = torque + effect.axle_torque(state, given, result, pull_difference, parameters);
+      });
     each([&]<class Effect>(const Effect& effect) {
       if constexpr (hides(&Effect::turn_axle, &Neutral::turn_axle)) effect.turn_axle(state, torque, dt);
     });

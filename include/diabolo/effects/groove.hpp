@@ -12,15 +12,14 @@ namespace diabolo {
 /// slip around it takes away, the string lies where the groove's bottom is square to its pull b: the contact
 /// is z = profile_radius (b.s) / |b| along the axle, as far as the groove is wide. From there it pulls: the
 /// strands begin z s from the centre, and the torque is z s x force, which yaws and tilts the axle where
-/// GyroscopicTilt has its inertia. At the groove's edge the string rubs on the cup and brakes the spin by
-/// flank_brake |force along the axle| / m.
+/// GyroscopicTilt has its gain. At the groove's edge the string rubs on the cup and brakes the spin by
+/// flank_brake |force along the axle| / m, with the force of the step before.
 template <class Scalar>
 struct Groove : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "groove";
-  static constexpr double kSlowSpin = 0.5;  ///< below which the brake fades [rad/s]
-  Scalar profile_radius{0};                 ///< of the groove's bottom, in a cut along the axle [m]
-  Scalar half_width{0};                     ///< how far the string may climb [m]
-  Scalar flank_brake{0};  ///< friction times radius of the rubbing times mass over axial inertia [1/m]
+  Scalar profile_radius{0};  ///< of the groove's bottom, in a cut along the axle [m]
+  Scalar half_width{0};      ///< how far the string may climb [m]
+  Scalar flank_brake{0};     ///< friction times radius of the rubbing times mass over axial inertia [1/m]
 
   bool neutral() const { return is_constant_zero(profile_radius) || is_constant_zero(half_width); }
 
@@ -32,23 +31,22 @@ struct Groove : NeutralEffect<Scalar> {
 
   TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips,
                              const Parameters<Scalar>&) const {
-    const Scalar z = select(is(state.string_state, StringState::kFlying), Scalar(0),
-                            climb(state.axis, bisector(StringPath<Scalar>(state.position, tips))));
+    const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
+    if (!any(captured)) return {};
+    const Scalar z =
+        select(captured, climb(state.axis, bisector(StringPath<Scalar>(state.position, tips))), Scalar(0));
     const Vector3<Scalar> shift = state.axis * Scalar(-z);
     return {shift, shift};
   }
 
-  Contact<Scalar> contact(const State<Scalar>& state, const Tips<Scalar>&,
-                          const StringStepResult<Scalar>& result, const Scalar& dt,
-                          const Parameters<Scalar>&) const {
-    const Scalar along = dot<Scalar>(state.axis, result.string_acceleration);
-    const Scalar climbed = profile_radius * absolute<Scalar>(along),
-                 edge = half_width * norm(result.string_acceleration);
-    const Scalar sense = state.spin / (absolute<Scalar>(state.spin) + Scalar(kSlowSpin));
-    Contact<Scalar> braked;
-    braked.spin =
-        select(climbed > edge, Scalar(-(flank_brake * absolute<Scalar>(along) * sense * dt)), Scalar(0));
-    return braked;
+  Scalar spin_acceleration(const Scalar& spin, const State<Scalar>& state, const Tips<Scalar>&,
+                           const Scalar& dt, const Parameters<Scalar>&) const {
+    if (is_constant_zero(flank_brake)) return Scalar(0);
+    const Scalar along = absolute<Scalar>(dot<Scalar>(state.axis, state.string_acceleration));
+    const Mask<Scalar> rubs = profile_radius * along > half_width * norm(state.string_acceleration);
+    const Scalar rest = absolute<Scalar>(spin) / dt;  // what stops it
+    const Scalar braked = select(rubs, minimum(Scalar(flank_brake * along), rest), Scalar(0));
+    return select(spin > Scalar(0), Scalar(-braked), braked);
   }
 
   Vector3<Scalar> axle_torque(const State<Scalar>& state, const Tips<Scalar>& tips,

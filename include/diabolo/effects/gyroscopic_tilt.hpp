@@ -52,9 +52,9 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
   }
 
   void turn_axle(State<Scalar>& state, const Vector3<Scalar>& torque, const Scalar& dt) const {
-    const Vector3<Scalar> followed = after_slow_turn(state, torque, dt);
-    if (tumbles()) {
-      const Mask<Scalar> rigid = inertia_ratio > Scalar(0);
+    const Mask<Scalar> rigid = inertia_ratio > Scalar(0);
+    const Vector3<Scalar> followed = all(rigid) ? state.axis : after_slow_turn(state, torque, dt);
+    if (any(rigid)) {
       const Scalar ratio = select(rigid, inertia_ratio, Scalar(1));
       // Half of the torque's kick before the axle turns about the momentum, half after: second order.
       const Vector3<Scalar> kick = torque * Scalar(Scalar(0.5) * dt * gain / ratio);
