@@ -155,7 +155,7 @@ prove-player: $(VENV)/.package plant ## Play a few plans on the independent plan
 	@$(VENV)/bin/python -m benchmarks.proof.player small --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests
-	@$(VENV)/bin/python -m pytest
+	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist worksteal
 
 test-all: test test-long mujoco gazebo hosts ros2 rerun browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
 
