@@ -55,10 +55,10 @@ $(VENV)/.package: $(VENV)/.created $(package_sources)
 	@$(install_package) '.[plot]'
 	@touch $@
 
-$(VENV)/.package-with-tests: $(VENV)/.created $(package_sources)
-	@echo "Installing the Python package and its test tools into $(VENV) $(compiling)"
-	@$(install_package) '.[plot,envs,formats,test]'
-	@touch $(VENV)/.package $@
+# What extras name, beside the package as it is installed: it is not built again.
+$(VENV)/.package-with-tests: $(VENV)/.package
+	@$(pip) 'diabolo[envs,formats,test]'
+	@touch $@
 
 $(VENV)/.tools: $(VENV)/.created tools/tool-requirements.txt
 	@$(pip) -r tools/tool-requirements.txt
@@ -160,11 +160,11 @@ test-python: $(VENV)/.package-with-tests
 test-all: test test-long mujoco gazebo hosts ros2 rerun browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
 
 hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
-	@$(install_package) '.[dart,drake,test]'
+	@$(pip) 'diabolo[dart,drake]'
 	@$(VENV)/bin/python -m pytest -m hosts tests/heavy
 
 rerun: $(VENV)/.package-with-tests ## Write files of rerun, and read them again
-	@$(install_package) '.[rerun,test]'
+	@$(pip) 'diabolo[rerun]'
 	@$(VENV)/bin/python -m pytest -m rerun tests/heavy
 
 ros2: $(VENV)/.package-with-tests ## Play in ROS 2: two processes over DDS
@@ -190,7 +190,7 @@ browser: $(VENV)/.package-with-tests page ## Look at the report, the view and th
 
 mujoco: $(VENV)/.package-with-tests ## Put the string into MuJoCo, and compare with its own tendon
 	@$(packages) mujoco
-	@$(install_package) '.[mujoco,plot,test]'
+	@$(pip) 'diabolo[mujoco]'
 	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy
 
 gazebo: $(VENV)/.package-with-tests ## Put the string into Gazebo's engine, and compile its plugin for gz-sim 8
@@ -232,7 +232,7 @@ run_benchmarks = $(VENV)/bin/python -m benchmarks.speed.run_all $(BUILD)/bench/b
 
 bench: build-benchmarks $(VENV)/.package ## Run every benchmark and write docs/benchmarks.md
 	@$(packages) mujoco
-	@$(install_package) '.[mujoco,plot,test]'
+	@$(pip) 'diabolo[mujoco]'
 	@$(run_benchmarks) docs/benchmarks.md --json $(BUILD)/bench/benchmarks.json
 
 check-benchmarks: build-benchmarks $(VENV)/.created # Every benchmark runs; its figures are not looked at.
