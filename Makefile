@@ -148,7 +148,7 @@ plant: ## Build the independent plant, on which the proofs play
 	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
 
 prove: $(VENV)/.package plant ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
-	@$(VENV)/bin/python -m benchmarks.proof.diagnosis quick --cases 16 --plant $(BUILD)/plant/diabolo-plant
+	@$(VENV)/bin/python -m benchmarks.proof.diagnosis quick --cases 16 --jobs $(JOBS) --plant $(BUILD)/plant/diabolo-plant
 
 prove-player: $(VENV)/.package plant ## Play a few plans on the independent plant, and see that they do what is wanted
 	@$(VENV)/bin/python -m benchmarks.proof.player small --plant $(BUILD)/plant/diabolo-plant
