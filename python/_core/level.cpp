@@ -23,14 +23,14 @@ double positive(double value, const char* name, const char* unit) {
 }
 
 LevelHands make_level_hands(const Model& model, const Array& left, const Array& right, double spin,
-                            double ahead, double turn, double quickness) {
+                            double lead, double turn, double quickness) {
   Tips<double> home;
   home.left = to_vector3(left, "left");
   home.right = to_vector3(right, "right");
   if (!((home.left - home.right).norm() < model.parameters.string_length))
     throw std::invalid_argument("left, right: " + std::to_string((home.left - home.right).norm()) +
                                 " m apart; expected less than the string's length");
-  const LevelHandLimits limits{positive(ahead, "ahead", "m"), positive(turn, "turn", "rad/s"),
+  const LevelHandLimits limits{positive(lead, "lead", "rad"), positive(turn, "turn", "rad/s"),
                                positive(quickness, "quickness", "1/s")};
   return {FullPredictor<double>(model.parameters, model.effects), home, spin, {}, limits};
 }
@@ -61,14 +61,14 @@ void bind_level(py::module_& module) {
   py::class_<LevelHands>(module, "LevelHands",
                          R"(Hands that keep the axle of a diabolo level while they play any motion.
 
-They turn the motion towards the axle and set one hand ahead of the other, by the gains of a linear-quadratic
-regulator on the model, learnt anew where the spin has changed by a tenth. The model needs a GyroscopicTilt.)")
+They turn the motion towards the axle, and beyond it to tilt it, by the gains of a linear-quadratic regulator on
+the model, learnt anew where the spin has changed by a tenth. The model needs a GyroscopicTilt.)")
       .def(
           py::init(&make_level_hands), "model"_a, "left"_a, "right"_a, "spin"_a, py::kw_only(),
-          "ahead"_a = LevelHandLimits{}.ahead, "turn"_a = LevelHandLimits{}.turn,
+          "lead"_a = LevelHandLimits{}.lead, "turn"_a = LevelHandLimits{}.turn,
           "quickness"_a = LevelHandLimits{}.quickness,
-          R"(left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `ahead` [m]
-goes a hand forward or back, `turn` [rad/s] do both turn; they follow with the rate `quickness` [1/s].)")
+          R"(left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
+[rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the rate `quickness` [1/s].)")
       .def("see", &see, "axis"_a, "spin"_a,
            "Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s].")
       .def(
@@ -80,17 +80,17 @@ goes a hand forward or back, `turn` [rad/s] do both turn; they follow with the r
 Returns left, right, left_velocity, right_velocity, each of the shape (3,).)")
       .def_property_readonly(
           "heading", [](const LevelHands& hands) { return hands.turned().heading; },
-          "How far the hands are turned to the left [rad].")
+          "Where the player faces, from where the play began to the left [rad].")
       .def_property_readonly(
-          "ahead", [](const LevelHands& hands) { return hands.turned().ahead; },
-          "How far the left hand is forward and the right one back [m].")
+          "lead", [](const LevelHands& hands) { return hands.turned().lead; },
+          "How far the hands are turned to the left beyond the heading [rad].")
       .def_property_readonly(
           "gains",
           [](const LevelHands& hands) {
             const Eigen::Matrix<double, 2, 3, Eigen::RowMajor> gains = hands.gains();
             return Array({2, 3}, gains.data());
           },
-          "K of (ahead, turn) = -K (tilt, yaw, heading), shape (2, 3).");
+          "K of (lead, turn) = -K (tilt, yaw, heading), shape (2, 3).");
 }
 
 }  // namespace diabolo::python

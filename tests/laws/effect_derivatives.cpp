@@ -92,7 +92,7 @@ std::array<double, kFields> at_work() {
 
 struct Play {
   SmoothTips player;
-  Vector start = Vector::Zero(), velocity = Vector::Zero();
+  Vector start = Vector::Zero(), velocity = Vector::Zero(), tumble{0.0, 1.2, -1.6};
   double spin = 0.0;
   StringState string_state = StringState::kOnString;
 };
@@ -116,6 +116,7 @@ std::array<Scalar, kOutputs> run(const Play& play, const std::array<Scalar, kFie
   state.position = cast(play.start);
   state.velocity = cast(play.velocity);
   state.spin = Scalar(play.spin);
+  state.tumble = cast(play.tumble);
   state.string_state = play.string_state;
   for (int i = 0; i < 400; ++i)
     predictor.step(state, tips_at(i * 1e-3), tips_at((i + 1) * 1e-3), Scalar(1e-3));
@@ -239,6 +240,7 @@ TEST_CASE("derivatives by every field, all effects at work, in flight") {
   for (int episode = 0; episode < 6; ++episode) {
     Play play = hanging_play(random);
     play.start.z() = 100.0;
+    play.tumble.setZero();
     play.velocity = random.vector(4.0);
     play.string_state = StringState::kFlying;
     const auto jacobian = dual(play, x);

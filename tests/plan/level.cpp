@@ -20,14 +20,15 @@ TEST_CASE("tilt and yaw of an axle are the angles that it is made of") {
   CHECK(again.yaw == Approx(1.1));
 }
 
-TEST_CASE("a turn of the hands keeps their distance and their middle") {
-  const Tips<double> base = home();
-  const Turned turn{0.7, 0.05, 0.5 * (base.left + base.right)};
+TEST_CASE("a turn of the hands keeps their distance, their heights and their middle") {
+  Tips<double> base = home();
+  base.left.z() += 0.2;
+  const Turned turn{0.5, 0.2, 0.5 * (base.left + base.right)};
   const Tips<double> turned = turn(base);
   CHECK((turned.left + turned.right - base.left - base.right).norm() < 1e-15);
-  const Eigen::Vector3d apart = turned.left - turned.right;
-  CHECK(apart.dot(turn.forward()) == Approx(0.1));
-  CHECK((apart - 0.1 * turn.forward()).norm() == Approx((base.left - base.right).norm()));
+  CHECK(turned.left.z() == base.left.z());
+  CHECK((turned.left - turned.right).norm() == Approx((base.left - base.right).norm()));
+  CHECK((turned.left - turned.right).x() == Approx(-0.6 * std::sin(0.7)));
 }
 
 TEST_CASE("the axle answers hands as its response says") {
@@ -36,10 +37,10 @@ TEST_CASE("the axle answers hands as its response says") {
       const FullPredictor<double> model = body(profile, 0.0);
       const AxleResponse response = axle_response(model, home(), spin);
       const Eigen::Vector3d angles(0.02, -0.03, 0.015);
-      const double ahead = 0.04;
-      const Turned turn{angles[2], ahead, 0.5 * (home().left + home().right)};
+      const double lead = -0.12;
+      const Turned turn{angles[2], lead, 0.5 * (home().left + home().right)};
       const Tips<double> hands = turn(home());
-      const Eigen::Vector3d wanted = response.drift * angles + response.drive.col(0) * ahead;
+      const Eigen::Vector3d wanted = response.drift * angles + response.drive.col(0) * lead;
       const State<double> start = resting(model, hands, {angles[0], angles[1]}, spin);
       const State<double> end = held(model, start, hands, 0.1);
       const AxleAngles before = axle_angles(start.axis), after = axle_angles(end.axis);
@@ -52,9 +53,9 @@ TEST_CASE("the axle answers hands as its response says") {
 
 TEST_CASE("the slower the spin the stronger the response, and the other way round it is the opposite") {
   const FullPredictor<double> model = body(0.004);
-  const auto tilt_by_ahead = [&](double spin) { return axle_response(model, home(), spin).drive(0, 0); };
-  CHECK(tilt_by_ahead(100.0) / tilt_by_ahead(200.0) == Approx(2.0).epsilon(0.01));
-  CHECK(tilt_by_ahead(-100.0) == Approx(-tilt_by_ahead(100.0)));
+  const auto tilt_by_lead = [&](double spin) { return axle_response(model, home(), spin).drive(0, 0); };
+  CHECK(tilt_by_lead(100.0) / tilt_by_lead(200.0) == Approx(2.0).epsilon(0.01));
+  CHECK(tilt_by_lead(-100.0) == Approx(-tilt_by_lead(100.0)));
 }
 
 TEST_CASE("the regulator's gains calm the axle, and no others near them cost less") {
@@ -80,7 +81,7 @@ TEST_CASE("the regulator's gains calm the axle, and no others near them cost les
         for (int i = 0; i < static_cast<int>(weights.horizon / 0.002); ++i) {
           const Eigen::Vector2d u = -k * x;
           sum += 0.002 * (std::pow(x[0] / weights.tilt, 2) + std::pow((x[1] - x[2]) / weights.yaw, 2) +
-                          std::pow(x[2] / weights.heading, 2) + std::pow(u[0] / weights.ahead, 2) +
+                          std::pow(x[2] / weights.heading, 2) + std::pow(u[0] / weights.lead, 2) +
                           std::pow(u[1] / weights.turn, 2));
           x += 0.002 * (response.drift * x + response.drive * u);
         }

@@ -23,28 +23,28 @@ inline Vector3<double> axle_at(const AxleAngles& angles) {
   return {level * std::cos(angles.yaw), level * std::sin(angles.yaw), std::sin(angles.tilt)};
 }
 
-/// Hands turned to the left by `heading` [rad] about the vertical through `pivot`, the left one set forward
-/// and the right one back by `ahead` [m].
+/// A motion of the hands that is turned to the left by `heading` and `lead` [rad] about the vertical through
+/// `pivot`. The player faces along the heading; the lead sets the right hand forward and the left one back,
+/// as a player does who tilts the axle, and leaves the string's shape as it is.
 struct Turned {
-  double heading = 0.0, ahead = 0.0;
+  double heading = 0.0, lead = 0.0;
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
 
-  Eigen::Vector3d forward() const { return {std::cos(heading), std::sin(heading), 0.0}; }
-  Eigen::Vector3d to_left(const Eigen::Vector3d& v) const {
-    return {forward().x() * v.x() - forward().y() * v.y(), forward().y() * v.x() + forward().x() * v.y(),
-            v.z()};
+  Eigen::Vector3d operator()(const Eigen::Vector3d& v) const {
+    const double c = std::cos(heading + lead), s = std::sin(heading + lead);
+    return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()};
   }
   /// Places alone.
   Tips<double> operator()(Tips<double> tips) const {
-    tips.left = pivot + to_left(tips.left - pivot) + ahead * forward();
-    tips.right = pivot + to_left(tips.right - pivot) - ahead * forward();
+    tips.left = pivot + (*this)(Eigen::Vector3d(tips.left - pivot));
+    tips.right = pivot + (*this)(Eigen::Vector3d(tips.right - pivot));
     return tips;
   }
 };
 
 /// How the axle of a diabolo that hangs between level hands answers them, to first order: d/dt (tilt, yaw,
-/// heading) = drift (tilt, yaw, heading) + drive (ahead, turn), angles in rad, `ahead` in m as in Turned, and
-/// `turn` the rate of the hands' heading [rad/s]. The axle follows its torque without nutation, so that both
+/// heading) = drift (tilt, yaw, heading) + drive (lead, turn), angles in rad as in Turned, and `turn`
+/// the rate of the heading [rad/s]. The axle follows its torque without nutation, so that both
 /// matrices go as one over the spin but for the heading's own row.
 struct AxleResponse {
   Eigen::Matrix3d drift;
@@ -85,13 +85,13 @@ inline AxleResponse axle_response(const FullPredictor<double>& model, const Tips
   if (!(std::abs(spin) >= 2.0 * GyroscopicTilt<double>::kSlowSpin))
     throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; levelling needs 10 at least");
   const Eigen::Vector3d pivot = 0.5 * (home.left + home.right);
-  const auto rates = [&](double tilt, double yaw, double heading, double ahead) {
+  const auto rates = [&](double tilt, double yaw, double heading, double lead) {
     return level_detail::angle_rates(effects, model.parameters(), {tilt, yaw}, spin,
-                                     Turned{heading, ahead, pivot}(home));
+                                     Turned{heading, lead, pivot}(home));
   };
-  const auto slope = [&](double tilt, double yaw, double heading, double ahead) -> Eigen::Vector2d {
-    return (rates(kSmall * tilt, kSmall * yaw, kSmall * heading, kSmall * ahead) -
-            rates(-kSmall * tilt, -kSmall * yaw, -kSmall * heading, -kSmall * ahead)) /
+  const auto slope = [&](double tilt, double yaw, double heading, double lead) -> Eigen::Vector2d {
+    return (rates(kSmall * tilt, kSmall * yaw, kSmall * heading, kSmall * lead) -
+            rates(-kSmall * tilt, -kSmall * yaw, -kSmall * heading, -kSmall * lead)) /
            (2.0 * kSmall);
   };
   AxleResponse response{Eigen::Matrix3d::Zero(), Eigen::Matrix<double, 3, 2>::Zero()};
@@ -104,14 +104,14 @@ inline AxleResponse axle_response(const FullPredictor<double>& model, const Tips
 /// What levelling weighs: each quantity by the size at which it costs one.
 struct LevelWeights {
   double tilt = 0.05;     ///< [rad]
-  double yaw = 0.05;      ///< of the axle against the hands [rad]
-  double heading = 1.0;   ///< of the hands [rad]
-  double ahead = 0.05;    ///< [m]
+  double yaw = 0.05;      ///< of the axle against the heading [rad]
+  double heading = 1.0;   ///< of the player [rad]
+  double lead = 0.1;      ///< [rad]
   double turn = 0.5;      ///< [rad/s]
   double horizon = 20.0;  ///< [s]
 };
 
-/// Gains K of the linear-quadratic regulator, (ahead, turn) = -K (tilt, yaw, heading), which minimises the
+/// Gains K of the linear-quadratic regulator, (lead, turn) = -K (tilt, yaw, heading), which minimises the
 /// weighed squares over the horizon: Riccati's recursion backwards. (What no hand can move, such as the yaw
 /// of an axle in a groove without flanks, costs and stays.)
 inline Eigen::Matrix<double, 2, 3> level_gains(const AxleResponse& response,
@@ -123,7 +123,7 @@ inline Eigen::Matrix<double, 2, 3> level_gains(const AxleResponse& response,
   cost(0, 0) = one_over_square(weights.tilt);
   cost.bottomRightCorner<2, 2>() << yaw, -yaw, -yaw, yaw + one_over_square(weights.heading);
   const Eigen::Matrix2d effort =
-      Eigen::Vector2d(one_over_square(weights.ahead), one_over_square(weights.turn)).asDiagonal();
+      Eigen::Vector2d(one_over_square(weights.lead), one_over_square(weights.turn)).asDiagonal();
   const Eigen::Matrix3d next = Eigen::Matrix3d::Identity() + kStep * response.drift;
   const Eigen::Matrix<double, 3, 2> push = kStep * response.drive;
   Eigen::Matrix3d to_go = cost;

@@ -9,13 +9,13 @@ namespace diabolo {
 
 /// What hands may do to level the axle.
 struct LevelHandLimits {
-  double ahead = 0.2;      ///< of a hand forward or back [m]
+  double lead = 0.6;       ///< of the hands before the heading [rad]
   double turn = 1.0;       ///< rate of the heading [rad/s]
   double quickness = 8.0;  ///< of the hands: they follow what is wanted with this rate [1/s]
 };
 
 /// Hands that keep the axle of a diabolo level while they play any motion: the motion turned towards the
-/// axle, and one hand ahead of the other, by the gains of level_gains() for the spin that is seen.
+/// axle, and beyond it to tilt it, by the gains of level_gains() for the spin that is seen.
 class LevelHands {
  public:
   /// `home` are the hands of the play at rest; the play turns about the vertical through their middle. Throws
@@ -32,7 +32,7 @@ class LevelHands {
     if (std::abs(spin - learnt_spin_) > kRelearn * std::abs(learnt_spin_)) learn(spin);
     const AxleAngles angles = axle_angles(axis);
     const Eigen::Vector2d wanted = -gains_ * Eigen::Vector3d(angles.tilt, angles.yaw, turned_.heading);
-    wanted_ahead_ = std::clamp(wanted[0], -limits_.ahead, limits_.ahead);
+    wanted_lead_ = std::clamp(wanted[0], -limits_.lead, limits_.lead);
     wanted_turn_ = std::clamp(wanted[1], -limits_.turn, limits_.turn);
   }
 
@@ -40,10 +40,10 @@ class LevelHands {
   void advance(double dt) {
     const double k = limits_.quickness;
     // Critically damped towards what is wanted, exact for a constant one.
-    const double gap = turned_.ahead - wanted_ahead_, fade = std::exp(-k * dt);
-    const double pushed = ahead_rate_ + k * gap;
-    turned_.ahead = wanted_ahead_ + (gap + pushed * dt) * fade;
-    ahead_rate_ = (ahead_rate_ - k * pushed * dt) * fade;
+    const double gap = turned_.lead - wanted_lead_, fade = std::exp(-k * dt);
+    const double pushed = lead_rate_ + k * gap;
+    turned_.lead = wanted_lead_ + (gap + pushed * dt) * fade;
+    lead_rate_ = (lead_rate_ - k * pushed * dt) * fade;
     const double turn = wanted_turn_ + (turn_ - wanted_turn_) * fade;
     turned_.heading += 0.5 * (turn_ + turn) * dt;
     turn_ = turn;
@@ -56,11 +56,9 @@ class LevelHands {
   /// The tips of the motion as these hands play it now, with their velocities.
   Tips<double> tips(const Tips<double>& base) const {
     Tips<double> tips = turned_(base);
-    const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), pushed = ahead_rate_ * turned_.forward();
-    tips.left_velocity =
-        turned_.to_left(base.left_velocity) + turn_ * cross<double>(up, tips.left - turned_.pivot) + pushed;
-    tips.right_velocity =
-        turned_.to_left(base.right_velocity) + turn_ * cross<double>(up, tips.right - turned_.pivot) - pushed;
+    const Eigen::Vector3d rate = (turn_ + lead_rate_) * Eigen::Vector3d::UnitZ();
+    tips.left_velocity = turned_(base.left_velocity) + cross<double>(rate, tips.left - turned_.pivot);
+    tips.right_velocity = turned_(base.right_velocity) + cross<double>(rate, tips.right - turned_.pivot);
     return tips;
   }
 
@@ -78,7 +76,7 @@ class LevelHands {
   LevelHandLimits limits_;
   Turned turned_;
   Eigen::Matrix<double, 2, 3> gains_;
-  double learnt_spin_ = 0.0, wanted_ahead_ = 0.0, wanted_turn_ = 0.0, ahead_rate_ = 0.0, turn_ = 0.0;
+  double learnt_spin_ = 0.0, wanted_lead_ = 0.0, wanted_turn_ = 0.0, lead_rate_ = 0.0, turn_ = 0.0;
 };
 
 }  // namespace diabolo
