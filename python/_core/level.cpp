@@ -39,6 +39,8 @@ void see(LevelHands& hands, const Array& axis, double spin) {
   const Vector3<double> seen = to_vector3(axis, "axis");
   if (!(std::abs(seen.norm() - 1.0) < 1e-6))
     throw std::invalid_argument("axis: norm " + std::to_string(seen.norm()) + "; expected a unit vector");
+  if (!std::isfinite(spin))
+    throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
   hands.see(seen, spin);
 }
 

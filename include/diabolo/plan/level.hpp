@@ -106,7 +106,7 @@ struct LevelWeights {
   double tilt = 0.05;     ///< [rad]
   double yaw = 0.05;      ///< of the axle against the heading [rad]
   double heading = 1.0;   ///< of the player [rad]
-  double lead = 0.1;      ///< [rad]
+  double lead = 0.3;      ///< [rad]
   double turn = 0.5;      ///< [rad/s]
   double horizon = 20.0;  ///< [s]
 };
