@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The axle's direction a second ahead, on real takes: GyroscopicTilt and Groove beside an axle that stays.
 
-Gain and groove are chosen on the first half of a take, with the error that 90 % of its starts stay within. The
-second half says how good they are.
+Gain and groove are chosen on the first half of a take, with the error that 90 % of its starts stay within.
+The second half says how good they are.
 """
 
 from __future__ import annotations
