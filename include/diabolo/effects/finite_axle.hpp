@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "diabolo/effects/effect.hpp"
-#include "diabolo/string/string_path.hpp"
+#include "diabolo/string/winding.hpp"
 
 namespace diabolo {
 
@@ -21,20 +21,25 @@ struct FiniteAxle : NeutralEffect<Scalar> {
   bool neutral() const { return is_constant_zero(radius); }
 
   TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips,
-                             const Parameters<Scalar>&) const {
+                             const Parameters<Scalar>& parameters) const {
     const StringPath<Scalar> path(state.position, tips);
     const Vector3<Scalar> to_left = path.from_left * Scalar(Scalar(-1) / path.left_length),
                           to_right = path.from_right * Scalar(Scalar(-1) / path.right_length);
+    // Strands that cross leave the axle on the other side of each other.
+    const Vector3<Scalar> around = state.axis * side_of_axle(state, parameters);
+    const bool follows = parameters.follow_turns;
+    const Vector3<Scalar> left_in = follows ? cross<Scalar>(around, to_left) : across(to_left, to_right),
+                          right_in = follows ? cross<Scalar>(to_right, around) : across(to_right, to_left);
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
-    return {select<Scalar>(captured, shift(to_left, to_right, path.left_length), TipShift<Scalar>().left),
-            select<Scalar>(captured, shift(to_right, to_left, path.right_length), TipShift<Scalar>().right)};
+    return {select<Scalar>(captured, shift(to_left, left_in, path.left_length), TipShift<Scalar>().left),
+            select<Scalar>(captured, shift(to_right, right_in, path.right_length), TipShift<Scalar>().right)};
   }
 
   Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted,
                       const Parameters<Scalar>& parameters) const {
     const StringPath<Scalar> path(state.position, shifted);
     return select(is(state.string_state, StringState::kFlying), Scalar(0),
-                  Scalar(radius * (contact_angle(path) + wrapped_angle(parameters))));
+                  Scalar(radius * winding(state, path, parameters).angle));
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -44,11 +49,14 @@ struct FiniteAxle : NeutralEffect<Scalar> {
   }
 
  private:
-  /// Of the tip that the unit vector `own` points to, `length` away.
-  Vector3<Scalar> shift(const Vector3<Scalar>& own, const Vector3<Scalar>& other,
-                        const Scalar& length) const {
-    const Vector3<Scalar> across = other - own * dot<Scalar>(other, own);
-    const Vector3<Scalar> inward = across * Scalar(Scalar(1) / (norm(across) + Scalar(1e-9)));
+  /// The part of the unit vector `other` that is square to `own`.
+  static Vector3<Scalar> across(const Vector3<Scalar>& own, const Vector3<Scalar>& other) {
+    return other - own * dot<Scalar>(other, own);
+  }
+
+  /// Of the tip that the unit vector `own` points to, `length` away; `in` is square to it.
+  Vector3<Scalar> shift(const Vector3<Scalar>& own, const Vector3<Scalar>& in, const Scalar& length) const {
+    const Vector3<Scalar> inward = in * Scalar(Scalar(1) / (norm(in) + Scalar(1e-9)));
     const Scalar sine = minimum(Scalar(radius / length), Scalar(1));  // a tip within the axle is on it
     const Scalar cosine = positive_sqrt<Scalar>(Scalar(1) - sine * sine);
     return inward * Scalar(radius * cosine) - own * Scalar(radius * sine);

@@ -47,6 +47,7 @@ struct StringMemory {
   Vector3<double> owed = Vector3<double>::Zero();  ///< velocity that the host has not got yet [m/s]
   Vector3<double> string_acceleration = Vector3<double>::Zero();  ///< see State
   StringState string_state = StringState::kLoose;
+  double turns = 0.0;  ///< see State
 };
 
 /// The string between two tips that a host moves, on a body that it integrates. Holds constants alone: one
@@ -93,6 +94,7 @@ class AttachedString {
     state.axis = body.axle;
     state.string_state = memory.string_state;
     state.string_acceleration = memory.string_acceleration;
+    state.turns = memory.turns;
     settle(state, begin);
     const State<double> before = state;
     StringWrench wrench;
@@ -104,7 +106,7 @@ class AttachedString {
     wrench.torque = body.axle * (-inertia_ * (state.spin - before.spin) / dt);
     if (state.string_state == StringState::kOnString)
       pull_strands(body, before, state, begin, end, dt, reached, wrench);
-    memory = {state.velocity - reached, state.string_acceleration, state.string_state};
+    memory = {state.velocity - reached, state.string_acceleration, state.string_state, state.turns};
     return wrench;
   }
 
