@@ -108,6 +108,7 @@ class Predictor {
     StringStepResult<Scalar> result;
     if (!(elastic(string) ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
       return false;
+    if (parameters_.follow_turns) measure_passing(step, result);
     take_over(state, step, result);
     return true;
   }
@@ -121,9 +122,10 @@ class Predictor {
     const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, dt, parameters_));
     const StringStep<Scalar> step = step_on(string, state, velocity, outer, begin, end, dt, plane_);
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
-    const StringStepResult<Scalar> result =
+    StringStepResult<Scalar> result =
         any(flying) ? advance_in_flight<kMayStretch>(state, step, parameters_, status.caught)
                     : advance_captured<kMayStretch>(step, !flying);
+    if (parameters_.follow_turns) measure_passing(step, result);
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     take_over(state, step, result);
     if (!all(result.taut))

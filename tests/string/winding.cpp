@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/string/winding.hpp"
 
+#include "diabolo/math/dual.hpp"
 #include "effects/scene.hpp"
 
 using namespace effect_scene;

@@ -89,6 +89,14 @@ struct StringStepResult {
   Mask<Scalar> taut{false}, snapped_taut{false};
 };
 
+/// The string that has passed the axle, to the last bit of the position; the search for the string's pull says
+/// it as of its last iterate but one.
+template <class Scalar>
+void measure_passing(const StringStep<Scalar>& step, StringStepResult<Scalar>& result) {
+  result.passed = Scalar(0.5) * (StringPath<Scalar>(result.position, step.end).imbalance() -
+                                 StringPath<Scalar>(step.position, step.begin).imbalance());
+}
+
 /// Energy per mass that a step may be wrong by [J/kg].
 template <class Scalar>
 Scalar energy_tolerance() {
