@@ -11,6 +11,7 @@
 #include "diabolo/full_predictor.hpp"
 #include "diabolo/strand_tensions.hpp"
 #include "diabolo/string/tip_geometry.hpp"
+#include "diabolo/string/winding.hpp"
 
 // Our string on a body of somebody else's simulator. The host integrates, and knows contacts, joints and all
 // else; in each step we say which force and torque make its body move as the predictor does, see
@@ -133,7 +134,8 @@ class AttachedString {
     wrench.on_left = -left * strands.left - rest;
     wrench.on_right = -right * strands.right - rest;
     const double passed = (end.right - after.position).norm() - (begin.right - before.position).norm();
-    wrench.slip = passed / dt - predictor_.parameters().axle_radius * after.spin;
+    const Parameters<double>& parameters = predictor_.parameters();
+    wrench.slip = passed / dt - side_of_axle(after, parameters) * parameters.axle_radius * after.spin;
   }
 
   FullPredictor<double> predictor_;
