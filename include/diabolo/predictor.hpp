@@ -129,9 +129,9 @@ class Predictor {
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     take_over(state, step, result);
     if (!all(result.taut))
-      state.string_state = slack_string_state(state.string_state, state.position, result.slack,
-                                              result.gradient_squared, end.left, end.right,
-                                              is_wound(state, end, parameters_), parameters_);
+      state.string_state =
+          slack_string_state(state.string_state, state.position, result.slack, result.gradient_squared,
+                             end.left, end.right, is_wound(state, end, parameters_), parameters_);
     status.snapped_taut = result.snapped_taut;
     status.overstretched = step.overstretched();
     if (any(status.overstretched)) hold(state, end, dt, captured && status.overstretched, string);

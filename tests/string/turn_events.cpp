@@ -23,8 +23,8 @@ Full follower(double wraps) {
   return Full(numbers, set);
 }
 
-/// The right tip circles `rounds` times around a place below the left one, in a quarter of a second each, over
-/// the left tip first, or the other way round.
+/// The right tip circles `rounds` times around a place below the left one, in a quarter of a second each,
+/// over the left tip first, or the other way round.
 Tips<double> circling(double t, double rounds, double phase) {
   const double rate = 8.0 * M_PI * (rounds > 0.0 ? 1.0 : -1.0), last = 0.25 * std::abs(rounds);
   const double angle = phase + rate * std::min(t, last), radius = 0.4;

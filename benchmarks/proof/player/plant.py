@@ -156,7 +156,12 @@ class Plant:
                 "axial_inertia": self.axial_inertia,
                 "axle_radius": self.axle_radius,
             },
-            "string": {"length": self.length, "stiffness": self.stiffness, "friction": self.friction, "wraps": self.wraps},
+            "string": {
+                "length": self.length,
+                "stiffness": self.stiffness,
+                "friction": self.friction,
+                "wraps": self.wraps,
+            },
             "sticks": {"bending_stiffness": self.bending_stiffness, "damping_ratio": 0.8},
             "air": {"drag": self.drag, "magnus": self.magnus},
             "player": player,

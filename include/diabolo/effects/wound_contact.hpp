@@ -18,7 +18,8 @@ struct WoundStep {
   const Scalar& dt;
   Tips<Scalar> first;  ///< tips at the beginning
   StringPath<Scalar> begin, last;
-  /// Mean unit vectors along the strands; their products with the diabolo's way are just what passes the axle.
+  /// Mean unit vectors along the strands; their products with the diabolo's way are just what passes the
+  /// axle.
   Vector3<Scalar> left, right;
   Vector3<Scalar> across;  ///< right less left: change of the velocity by an impulse of one
 
@@ -31,7 +32,8 @@ struct WoundStep {
         first(moved_back(end, duration)),
         begin(before.position, first),
         last(outcome.position, end),
-        left((begin.from_left + last.from_left) * Scalar(Scalar(-1) / (begin.left_length + last.left_length))),
+        left((begin.from_left + last.from_left) *
+             Scalar(Scalar(-1) / (begin.left_length + last.left_length))),
         right((begin.from_right + last.from_right) *
               Scalar(Scalar(-1) / (begin.right_length + last.right_length))),
         across(right - left) {}
@@ -66,15 +68,15 @@ struct WoundStep {
   }
 };
 
-/// Energy over mass that an impulse j brings, j (quadratic j - 2 slip) [m^2/s^2], to the diabolo, its spin and
-/// its height: a step of the velocity by `push` j and of the position by half of that, along the string.
+/// Energy over mass that an impulse j brings, j (quadratic j - 2 slip) [m^2/s^2], to the diabolo, its spin
+/// and its height: a step of the velocity by `push` j and of the position by half of that, along the string.
 template <class Scalar>
 struct ImpulseEnergy {
   Vector3<Scalar> push;
   Scalar slip, quadratic;
 
-  /// `surface` is the speed of the axle under the string [m/s], `spin_mobility` what an impulse of one adds to
-  /// it.
+  /// `surface` is the speed of the axle under the string [m/s], `spin_mobility` what an impulse of one adds
+  /// to it.
   ImpulseEnergy(const WoundStep<Scalar>& s, const Scalar& surface, const Scalar& spin_mobility) {
     // Along the taut string at the end of the step: what points off it would come back as tension.
     const Vector3<Scalar> normal = s.last.gradient();
@@ -101,8 +103,8 @@ struct ImpulseEnergy {
 
 }  // namespace effect_detail
 
-/// Friction of a string whose turns around the axle come and go (Parameters::follow_turns): the capstan law of
-/// StringFriction over the whole wound angle b, with stick. Half the difference of the tensions over their
+/// Friction of a string whose turns around the axle come and go (Parameters::follow_turns): the capstan law
+/// of StringFriction over the whole wound angle b, with stick. Half the difference of the tensions over their
 /// mean is no more than tanh(coefficient b / 2); below that it is what takes the slip to zero at the end of
 /// the step, of the diabolo and of its spin together. It never brings energy to what the tips leave alone.
 /// `tips` are those of the step's end.

@@ -26,13 +26,12 @@ template <class Scalar>
 StringStateOf<Scalar> slack_string_state(StringStateOf<Scalar> state, const Vector3<Scalar>& point,
                                          const Scalar& slack, const Scalar& gradient_squared,
                                          const Vector3<Scalar>& left, const Vector3<Scalar>& right,
-                                         const Mask<Scalar>& wound,
-                                         const Parameters<Scalar>& parameters) {
+                                         const Mask<Scalar>& wound, const Parameters<Scalar>& parameters) {
   const Scalar gradient = positive_sqrt<Scalar>(gradient_squared);
   const Mask<Scalar> flying = is(state, StringState::kFlying);
-  const Mask<Scalar> leaves =
-      !flying && (slack > parameters.flying_distance * gradient) && !wound &&
-      (height_above_tips(point, left, right) > Scalar(0)) && between_tips(point, left, right);
+  const Mask<Scalar> leaves = !flying && (slack > parameters.flying_distance * gradient) && !wound &&
+                              (height_above_tips(point, left, right) > Scalar(0)) &&
+                              between_tips(point, left, right);
   const Mask<Scalar> loosens =
       is(state, StringState::kOnString) && (slack > parameters.loose_distance * gradient);
   assign_where(loosens, state, StringState::kLoose);

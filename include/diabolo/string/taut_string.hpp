@@ -150,8 +150,7 @@ template <bool kElastic, class Scalar>
   const StringStep<Scalar> rest =
       step.rest(position, velocity, tips, maximum(Scalar(step.dt - t), Scalar(Scalar(1e-6) * step.dt)));
   const StringPath<Scalar> path(position, tips);
-  const Scalar passed_before = path.imbalance() -
-                               StringPath<Scalar>(step.position, step.begin).imbalance();
+  const Scalar passed_before = path.imbalance() - StringPath<Scalar>(step.position, step.begin).imbalance();
   StringStepResult<Scalar> result = advance_on_string<kElastic>(rest, captured);
   result.passed += Scalar(0.5) * passed_before;
   const Vector3<Scalar> impulse = result.string_acceleration * rest.dt + (velocity - arriving);

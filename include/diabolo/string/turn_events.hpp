@@ -12,8 +12,7 @@ template <class Scalar>
 void count_turns(State<Scalar>& state, const Tips<Scalar>& tips, const Parameters<Scalar>& parameters) {
   const StringPath<Scalar> path(state.position, tips);
   const Scalar turns = wound_angle(state, path, parameters) * Scalar(0.5 * std::numbers::inv_pi);
-  state.turns =
-      select(is(state.string_state, StringState::kFlying), Scalar(0), turns) - parameters.wraps;
+  state.turns = select(is(state.string_state, StringState::kFlying), Scalar(0), turns) - parameters.wraps;
 }
 
 namespace string_detail {
