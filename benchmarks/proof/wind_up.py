@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What spin a wind-up with one turn of the string gains on the plant, beside a linear acceleration of the same time.
+"""The spin that a wind-up with one turn gains on the plant, beside a linear acceleration of the same time.
 
 Both are the player's seeds (`plan/motions.hpp`), cycle after cycle as they are: nothing is planned.
 """
