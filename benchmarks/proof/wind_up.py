@@ -35,7 +35,7 @@ def main() -> int:
         "benchmarks.proof.wind_up", __doc__, "  .venv/bin/python -m benchmarks.proof.wind_up"
     )
     plant.add_option(parser)
-    parser.add_argument("--cycles", metavar="N", type=int, default=4, help="of the wind-up; default: 4")
+    parser.add_argument("--cycles", metavar="N", type=int, default=9, help="of the wind-up; default: 9")
     return command.run(parser, act)
 
 

@@ -42,13 +42,13 @@ def throw(duration: float) -> TipMotion:
 
 
 def wind_up(duration: float) -> TipMotion:
-    """Speeds up a diabolo with one turn of the string (`Parameters.wraps` 1): the right hand pulls in long
-    strokes, the left one follows, and the string slips back while it is all but slack."""
+    """Speeds up a diabolo with one turn of the string (`Parameters.wraps` 1): the right hand pulls, the left one
+    follows, and the string slips back while it is all but slack."""
     return _repeated("wind_up", duration)
 
 
 def one_turn_low(duration: float) -> TipMotion:
-    """With one turn of the string: hands close together, quick short pulls of the right one."""
+    """Likewise, by small strokes of hands that are held low."""
     return _repeated("one_turn_low", duration)
 
 
