@@ -594,7 +594,7 @@ class State:
   string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
   is the axle's direction, which only GyroscopicTilt turns.
   """
-  def __init__(self, position: _Reals, velocity: _Reals = (0.0, 0.0, 0.0), spin: _Real = 0.0, string_state: typing.Any = 'loose', axis: _Reals = (1.0, 0.0, 0.0)) -> None: ...
+  def __init__(self, position: _Reals, velocity: _Reals = (0.0, 0.0, 0.0), spin: _Real = 0.0, string_state: typing.Any = 'loose', axis: _Reals = (1.0, 0.0, 0.0), turns: _Real = 0.0) -> None: ...
   def to_array(self) -> _Array:
     """Position, velocity and spin, shape (7,)."""
   @property

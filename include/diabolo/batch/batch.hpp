@@ -44,7 +44,7 @@ struct Batch {
       if (!motion) throw std::invalid_argument("batch: a tip motion is a null pointer");
     for (const State<double>& s : initial)
       if (!s.position.allFinite() || !s.velocity.allFinite() || !s.axis.allFinite() ||
-          !s.string_acceleration.allFinite() || !std::isfinite(s.spin))
+          !s.string_acceleration.allFinite() || !std::isfinite(s.spin) || !std::isfinite(s.turns))
         throw std::invalid_argument("batch: an initial state is not finite");
     const std::size_t models = initial.empty() ? 0 : std::max(parameters.size(), effects.size());
     for (std::size_t i = 0; i < models; ++i) {
