@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "diabolo/estimate/chart.hpp"
+#include "diabolo/estimate/measurements.hpp"
+
+namespace diabolo {
+
+/// Standard deviations of what is known at the beginning.
+struct Spread {
+  double position = 0.02;  ///< of each coordinate [m]
+  double velocity = 0.1;   ///< of each coordinate [m/s]
+  double spin = 10.0;      ///< [rad/s]
+  double axle = 0.05;      ///< [rad]
+
+  void validate() const {
+    estimate_detail::expect_positive("start spread, position", position);
+    estimate_detail::expect_positive("start spread, velocity", velocity);
+    estimate_detail::expect_positive("start spread, spin", spin);
+    estimate_detail::expect_positive("start spread, axle", axle);
+  }
+};
+
+/// What the model does not know, as white noise: its effect grows with the root of time.
+struct ProcessNoise {
+  double acceleration = 0.3;  ///< of the diabolo, unknown [m/s^2/sqrt(Hz)]: [m/s] after a second
+  double spin = 1.0;          ///< unknown spin acceleration [rad/s^2/sqrt(Hz)]
+  double axle = 0.02;         ///< unknown turning of the axle [rad/s/sqrt(Hz)]
+  double tension = 0.05;      ///< of a strand's tension in the model, a share of it
+
+  void validate() const {
+    estimate_detail::expect_positive("process noise, acceleration", acceleration);
+    estimate_detail::expect_positive("process noise, spin", spin);
+    estimate_detail::expect_positive("process noise, axle", axle);
+    estimate_detail::expect_positive("process noise, tension", tension);
+  }
+};
+
+/// The diabolo at a time, as far as it is known.
+template <bool kAxle>
+struct Belief {
+  using Chart = StateChart<kAxle>;
+  static constexpr int kSize = Chart::kSize;
+
+  double time = 0.0;  ///< [s]
+  State<double> state;
+  MatrixOf<kSize> factor = MatrixOf<kSize>::Identity();  ///< lower; see covariance()
+  /// How likely the string is taut, loose or off, in the order of StringState.
+  std::array<double, 3> string_weights{};
+  bool pulled = false;    ///< the string pulled in the last step
+  double surprise = 0.0;  ///< squared innovation over its covariance of the last pulls; 1 per number expected
+  bool ignored = false;   ///< these were too far from what was expected, and left out
+
+  static Belief begin(double time, const State<double>& state, const Spread& spread) {
+    ColumnOf<kSize> deviations;
+    deviations.template segment<3>(Chart::kPosition).setConstant(spread.position);
+    deviations.template segment<3>(Chart::kVelocity).setConstant(spread.velocity);
+    deviations[Chart::kSpin] = spread.spin;
+    if constexpr (kAxle) deviations.template tail<2>().setConstant(spread.axle);
+    Belief belief;
+    belief.time = time;
+    belief.state = state;
+    belief.factor = deviations.asDiagonal();
+    belief.string_weights[static_cast<std::size_t>(state.string_state)] = 1.0;
+    belief.pulled = state.string_state == StringState::kOnString;
+    return belief;
+  }
+
+  /// Of StateChart's numbers, in their units.
+  MatrixOf<kSize> covariance() const { return factor * factor.transpose(); }
+  /// Their standard deviations: an interval of 90 % is 1.645 of these to both sides.
+  ColumnOf<kSize> deviations() const { return factor.rowwise().norm(); }
+
+  /// Takes over what a measurement says.
+  void take(const Correction<kSize>& correction) {
+    state = Chart::at(state, correction.shift);
+    factor = correction.factor;
+  }
+};
+
+/// Of each step in an estimator: the root of what its noise adds to the covariance, diagonal.
+template <bool kAxle>
+MatrixOf<StateChart<kAxle>::kSize> noise_factor(const ProcessNoise& noise, double dt) {
+  using Chart = StateChart<kAxle>;
+  const double root = std::sqrt(dt);
+  ColumnOf<Chart::kSize> deviations;
+  deviations.template segment<3>(Chart::kPosition).setConstant(noise.acceleration * dt * root / std::sqrt(3.0));
+  deviations.template segment<3>(Chart::kVelocity).setConstant(noise.acceleration * root);
+  deviations[Chart::kSpin] = noise.spin * root;
+  if constexpr (kAxle) deviations.template tail<2>().setConstant(noise.axle * root);
+  return deviations.asDiagonal();
+}
+
+}  // namespace diabolo
