@@ -25,16 +25,18 @@ struct Spread {
 
 /// What the model does not know, as white noise: its effect grows with the root of time.
 struct ProcessNoise {
-  double acceleration = 0.3;  ///< of the diabolo, unknown [m/s^2/sqrt(Hz)]: [m/s] after a second
+  double acceleration = 0.1;  ///< of the diabolo, unknown [m/s^2/sqrt(Hz)]: [m/s] after a second
   double spin = 1.0;          ///< unknown spin acceleration [rad/s^2/sqrt(Hz)]
   double axle = 0.02;         ///< unknown turning of the axle [rad/s/sqrt(Hz)]
   double tension = 0.05;      ///< of a strand's tension in the model, a share of it
+  double string_length = 3e-3;  ///< of the model's, and what the string stretches [m]
 
   void validate() const {
     estimate_detail::expect_positive("process noise, acceleration", acceleration);
     estimate_detail::expect_positive("process noise, spin", spin);
     estimate_detail::expect_positive("process noise, axle", axle);
     estimate_detail::expect_positive("process noise, tension", tension);
+    estimate_detail::expect_positive("process noise, string_length", string_length);
   }
 };
 
@@ -50,8 +52,8 @@ struct Belief {
   /// How likely the string is taut, loose or off, in the order of StringState.
   std::array<double, 3> string_weights{};
   bool pulled = false;    ///< the string pulled in the last step
-  double surprise = 0.0;  ///< squared innovation over its covariance of the last pulls; 1 per number expected
-  bool ignored = false;   ///< these were too far from what was expected, and left out
+  double surprise = 0.0;  ///< squared innovation over its covariance of the last pulls, each; 1 expected
+  int strange = 0;        ///< above zero: the diabolo went by measured tensions, see TickFilter
 
   static Belief begin(double time, const State<double>& state, const Spread& spread) {
     ColumnOf<kSize> deviations;

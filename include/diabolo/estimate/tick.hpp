@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "diabolo/estimate/belief.hpp"
+#include "diabolo/estimate/carried.hpp"
+#include "diabolo/estimate/pulls.hpp"
 #include "diabolo/estimate/within_string.hpp"
 
 namespace diabolo {
@@ -47,84 +49,131 @@ class TickFilter {
 
  private:
   using Points = SigmaPoints<kSize>;
-  static constexpr int kColumns = Points::kCount + kSize;  ///< deviations of points and process noise
-  using Deviations = MatrixOf<kSize, kColumns>;
+  static constexpr int kColumns = Points::kCount + kSize + 1;  ///< deviations of points, process and string
 
-  /// Pulls that are this many times as surprising as expected belong to another event, such as a catch that
-  /// came a step sooner.
-  static constexpr double kMostSurprise = 6.0;
+  /// A tension so many standard deviations from what the string would have is of a string that gives, and
+  /// bounces; the diabolo then goes by what is measured, until so many steps had nothing of that.
+  static constexpr double kStrange = 5.0;
+  static constexpr int kCalm = 5;
 
-  void advance(Tick<kAxle>& tick) const {
+  /// Where the points go, and the pulls that this would have shown: each strand's StrandPull::expected().
+  struct Passage {
+    State<double> centre;
     MatrixOf<kSize, Points::kCount> places;
     MatrixOf<6, Points::kCount> pulls;
+    std::array<double, 3> string_weights{};
+    double pulled = 0.0;  ///< weight of the points at which the string pulled
+  };
+
+  void advance(Tick<kAxle>& tick) const {
     Belief<kAxle>& now = tick.after;
+    const bool reads = tick.pulls.index() != 0;
+    const State<double>& from = tick.before.state;
+    const StrandPulls read =
+        strand_pulls(tick.pulls, pulling_strands(predictor_, from, from, tick.begin, tick.end));
+    Passage passage = by_string(tick, read);
+    now.strange = reads && strange(passage, read) ? kCalm : std::max(0, tick.before.strange - 1);
+    if (reads && now.strange > 0) passage = by_tensions(tick, read);
     now.time = tick.before.time + tick.dt;
-    now.string_weights = {};
-    State<double> centre;
-    double pulled = 0.0;
-    for (int i = 0; i < Points::kCount; ++i) {
-      State<double> state = Chart::at(tick.before.state, Points::offset(tick.before.factor, i));
+    now.string_weights = passage.string_weights;
+    now.pulled = passage.pulled > 0.5;
+    now.state = Chart::at(passage.centre, Points::deviate(passage.places));
+    now.state.string_state = static_cast<StringState>(
+        std::ranges::max_element(now.string_weights) - now.string_weights.begin());
+    MatrixOf<kSize, kColumns> spread;
+    spread << passage.places, noise_factor<kAxle>(noise_, tick.dt), off_string(now.state, tick.end, passage);
+    if (reads)
+      feel(read, spread, passage.pulls, now);
+    else
+      now.factor = lower_factor<kSize, kColumns>(spread);
+  }
+
+  /// The predictor's steps.
+  Passage by_string(const Tick<kAxle>& tick, const StrandPulls& read) const {
+    State<double> from = tick.before.state;
+    if (read[0].sure && read[1].sure)  // the string is under it
+      assign_where(is(from.string_state, StringState::kFlying), from.string_state, StringState::kLoose);
+    return passage(tick, from, read, [&](State<double>& state) {
       keep_within_string(predictor_, state, tick.begin, tick.before.pulled);
       const State<double> start = state;
       predictor_.step(state, tick.begin, tick.end, tick.dt);
-      if (i == 0) centre = state;
-      places.col(i) = Chart::from(centre, state);
-      const TipForces<double> forces = tip_forces(predictor_, start, state, tick.begin, tick.end, tick.dt);
-      pulls.col(i) << forces.left, forces.right;
-      now.string_weights[static_cast<std::size_t>(state.string_state)] += Points::weight(i);
-      if (squared_norm(state.string_acceleration) > 0.0) pulled += Points::weight(i);
+      return strand_tensions(predictor_, start, state, tick.begin, tick.end, tick.dt);
+    });
+  }
+
+  /// Steps by what is measured, which says nothing of the tensions then.
+  Passage by_tensions(const Tick<kAxle>& tick, const StrandPulls& read) const {
+    const bool pulls = read[0].sure && read[1].sure;
+    return passage(tick, tick.before.state, read, [&](State<double>& state) {
+      carry_by_tensions(predictor_, state, tick.begin, tick.dt, pulls ? read[0].tension : 0.0,
+                        pulls ? read[1].tension : 0.0);
+      if (pulls) state.string_state = StringState::kOnString;
+      return std::pair(read[0].tension, read[1].tension);
+    });
+  }
+
+  template <class Step>
+  Passage passage(const Tick<kAxle>& tick, const State<double>& from, const StrandPulls& read,
+                  const Step& step) const {
+    Passage result;
+    for (int i = 0; i < Points::kCount; ++i) {
+      State<double> state = Chart::at(from, Points::offset(tick.before.factor, i));
+      const State<double> start = state;
+      const auto [left, right] = step(state);
+      if (i == 0) result.centre = state;
+      const Strands<double> strands = pulling_strands(predictor_, start, state, tick.begin, tick.end);
+      if (read[0].sure && read[1].sure)
+        state.spin = spin_by_tensions(predictor_, start, state, tick.begin, tick.end, tick.dt, read[0].tension,
+                                      read[1].tension);
+      result.places.col(i) = Chart::from(result.centre, state);
+      result.pulls.col(i) << read[0].expected(left, strands.left), read[1].expected(right, strands.right);
+      result.string_weights[static_cast<std::size_t>(state.string_state)] += Points::weight(i);
+      if (squared_norm(state.string_acceleration) > 0.0) result.pulled += Points::weight(i);
     }
-    now.pulled = pulled > 0.5;
-    now.state = Chart::at(centre, Points::deviate(places));
-    now.state.string_state = static_cast<StringState>(
-        std::ranges::max_element(now.string_weights) - now.string_weights.begin());
-    Deviations spread;
-    spread << places, noise_factor<kAxle>(noise_, tick.dt);
-    now.factor = lower_factor<kSize, kColumns>(spread);
-    now.surprise = 0.0;
-    now.ignored = false;
-    if (const auto* forces = std::get_if<ForceReading>(&tick.pulls)) feel(*forces, spread, pulls, now);
-    if (const auto* tensions = std::get_if<TensionReading>(&tick.pulls)) feel(*tensions, spread, pulls, now);
+    return result;
   }
 
-  void feel(const ForceReading& reading, const Deviations& spread, MatrixOf<6, Points::kCount> pulls,
-            Belief<kAxle>& now) const {
+  /// How far a string of another length would have it off, to all points alike.
+  ColumnOf<kSize> off_string(const State<double>& state, const Tips<double>& tips,
+                             const Passage& passage) const {
+    ColumnOf<kSize> deviation = ColumnOf<kSize>::Zero();
+    const Vector3<double> gradient = StringPath<double>(state.position, tips).gradient();
+    if (passage.pulled > 0.5)
+      deviation.template head<3>() = gradient * (noise_.string_length / std::max(0.1, gradient.squaredNorm()));
+    return deviation;
+  }
+
+  double tension_noise(const StrandPull& read) const {
+    return std::hypot(read.noise.row(0).norm(), noise_.tension * read.tension);
+  }
+
+  bool strange(const Passage& passage, const StrandPulls& read) const {
+    MatrixOf<6, Points::kCount> pulls = passage.pulls;
     const ColumnOf<6> expected = Points::deviate(pulls);
-    ColumnOf<6> read;
-    read << reading.forces.left, reading.forces.right;
+    for (int side = 0; side < 2; ++side) {
+      const StrandPull& one = read[static_cast<std::size_t>(side)];
+      const double deviation = std::hypot(pulls.row(3 * side).norm(), tension_noise(one));
+      if (std::abs(one.tension - expected[3 * side]) > kStrange * deviation) return true;
+    }
+    return false;
+  }
+
+  void feel(const StrandPulls& read, const MatrixOf<kSize, kColumns>& spread,
+            MatrixOf<6, Points::kCount> pulls, Belief<kAxle>& now) const {
+    const ColumnOf<6> expected = Points::deviate(pulls);
+    ColumnOf<6> innovation = -expected;
     MatrixOf<6> noise = MatrixOf<6>::Zero();
-    noise.topLeftCorner<3, 3>() = with_share(reading.left_noise, expected.head<3>().norm());
-    noise.bottomRightCorner<3, 3>() = with_share(reading.right_noise, expected.tail<3>().norm());
-    correct<6>(spread, pulls, noise, read - expected, now);
-  }
-
-  void feel(const TensionReading& reading, const Deviations& spread, const MatrixOf<6, Points::kCount>& pulls,
-            Belief<kAxle>& now) const {
-    MatrixOf<2, Points::kCount> tensions;
-    tensions << pulls.template topRows<3>().colwise().norm(), pulls.template bottomRows<3>().colwise().norm();
-    const ColumnOf<2> expected = Points::deviate(tensions);
-    MatrixOf<2> noise = MatrixOf<2>::Zero();
-    for (int side = 0; side < 2; ++side)
-      noise(side, side) = std::hypot(reading.noise, noise_.tension * expected[side]);
-    correct<2>(spread, tensions, noise, ColumnOf<2>(reading.left, reading.right) - expected, now);
-  }
-
-  /// A reading's own noise and that of a tension in the model [N].
-  MatrixOf<3> with_share(const MatrixOf<3>& own, double tension) const {
-    MatrixOf<3, 6> both;
-    both << own, noise_.tension * tension * MatrixOf<3>::Identity();
-    return lower_factor<3, 6>(both);
-  }
-
-  template <int K>
-  void correct(const Deviations& spread, const MatrixOf<K, Points::kCount>& deviations, const MatrixOf<K>& noise,
-               const ColumnOf<K>& innovation, Belief<kAxle>& now) const {
-    MatrixOf<K, kColumns> expected;
-    expected << deviations, MatrixOf<K, kSize>::Zero();
-    const Correction<kSize> correction = condition<kSize, K, kColumns>(spread, expected, noise, innovation);
-    now.surprise = correction.surprise / K;
-    now.ignored = !(now.surprise < kMostSurprise);
-    if (!now.ignored) now.take(correction);
+    for (int side = 0; side < 2; ++side) {
+      const StrandPull& one = read[static_cast<std::size_t>(side)];
+      innovation[3 * side] += one.tension;
+      noise.block<3, 3>(3 * side, 3 * side) = one.noise;
+      noise.block<1, 3>(3 * side, 3 * side) *= tension_noise(one) / one.noise.row(0).norm();
+    }
+    MatrixOf<6, kColumns> deviations;
+    deviations << pulls, MatrixOf<6, kSize + 1>::Zero();
+    const Correction<kSize> correction = condition<kSize, 6, kColumns>(spread, deviations, noise, innovation);
+    now.surprise = correction.surprise / 6.0;
+    now.take(correction);
   }
 
   /// The diabolo goes on as it is from the tick to the look.
@@ -137,7 +186,8 @@ class TickFilter {
                                         look.position - expected));
     if (look.spin)
       now.take(condition<kSize, 1, kSize>(now.factor, now.factor.row(Chart::kSpin),
-                                          MatrixOf<1>(look.spin_noise), ColumnOf<1>(*look.spin - now.state.spin)));
+                                          MatrixOf<1>(look.spin_noise),
+                                          ColumnOf<1>(*look.spin - now.state.spin)));
     if constexpr (kAxle)
       if (look.axle) {
         State<double> turned = now.state;
