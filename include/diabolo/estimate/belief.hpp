@@ -23,20 +23,24 @@ struct Spread {
   }
 };
 
-/// What the model does not know, as white noise: its effect grows with the root of time.
+/// What the model does not know. The first three are white: their effect grows with the root of time.
 struct ProcessNoise {
-  double acceleration = 0.1;  ///< of the diabolo, unknown [m/s^2/sqrt(Hz)]: [m/s] after a second
-  double spin = 1.0;          ///< unknown spin acceleration [rad/s^2/sqrt(Hz)]
-  double axle = 0.02;         ///< unknown turning of the axle [rad/s/sqrt(Hz)]
-  double tension = 0.05;      ///< of a strand's tension in the model, a share of it
-  double string_length = 3e-3;  ///< of the model's, and what the string stretches [m]
+  double acceleration = 0.1;    ///< unknown, of the diabolo [m/s^2/sqrt(Hz)]: [m/s] after a second
+  double spin = 2.0;            ///< unknown, of the spin [rad/s^2/sqrt(Hz)]
+  double axle = 0.02;           ///< unknown turning of the axle [rad/s/sqrt(Hz)]
+  double tension = 0.05;        ///< of a strand's tension, a share of it
+  double direction = 4e-3;      ///< of a strand [rad]
+  double string_length = 3e-3;  ///< error and stretch [m]
+  double string_rate = 0.1;     ///< at which the string stretches [m/s]
 
   void validate() const {
     estimate_detail::expect_positive("process noise, acceleration", acceleration);
     estimate_detail::expect_positive("process noise, spin", spin);
     estimate_detail::expect_positive("process noise, axle", axle);
     estimate_detail::expect_positive("process noise, tension", tension);
+    estimate_detail::expect_positive("process noise, direction", direction);
     estimate_detail::expect_positive("process noise, string_length", string_length);
+    estimate_detail::expect_positive("process noise, string_rate", string_rate);
   }
 };
 
@@ -81,18 +85,5 @@ struct Belief {
     factor = correction.factor;
   }
 };
-
-/// Of each step in an estimator: the root of what its noise adds to the covariance, diagonal.
-template <bool kAxle>
-MatrixOf<StateChart<kAxle>::kSize> noise_factor(const ProcessNoise& noise, double dt) {
-  using Chart = StateChart<kAxle>;
-  const double root = std::sqrt(dt);
-  ColumnOf<Chart::kSize> deviations;
-  deviations.template segment<3>(Chart::kPosition).setConstant(noise.acceleration * dt * root / std::sqrt(3.0));
-  deviations.template segment<3>(Chart::kVelocity).setConstant(noise.acceleration * root);
-  deviations[Chart::kSpin] = noise.spin * root;
-  if constexpr (kAxle) deviations.template tail<2>().setConstant(noise.axle * root);
-  return deviations.asDiagonal();
-}
 
 }  // namespace diabolo

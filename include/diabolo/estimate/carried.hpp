@@ -33,6 +33,15 @@ double spin_by_tensions(const Predictor<double, Effects...>& predictor, const St
   return free + (spin - free) * (right - left) / (parameters.mass * difference);
 }
 
+/// Along a taut string, where friction leans the pull: what the measured difference of tensions is beyond the
+/// predictor's, `excess` [N], right less left.
+inline void lean_by_tensions(State<double>& state, const Strands<double>& strands, double mass, double excess,
+                             double dt) {
+  const Vector3<double> change = (strands.right - strands.left) * (0.5 * excess * dt / mass);
+  state.position = state.position + change * (0.5 * dt);
+  state.velocity = state.velocity + change;
+}
+
 /// What a string does that gives and bounces.
 template <template <class> class... Effects>
 void carry_by_tensions(const Predictor<double, Effects...>& predictor, State<double>& state,

@@ -2,16 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <utility>
 
-#include "diabolo/estimate/belief.hpp"
-#include "diabolo/estimate/carried.hpp"
-#include "diabolo/estimate/pulls.hpp"
-#include "diabolo/estimate/within_string.hpp"
+#include "diabolo/estimate/passage.hpp"
 
 namespace diabolo {
 
@@ -44,112 +39,56 @@ class TickFilter {
   void run(Tick<kAxle>& tick) const {
     tick.after = tick.before;
     if (tick.dt > 0.0) advance(tick);
-    if (tick.look) see(*tick.look, tick.after);
+    if (tick.look) see(*tick.look, tick.end, tick.after);
   }
 
  private:
   using Points = SigmaPoints<kSize>;
-  static constexpr int kColumns = Points::kCount + kSize + 1;  ///< deviations of points, process and string
+  static constexpr int kPulls = Passage<kAxle>::kPulls;
+  static constexpr int kColumns = Points::kCount + kSize + 2;  ///< of points and of what a step adds
+  using Deviations = MatrixOf<kSize, kColumns>;
 
   /// A tension so many standard deviations from what the string would have is of a string that gives, and
   /// bounces; the diabolo then goes by what is measured, until so many steps had nothing of that.
   static constexpr double kStrange = 5.0;
   static constexpr int kCalm = 5;
-
-  /// Where the points go, and the pulls that this would have shown: each strand's StrandPull::expected().
-  struct Passage {
-    State<double> centre;
-    MatrixOf<kSize, Points::kCount> places;
-    MatrixOf<6, Points::kCount> pulls;
-    std::array<double, 3> string_weights{};
-    double pulled = 0.0;  ///< weight of the points at which the string pulled
-  };
+  /// A model's error lasts, where a sensor's noise is another at each step: it counts so many times.
+  static constexpr double kLasting = 4.0;
+  /// A look so many deviations beyond the string's reach is of a diabolo that is off the string.
+  static constexpr double kBeyond = 6.0;
 
   void advance(Tick<kAxle>& tick) const {
     Belief<kAxle>& now = tick.after;
     const bool reads = tick.pulls.index() != 0;
     const State<double>& from = tick.before.state;
-    const StrandPulls read =
-        strand_pulls(tick.pulls, pulling_strands(predictor_, from, from, tick.begin, tick.end));
-    Passage passage = by_string(tick, read);
-    now.strange = reads && strange(passage, read) ? kCalm : std::max(0, tick.before.strange - 1);
-    if (reads && now.strange > 0) passage = by_tensions(tick, read);
+    const PulledStep step{
+        tick.begin, tick.end, tick.dt,
+        strand_pulls(tick.pulls, pulling_strands(predictor_, from, from, tick.begin, tick.end))};
+    Passage<kAxle> passage = pass_on_string(predictor_, step, tick.before);
+    now.strange = reads && strange(passage, step.read) ? kCalm : std::max(0, tick.before.strange - 1);
+    if (reads && now.strange > 0) passage = pass_by_tensions(predictor_, step, tick.before);
     now.time = tick.before.time + tick.dt;
     now.string_weights = passage.string_weights;
     now.pulled = passage.pulled > 0.5;
+    now.surprise = 0.0;
     now.state = Chart::at(passage.centre, Points::deviate(passage.places));
     now.state.string_state = static_cast<StringState>(
         std::ranges::max_element(now.string_weights) - now.string_weights.begin());
-    MatrixOf<kSize, kColumns> spread;
-    spread << passage.places, noise_factor<kAxle>(noise_, tick.dt), off_string(now.state, tick.end, passage);
+    Deviations spread;
+    spread << passage.places, passage_noise<kAxle>(noise_, passage, tick.end, tick.dt);
     if (reads)
-      feel(read, spread, passage.pulls, now);
+      feel(step.read, spread, passage.pulls, now);
     else
       now.factor = lower_factor<kSize, kColumns>(spread);
-  }
-
-  /// The predictor's steps.
-  Passage by_string(const Tick<kAxle>& tick, const StrandPulls& read) const {
-    State<double> from = tick.before.state;
-    if (read[0].sure && read[1].sure)  // the string is under it
-      assign_where(is(from.string_state, StringState::kFlying), from.string_state, StringState::kLoose);
-    return passage(tick, from, read, [&](State<double>& state) {
-      keep_within_string(predictor_, state, tick.begin, tick.before.pulled);
-      const State<double> start = state;
-      predictor_.step(state, tick.begin, tick.end, tick.dt);
-      return strand_tensions(predictor_, start, state, tick.begin, tick.end, tick.dt);
-    });
-  }
-
-  /// Steps by what is measured, which says nothing of the tensions then.
-  Passage by_tensions(const Tick<kAxle>& tick, const StrandPulls& read) const {
-    const bool pulls = read[0].sure && read[1].sure;
-    return passage(tick, tick.before.state, read, [&](State<double>& state) {
-      carry_by_tensions(predictor_, state, tick.begin, tick.dt, pulls ? read[0].tension : 0.0,
-                        pulls ? read[1].tension : 0.0);
-      if (pulls) state.string_state = StringState::kOnString;
-      return std::pair(read[0].tension, read[1].tension);
-    });
-  }
-
-  template <class Step>
-  Passage passage(const Tick<kAxle>& tick, const State<double>& from, const StrandPulls& read,
-                  const Step& step) const {
-    Passage result;
-    for (int i = 0; i < Points::kCount; ++i) {
-      State<double> state = Chart::at(from, Points::offset(tick.before.factor, i));
-      const State<double> start = state;
-      const auto [left, right] = step(state);
-      if (i == 0) result.centre = state;
-      const Strands<double> strands = pulling_strands(predictor_, start, state, tick.begin, tick.end);
-      if (read[0].sure && read[1].sure)
-        state.spin = spin_by_tensions(predictor_, start, state, tick.begin, tick.end, tick.dt, read[0].tension,
-                                      read[1].tension);
-      result.places.col(i) = Chart::from(result.centre, state);
-      result.pulls.col(i) << read[0].expected(left, strands.left), read[1].expected(right, strands.right);
-      result.string_weights[static_cast<std::size_t>(state.string_state)] += Points::weight(i);
-      if (squared_norm(state.string_acceleration) > 0.0) result.pulled += Points::weight(i);
-    }
-    return result;
-  }
-
-  /// How far a string of another length would have it off, to all points alike.
-  ColumnOf<kSize> off_string(const State<double>& state, const Tips<double>& tips,
-                             const Passage& passage) const {
-    ColumnOf<kSize> deviation = ColumnOf<kSize>::Zero();
-    const Vector3<double> gradient = StringPath<double>(state.position, tips).gradient();
-    if (passage.pulled > 0.5)
-      deviation.template head<3>() = gradient * (noise_.string_length / std::max(0.1, gradient.squaredNorm()));
-    return deviation;
   }
 
   double tension_noise(const StrandPull& read) const {
     return std::hypot(read.noise.row(0).norm(), noise_.tension * read.tension);
   }
 
-  bool strange(const Passage& passage, const StrandPulls& read) const {
-    MatrixOf<6, Points::kCount> pulls = passage.pulls;
-    const ColumnOf<6> expected = Points::deviate(pulls);
+  bool strange(const Passage<kAxle>& passage, const StrandPulls& read) const {
+    MatrixOf<kPulls, Points::kCount> pulls = passage.pulls;
+    const ColumnOf<kPulls> expected = Points::deviate(pulls);
     for (int side = 0; side < 2; ++side) {
       const StrandPull& one = read[static_cast<std::size_t>(side)];
       const double deviation = std::hypot(pulls.row(3 * side).norm(), tension_noise(one));
@@ -158,31 +97,42 @@ class TickFilter {
     return false;
   }
 
-  void feel(const StrandPulls& read, const MatrixOf<kSize, kColumns>& spread,
-            MatrixOf<6, Points::kCount> pulls, Belief<kAxle>& now) const {
-    const ColumnOf<6> expected = Points::deviate(pulls);
-    ColumnOf<6> innovation = -expected;
-    MatrixOf<6> noise = MatrixOf<6>::Zero();
+  /// The noise of a strand's reading with what the model's tension and direction may be off by [N].
+  MatrixOf<3> with_model(const StrandPull& read) const {
+    MatrixOf<3> noise = read.noise;
+    noise.row(0) *= std::hypot(1.0, kLasting * noise_.tension * read.tension / noise.row(0).norm());
+    for (int across = 1; across < 3; ++across)
+      noise.row(across) *= std::hypot(1.0, kLasting * noise_.direction * read.tension / noise.row(across).norm());
+    return noise;
+  }
+
+  void feel(const StrandPulls& read, const Deviations& spread, MatrixOf<kPulls, Points::kCount> pulls,
+            Belief<kAxle>& now) const {
+    ColumnOf<kPulls> innovation = -Points::deviate(pulls);
+    MatrixOf<kPulls> noise = MatrixOf<kPulls>::Zero();
     for (int side = 0; side < 2; ++side) {
-      const StrandPull& one = read[static_cast<std::size_t>(side)];
-      innovation[3 * side] += one.tension;
-      noise.block<3, 3>(3 * side, 3 * side) = one.noise;
-      noise.block<1, 3>(3 * side, 3 * side) *= tension_noise(one) / one.noise.row(0).norm();
+      innovation[3 * side] += read[static_cast<std::size_t>(side)].tension;
+      noise.template block<3, 3>(3 * side, 3 * side) = with_model(read[static_cast<std::size_t>(side)]);
     }
-    MatrixOf<6, kColumns> deviations;
-    deviations << pulls, MatrixOf<6, kSize + 1>::Zero();
-    const Correction<kSize> correction = condition<kSize, 6, kColumns>(spread, deviations, noise, innovation);
-    now.surprise = correction.surprise / 6.0;
+    MatrixOf<kPulls, kColumns> deviations = MatrixOf<kPulls, kColumns>::Zero();
+    deviations.template leftCols<Points::kCount>() = pulls;
+    const Correction<kSize> correction =
+        condition<kSize, kPulls, kColumns>(spread, deviations, noise, innovation);
+    now.surprise = correction.surprise / kPulls;
     now.take(correction);
   }
 
   /// The diabolo goes on as it is from the tick to the look.
-  static void see(const CameraLook& look, Belief<kAxle>& now) {
+  void see(const CameraLook& look, const Tips<double>& tips, Belief<kAxle>& now) const {
+    State<double> seen = now.state;
+    seen.position = look.position;
+    if (TightString::around(predictor_, seen, tips).excess() > 2.0 * kBeyond * look.noise)
+      now.state.string_state = StringState::kFlying;
     const double later = look.time - now.time;
-    MatrixOf<3, kSize> seen = now.factor.template middleRows<3>(Chart::kPosition);
-    seen += later * now.factor.template middleRows<3>(Chart::kVelocity);
+    MatrixOf<3, kSize> place = now.factor.template middleRows<3>(Chart::kPosition);
+    place += later * now.factor.template middleRows<3>(Chart::kVelocity);
     const Vector3<double> expected = now.state.position + now.state.velocity * later;
-    now.take(condition<kSize, 3, kSize>(now.factor, seen, look.noise * MatrixOf<3>::Identity(),
+    now.take(condition<kSize, 3, kSize>(now.factor, place, look.noise * MatrixOf<3>::Identity(),
                                         look.position - expected));
     if (look.spin)
       now.take(condition<kSize, 1, kSize>(now.factor, now.factor.row(Chart::kSpin),
@@ -190,9 +140,9 @@ class TickFilter {
                                           ColumnOf<1>(*look.spin - now.state.spin)));
     if constexpr (kAxle)
       if (look.axle) {
-        State<double> turned = now.state;
-        turned.axis = *look.axle;
-        const ColumnOf<2> off = Chart::from(now.state, turned).template tail<2>();
+        seen = now.state;
+        seen.axis = *look.axle;
+        const ColumnOf<2> off = Chart::from(now.state, seen).template tail<2>();
         now.take(condition<kSize, 2, kSize>(now.factor, now.factor.template bottomRows<2>(),
                                             look.axle_noise * MatrixOf<2>::Identity(), off));
       }
