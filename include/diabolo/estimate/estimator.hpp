@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "diabolo/estimate/tick.hpp"
@@ -51,8 +54,14 @@ class Estimator {
 
   const Predictor<double, Effects...>& predictor() const { return filter_.predictor(); }
   const Belief<kAxle>& now() const { return tick(0).after; }
-  /// What is known by now of the end of the step `ago` steps before the last one; history() at most.
-  const Belief<kAxle>& past(std::size_t ago) const { return tick(ago).after; }
+  /// What is known by now of the end of the step `ago` steps before the last one. Throws
+  /// std::invalid_argument beyond history().
+  const Belief<kAxle>& past(std::size_t ago) const {
+    if (ago > history())
+      throw std::invalid_argument("past, ago: " + std::to_string(ago) + " steps; expected at most " +
+                                  std::to_string(history()));
+    return tick(ago).after;
+  }
   std::size_t history() const { return std::min(count_, ticks_.size()) - 1; }
 
   /// The tips have moved on to `tips` in `dt` > 0 [s]. Throws std::invalid_argument where that is not so.
