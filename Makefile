@@ -55,10 +55,10 @@ $(VENV)/.package: $(VENV)/.created $(package_sources)
 	@$(install_package) '.[plot]'
 	@touch $@
 
-$(VENV)/.package-with-tests: $(VENV)/.created $(package_sources)
-	@echo "Installing the Python package and its test tools into $(VENV) $(compiling)"
-	@$(install_package) '.[plot,envs,formats,test]'
-	@touch $(VENV)/.package $@
+# What extras name, beside the package as it is installed: it is not built again.
+$(VENV)/.package-with-tests: $(VENV)/.package
+	@$(pip) 'diabolo[envs,formats,test]'
+	@touch $@
 
 $(VENV)/.tools: $(VENV)/.created tools/tool-requirements.txt
 	@$(pip) -r tools/tool-requirements.txt
@@ -121,6 +121,8 @@ $(ur_rtde)/.installed: $(ur_rtde)/source/.fetched tools/ur_rtde.cmake
 	@cmake --install $(ur_rtde)/build >/dev/null
 	@touch $@
 
+ur5e = $(cmake) -S examples/ur5e_rtde -B $(BUILD)/ur5e/build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
+  -DCMAKE_PREFIX_PATH='$(abspath $(BUILD)/ur5e/prefix);$(abspath $(ur_rtde)/prefix)'
 ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtde's client where that can be fetched.
 	@$(packages) build test ur-rtde
 	@if $(MAKE) --no-print-directory $(ur_rtde)/source/.fetched; then \
@@ -129,15 +131,12 @@ ur-rtde: ## Run the program for two UR5e on stand-in controllers, through ur_rtd
 	  echo "ur_rtde could not be fetched: its client is left out, the stand-in controller alone is tested"; \
 	fi
 	@$(MAKE) --no-print-directory install PREFIX=$(BUILD)/ur5e/prefix
-	@$(cmake) -S examples/ur5e_rtde -B $(BUILD)/ur5e/build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
-	  -DCMAKE_PREFIX_PATH='$(abspath $(BUILD)/ur5e/prefix);$(abspath $(ur_rtde)/prefix)' >/dev/null
+	@# Without ur_rtde first, as one has it who has not built it: what is left builds and passes, and says what is left out.
+	@$(ur5e) -DCMAKE_DISABLE_FIND_PACKAGE_ur_rtde=ON | grep "ur_rtde was not found"
+	@cmake --build $(BUILD)/ur5e/build -j $(JOBS) -- --quiet
+	@ctest --test-dir $(BUILD)/ur5e/build --output-on-failure --no-tests=error
+	@$(ur5e) -DCMAKE_DISABLE_FIND_PACKAGE_ur_rtde=OFF >/dev/null
 	@cmake --build $(BUILD)/ur5e/build -j $(JOBS) -- -k 0
-	@# Without ur_rtde, as one has it who has not built it: what is left builds and passes, and says what is left out.
-	@$(cmake) -S examples/ur5e_rtde -B $(BUILD)/ur5e/without -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
-	  -DCMAKE_PREFIX_PATH='$(abspath $(BUILD)/ur5e/prefix)' -DCMAKE_DISABLE_FIND_PACKAGE_ur_rtde=ON \
-	  | grep "ur_rtde was not found"
-	@cmake --build $(BUILD)/ur5e/without -j $(JOBS) -- --quiet
-	@ctest --test-dir $(BUILD)/ur5e/without --output-on-failure --no-tests=error
 	@ctest --test-dir $(BUILD)/ur5e/build --output-on-failure --no-tests=error --label-exclude plays
 	@# Those that play keep time, which a machine that others share may take from them: each may be tried once more.
 	@ctest --test-dir $(BUILD)/ur5e/build --output-on-failure --label-regex plays --repeat until-pass:2
@@ -149,22 +148,22 @@ plant: ## Build the independent plant, on which the proofs play
 	@cmake --build $(BUILD)/plant -j $(JOBS) --target diabolo-plant
 
 prove: $(VENV)/.package plant ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
-	@$(VENV)/bin/python -m benchmarks.proof.diagnosis quick --cases 16 --plant $(BUILD)/plant/diabolo-plant
+	@$(VENV)/bin/python -m benchmarks.proof.diagnosis quick --cases 16 --jobs $(JOBS) --plant $(BUILD)/plant/diabolo-plant
 
 prove-player: $(VENV)/.package plant ## Play a few plans on the independent plant, and see that they do what is wanted
 	@$(VENV)/bin/python -m benchmarks.proof.player small --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests
-	@$(VENV)/bin/python -m pytest
+	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist worksteal
 
 test-all: test test-long mujoco gazebo hosts ros2 rerun browser agents ur-rtde prove prove-player sanitize fuzz stress ## Run the tests and the heavy groups: other simulators, a browser, the robots, proofs, sanitizers, fuzzing
 
 hosts: $(VENV)/.package-with-tests ## Put the string into DART and Drake
-	@$(install_package) '.[dart,drake,test]'
+	@$(pip) 'diabolo[dart,drake]'
 	@$(VENV)/bin/python -m pytest -m hosts tests/heavy
 
 rerun: $(VENV)/.package-with-tests ## Write files of rerun, and read them again
-	@$(install_package) '.[rerun,test]'
+	@$(pip) 'diabolo[rerun]'
 	@$(VENV)/bin/python -m pytest -m rerun tests/heavy
 
 ros2: $(VENV)/.package-with-tests ## Play in ROS 2: two processes over DDS
@@ -190,7 +189,7 @@ browser: $(VENV)/.package-with-tests page ## Look at the report, the view and th
 
 mujoco: $(VENV)/.package-with-tests ## Put the string into MuJoCo, and compare with its own tendon
 	@$(packages) mujoco
-	@$(install_package) '.[mujoco,plot,test]'
+	@$(pip) 'diabolo[mujoco]'
 	@$(VENV)/bin/python -m pytest -m mujoco tests/heavy
 
 gazebo: $(VENV)/.package-with-tests ## Put the string into Gazebo's engine, and compile its plugin for gz-sim 8
@@ -232,7 +231,7 @@ run_benchmarks = $(VENV)/bin/python -m benchmarks.speed.run_all $(BUILD)/bench/b
 
 bench: build-benchmarks $(VENV)/.package ## Run every benchmark and write docs/benchmarks.md
 	@$(packages) mujoco
-	@$(install_package) '.[mujoco,plot,test]'
+	@$(pip) 'diabolo[mujoco]'
 	@$(run_benchmarks) docs/benchmarks.md --json $(BUILD)/bench/benchmarks.json
 
 check-benchmarks: build-benchmarks $(VENV)/.created # Every benchmark runs; its figures are not looked at.

@@ -87,13 +87,19 @@ if [ -n "$missing" ]; then
     echo "Not a Debian or Ubuntu system: please install $WANTED." >&2
     exit 1
   fi
+  # Targets that run side by side come here together; apt-get serves one, and the others find its work done.
+  exec 9<"${BASH_SOURCE[0]}"
+  flock 9
+  missing=$(all_missing "$@")
+fi
+if [ -n "$missing" ]; then
   as_root=()
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
   echo "Installing with apt-get:" $missing
   export DEBIAN_FRONTEND=noninteractive
-  "${as_root[@]}" apt-get update -qq || echo "apt-get update failed; trying with the package lists at hand" >&2
+  "${as_root[@]}" apt-get update -qq 9<&- || echo "apt-get update failed; trying with the package lists at hand" >&2
   # shellcheck disable=SC2086  # a list of words
-  "${as_root[@]}" apt-get install -y -qq --no-install-recommends $missing >/dev/null ||
+  "${as_root[@]}" apt-get install -y -qq --no-install-recommends $missing >/dev/null 9<&- ||
     echo "apt-get could not install:" $missing >&2
   missing=$(all_missing "$@")
   if [ -n "$missing" ]; then

@@ -92,7 +92,7 @@ class LivePlay:
     def _told(self) -> Moment:
         assert self._process.stdout
         words = self._process.stdout.readline().split()
-        if len(words) != len(Moment._fields[:2]) + 13:
+        if len(words) != len(Moment._fields[:2]) + 16:
             said = self._end()
             kind = RefusedError if self._process.returncode == 2 else FailedError
             raise kind(f"the plant: {' '.join(said.split()) or 'it ended'}")
@@ -104,13 +104,14 @@ class LivePlay:
             numbers[3:6],
             float(numbers[6]),
             numbers[7:10],
-            numbers[10:],
+            numbers[10:13],
+            numbers[13:],
         )
 
 
 class Moment(NamedTuple):
-    """What is true at a time [s]: mode (MISSED: play is over), position [m], velocity [m/s], spin [rad/s] and
-    hands [m]."""
+    """What is true at a time [s]: mode (MISSED: play is over), position [m], velocity [m/s], spin [rad/s],
+    hands [m] and axle (unit vector, forward)."""
 
     time: float
     mode: str
@@ -119,6 +120,7 @@ class Moment(NamedTuple):
     spin: float
     left: NDArray[np.float64]
     right: NDArray[np.float64]
+    axis: NDArray[np.float64]
 
 
 def play(

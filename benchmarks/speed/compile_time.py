@@ -9,11 +9,12 @@ core have a budget: those at the top and in the folders below them.
 from __future__ import annotations
 
 import json
-import resource
+import os
 import statistics
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from .. import command
@@ -30,24 +31,23 @@ def in_core(header: str) -> bool:
     return first in CORE_FOLDERS if rest else header != UMBRELLA
 
 
-def children_time() -> float:
-    """Processor time of the programs run so far [s]."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+def processor_time(command: list[str]) -> float:
+    """Processor time of a program and of what it starts [s], whatever other threads run meanwhile."""
+    process = subprocess.Popen(command)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise subprocess.CalledProcessError(process.returncode, command)
     return used.ru_utime + used.ru_stime
 
 
 def compile_time(header: str, compiler: str, eigen: str, runs: int) -> float:
     """Median processor time [s] of compiling `header`, given relative to include/, alone."""
     with tempfile.TemporaryDirectory() as folder:
-        source = Path(folder) / "alone.cpp"
+        source, made = Path(folder) / "alone.cpp", Path(folder) / "alone.o"
         source.write_text(f"#include <{header}>\n")
         command = [compiler, "-std=c++20", "-O0", f"-I{INCLUDE_DIR}", "-isystem", eigen, "-c", str(source)]
-        times = []
-        for _ in range(runs):
-            start = children_time()
-            subprocess.run([*command, "-o", str(Path(folder) / "alone.o")], check=True)
-            times.append(children_time() - start)
-    return statistics.median(times)
+        return statistics.median(processor_time([*command, "-o", str(made)]) for _ in range(runs))
 
 
 def main() -> int:
@@ -55,14 +55,23 @@ def main() -> int:
     parser.add_argument("--compiler", default="c++")
     parser.add_argument("--eigen", default="/usr/include/eigen3", help="folder of Eigen's headers")
     parser.add_argument("--runs", type=int, default=3, help="runs of which the median is taken")
+    parser.add_argument("--jobs", type=int, default=1, help="compilers at once; one alone is the fairest")
     parser.add_argument("--core", action="store_true", help="look at the core only")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the times there, too")
     arguments = parser.parse_args()
+    for option in ("runs", "jobs"):
+        if getattr(arguments, option) < 1:
+            parser.error(f"--{option}: {getattr(arguments, option)}; expected at least 1")
 
     headers = sorted(str(path.relative_to(INCLUDE_DIR)) for path in INCLUDE_DIR.rglob("*.hpp"))
     headers = [header for header in headers if in_core(header) or not arguments.core]
     try:
-        times = {h: compile_time(h, arguments.compiler, arguments.eigen, arguments.runs) for h in headers}
+        with ThreadPoolExecutor(arguments.jobs) as pool:
+            found = pool.map(
+                lambda header: compile_time(header, arguments.compiler, arguments.eigen, arguments.runs),
+                headers,
+            )
+            times = dict(zip(headers, found, strict=True))
     except subprocess.CalledProcessError as error:
         print(f"compile_time.py: {' '.join(error.cmd)}: failed", file=sys.stderr)
         return 2

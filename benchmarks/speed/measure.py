@@ -78,10 +78,11 @@ def counted(program: Path, pattern: str) -> dict[str, float]:
     return counts
 
 
-def compile_times(runs: int, compiler: str) -> dict[str, Any]:
+def compile_times(brief: bool, compiler: str) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "times.json"
-        command = [*python("compile_time"), "--core", "--runs", str(runs)]
+        runs, jobs = (1, os.cpu_count()) if brief else (3, 1)
+        command = [*python("compile_time"), "--core", "--runs", str(runs), "--jobs", str(jobs)]
         command += ["--compiler", compiler, "--json", str(out)]
         done = subprocess.run(
             command, capture_output=True, text=True, cwd=ROOT

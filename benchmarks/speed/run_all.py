@@ -43,7 +43,7 @@ def measured(programs: Path, compiler: str, brief: bool) -> dict[str, Any]:
     for name in ("loader", "robot"):
         if name in results and not brief:
             stage(f"{name}_counts", lambda name=name: measure.counted(programs / f"bench_{name}", ""))
-    stage("compile", lambda: measure.compile_times(1 if brief else 3, compiler))
+    stage("compile", lambda: measure.compile_times(brief, compiler))
     stage("header_lines", measure.header_lines)
     stage("mujoco", lambda: measure.mujoco(brief))
     stage("uses", lambda: measure.uses(brief))

@@ -113,9 +113,18 @@ void add_models(std::vector<NamedJob>& jobs, const std::string& scalar) {
   effects.template get<StringElasticity>() =
       StringElasticity<Scalar>::of_stiffness(Scalar(1000.0), Scalar(1.0));
   const Predictor<Scalar, StringElasticity> elastic(consistent.parameters(), effects);
+  EffectSet<Scalar, FiniteAxle, Groove, GyroscopicTilt> body;
+  body.template get<FiniteAxle>().radius = Scalar(0.0072);
+  body.template get<FiniteAxle>().follows_axis = Scalar(1.0);
+  body.template get<Groove>().profile_radius = Scalar(0.006);
+  body.template get<Groove>().half_width = Scalar(0.005);
+  body.template get<GyroscopicTilt>().gain = Scalar(3.5);
+  body.template get<GyroscopicTilt>().inertia_ratio = Scalar(1.2);
+  const Predictor<Scalar, FiniteAxle, Groove, GyroscopicTilt> rigid(consistent.parameters(), body);
   for (const Play& play : {beat(), hop(), flight()}) {
     add<true>(jobs, "consistent", scalar, play, consistent);
     add<true>(jobs, "elastic", scalar, play, elastic);
+    add<true>(jobs, "rigid", scalar, play, rigid);
     add<true>(jobs, "published", scalar, play, published);
     add<true>(jobs, "paper", scalar, play, paper);
   }

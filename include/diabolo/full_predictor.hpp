@@ -68,6 +68,7 @@ State<To> state_in(const State<double>& from) {
   to.string_state = from.string_state;
   to.axis = from.axis.cast<To>();
   to.string_acceleration = from.string_acceleration.cast<To>();
+  to.tumble = from.tumble.cast<To>();
   return to;
 }
 

@@ -126,11 +126,12 @@ class Predictor {
     Vector3<Scalar> velocity = result.velocity;
     Vector3<Scalar> position = result.position;
     const Mask<Scalar> pulled = result.taut || result.snapped_taut;
-    if (any(pulled)) {
-      const Scalar pull_difference = effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
-      if constexpr (Set::kTurnsAxle)
-        effects_.turn_axis(state.axis, state, step.end, result, pull_difference, dt);
-    }
+    Scalar pull_difference{0};
+    if (any(pulled))
+      pull_difference = effects_.touch(velocity, spin, state, step.end, result, dt, parameters_);
+    if constexpr (Set::kTurnsAxle)
+      if (any(pulled) || effects_.tumbles())
+        effects_.turn_axle(state, step.end, result, pull_difference, dt, parameters_);
     velocity = step.plane(velocity);
     // The change of velocity happens over the step: the mean of what it was before and after counts.
     if constexpr (Set::kTouches)
@@ -165,7 +166,7 @@ class Predictor {
     Scalar spin = effects_.after_torques(state.spin, state, begin, dt, parameters_);
     Vector3<Scalar> rubbed = result.velocity;
     const Scalar pull_difference = effects_.touch(rubbed, spin, state, end, result, dt, parameters_);
-    if constexpr (Set::kTurnsAxle) effects_.turn_axis(state.axis, state, end, result, pull_difference, dt);
+    if constexpr (Set::kTurnsAxle) effects_.turn_axle(state, end, result, pull_difference, dt, parameters_);
     state.spin = spin;
     state.velocity = plane_(rubbed);
     state.position = result.position;

@@ -42,8 +42,9 @@ void assign_where(const Mask<Scalar>& condition, LaneStringState<Scalar>& state,
   state.code = select(condition, Scalar(static_cast<double>(next)), state.code);
 }
 
-/// State of the diabolo, a point mass that spins. (No vector stands before the velocity, so that no compiler
-/// stores the last component of one with the first of the next, which slows down reading them.)
+/// State of the diabolo: a point mass that spins, and where GyroscopicTilt has an inertia, a rigid body. (No
+/// vector stands before the velocity, so that no compiler stores the last component of one with the first of
+/// the next, which slows down reading them.)
 template <class Scalar>
 struct State {
   Vector3<Scalar> position = Vector3<Scalar>::Constant(Scalar(0));  ///< centre [m], world frame
@@ -53,7 +54,7 @@ struct State {
   /// about -x).
   Scalar spin{0};
   /// Direction of the axle, forward: a unit vector, world frame. Only effects look at it, and only
-  /// GyroscopicTilt turns it. The angular velocity is -spin * axis.
+  /// GyroscopicTilt turns it. The angular velocity is tumble - spin * axis.
   Vector3<Scalar> axis = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));
   /// Mean acceleration of the diabolo by the string over the last step [m/s^2]; times its mass, the string's
   /// force on it. Part of the state: the next step begins its iteration with it, which changes the result by
@@ -61,6 +62,9 @@ struct State {
   /// without it starts with straight sticks, which for a step puts the tips aside by compliance times
   /// tension.
   Vector3<Scalar> string_acceleration = Vector3<Scalar>::Constant(Scalar(0));
+  /// Angular velocity of the axle itself [rad/s], square to it, world frame. Only a GyroscopicTilt with an
+  /// inertia looks at it and changes it.
+  Vector3<Scalar> tumble = Vector3<Scalar>::Constant(Scalar(0));
 };
 
 /// What happened in one step.

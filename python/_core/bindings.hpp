@@ -27,6 +27,7 @@ void bind_gradient(pybind11::module_& module);
 void bind_diagnosis_result(pybind11::module_& module);
 void bind_diagnosis(pybind11::module_& module);
 void bind_residual_fit(pybind11::module_& module);
+void bind_level(pybind11::module_& module);
 void bind_player(pybind11::module_& module);
 void bind_robot(pybind11::module_& module);
 void bind_estimate(pybind11::module_& module);

@@ -62,7 +62,10 @@ const char* doc_of(const GravityTilt<double>&) {
 }
 
 const char* doc_of(const GyroscopicTilt<double>&) {
-  return R"(Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I.)";
+  return R"(Strands that leave the axle aside turn it: gain = m r / I, I the axial moment of inertia.
+
+Without an inertia_ratio the axle follows slowly, ds/dt = torque / (I w). With one, the transverse over the axial
+moment of inertia (1 to 1.4), the diabolo is a rigid body that nutes, State.tumble its axle's angular velocity.)";
 }
 
 const char* doc_of(const UnnamedForce<double>&) {
@@ -71,6 +74,13 @@ const char* doc_of(const UnnamedForce<double>&) {
 Each amplitude [m/s^2] is that at 1 m/s and 100 rad/s; on the string along it (towards the right tip) and square to
 its plane, off it against the velocity, up, and along omega x v. It stops growing below 0.05 and above 20 m/s, below
 1 and above 1000 rad/s.)";
+}
+
+const char* doc_of(const Groove<double>&) {
+  return R"(A round groove whose flanks the string climbs, towards the tips.
+
+The string then pulls from up to half_width beside the centre and yaws the axle, where a GyroscopicTilt has its gain;
+at the edge it brakes the spin by flank_brake times the force along the axle over the mass.)";
 }
 
 const char* doc_of(const FiniteAxle<double>&) {

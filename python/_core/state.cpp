@@ -26,8 +26,16 @@ Vector3<double> to_axis(const Array& array) {
   return axis;
 }
 
+Vector3<double> to_tumble(const Array& array, const Vector3<double>& axis) {
+  const Vector3<double> tumble = to_vector3(array, "tumble");
+  if (!(std::abs(tumble.dot(axis)) <= 1e-6 * (1.0 + tumble.norm())))
+    throw std::invalid_argument("tumble: " + std::to_string(tumble.dot(axis)) +
+                                " rad/s about the axis; expected an angular velocity square to it");
+  return tumble;
+}
+
 S make_state(const Array& position, const Array& velocity, double spin, const py::object& string_state,
-             const Array& axis) {
+             const Array& axis, const Array& tumble) {
   if (!std::isfinite(spin))
     throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
   S state;
@@ -36,6 +44,7 @@ S make_state(const Array& position, const Array& velocity, double spin, const py
   state.spin = spin;
   state.string_state = string_state_from_python(string_state);
   state.axis = to_axis(axis);
+  state.tumble = to_tumble(tumble, state.axis);
   return state;
 }
 
@@ -74,9 +83,11 @@ void bind_state(py::module_& module) {
 `position` [m] and `velocity` [m/s] have the shape (3,), world frame: x forward (away from the player), y left,
 z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
 string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
-is the axle's direction, which only GyroscopicTilt turns.)")
+is the axle's direction, which only GyroscopicTilt turns; `tumble` [rad/s], of the shape (3,) and square to it, is
+its angular velocity, which only one with an inertia_ratio has.)")
       .def(py::init(&make_state), "position"_a, "velocity"_a = py::make_tuple(0.0, 0.0, 0.0), "spin"_a = 0.0,
-           "string_state"_a = "loose", "axis"_a = py::make_tuple(1.0, 0.0, 0.0))
+           "string_state"_a = "loose", "axis"_a = py::make_tuple(1.0, 0.0, 0.0),
+           "tumble"_a = py::make_tuple(0.0, 0.0, 0.0))
       .def_property(
           "position", [](const S& s) { return from_vector3(s.position); },
           [](S& s, const Array& value) { s.position = to_vector3(value, "position"); },
@@ -88,7 +99,8 @@ is the axle's direction, which only GyroscopicTilt turns.)")
           "spin", [](const S& s) { return s.spin; },
           [](S& s, double value) {
             s = make_state(from_vector3(s.position), from_vector3(s.velocity), value,
-                           string_state_to_python(s.string_state), from_vector3(s.axis));
+                           string_state_to_python(s.string_state), from_vector3(s.axis),
+                           from_vector3(s.tumble));
           },
           "[rad/s]")
       .def_property(
@@ -97,8 +109,15 @@ is the axle's direction, which only GyroscopicTilt turns.)")
           "A StringState; its number or its name may be assigned.")
       .def_property(
           "axis", [](const S& s) { return from_vector3(s.axis); },
-          [](S& s, const Array& value) { s.axis = to_axis(value); },
-          "Direction of the axle, forward: a unit vector, shape (3,).")
+          [](S& s, const Array& value) {
+            s.axis = to_axis(value);
+            s.tumble -= s.axis * s.axis.dot(s.tumble);
+          },
+          "Direction of the axle, forward: a unit vector, shape (3,). Takes from tumble what is along it.")
+      .def_property(
+          "tumble", [](const S& s) { return from_vector3(s.tumble); },
+          [](S& s, const Array& value) { s.tumble = to_tumble(value, s.axis); },
+          "Angular velocity of the axle itself, square to it [rad/s], shape (3,).")
       .def_property_readonly(
           "string_acceleration", [](const S& s) { return from_vector3(s.string_acceleration); },
           "Mean acceleration by the string over the last step [m/s^2], shape (3,).")
@@ -110,11 +129,11 @@ is the axle's direction, which only GyroscopicTilt turns.)")
           [](const S& s) {
             return py::make_tuple(from_vector3(s.position), from_vector3(s.velocity), s.spin,
                                   static_cast<int>(s.string_state), from_vector3(s.axis),
-                                  from_vector3(s.string_acceleration));
+                                  from_vector3(s.string_acceleration), from_vector3(s.tumble));
           },
           [](const py::tuple& t) {
             S state = make_state(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<double>(), t[3],
-                                 t[4].cast<Array>());
+                                 t[4].cast<Array>(), t[6].cast<Array>());
             state.string_acceleration = to_vector3(t[5].cast<Array>(), "string_acceleration");
             return state;
           }))

@@ -110,3 +110,28 @@ TEST_CASE("the diabolo hangs higher by what lies around the axle") {
   CHECK(state.position.y() == Approx(0.0).margin(1e-9));
   CHECK(state.velocity.norm() < 1e-4);
 }
+
+TEST_CASE("an axle that follows the state's axis is the same while that is square to the strands") {
+  const Tips<double> tips = tips_at({0.0, 0.3, 1.3}, {0.0, -0.25, 1.2});
+  const Full square = with_axle(kRadius), follows = full<FiniteAxle>([](auto&axle) {
+                                            axle.radius = kRadius;
+                                            axle.follows_axis = 1.0;
+                                          });
+  State<double> start;
+  start.position = Vector(0.0, 0.2, 0.65);
+  const auto after = [&](const Full& model, const Vector& axis) {
+    State<double> state = start;
+    state.axis = axis.normalized();
+    return run(
+        model, state, [&](double) { return tips; }, 1.0, 1000);
+  };
+  const State<double> level = after(follows, Vector::UnitX());
+  CHECK(apart(after(square, Vector::UnitX()), level) < 1e-9);
+  CHECK(apart(after(square, {1.0, 0.2, 0.3}), after(square, Vector::UnitX())) == 0.0);
+  // Tilted, it has the string beside its middle: as far as the radius tilts.
+  const double slightly = apart(after(follows, {1.0, 0.0, 0.1}), level),
+               twice = apart(after(follows, {1.0, 0.0, 0.2}), level);
+  CHECK(slightly < 0.1 * kRadius);
+  CHECK(slightly > 0.05 * kRadius);
+  CHECK(twice / slightly == Approx(2.0).epsilon(0.01));
+}

@@ -87,7 +87,8 @@ State<double> fly(const Model& model, const State<double>& state, double duratio
 
 inline bool same_bits(const State<double>& a, const State<double>& b) {
   return a.position == b.position && a.velocity == b.velocity && a.spin == b.spin && a.axis == b.axis &&
-         a.string_state == b.string_state && a.string_acceleration == b.string_acceleration;
+         a.tumble == b.tumble && a.string_state == b.string_state &&
+         a.string_acceleration == b.string_acceleration;
 }
 
 /// Steps of random plays under every preset, in all string states, after which the full model with this set
@@ -132,6 +133,7 @@ inline State<double> mirrored(State<double> state) {
   state.position = mirrored(state.position);
   state.velocity = mirrored(state.velocity);
   state.axis = mirrored(state.axis);
+  state.tumble = -mirrored(state.tumble);  // as every angular velocity
   state.spin = -state.spin;
   return state;
 }
@@ -144,6 +146,7 @@ inline State<double> turned(State<double> state, const Eigen::Matrix3d& turn) {
   state.position = turn * state.position;
   state.velocity = turn * state.velocity;
   state.axis = turn * state.axis;
+  state.tumble = turn * state.tumble;
   return state;
 }
 inline Eigen::Matrix3d about_vertical(double angle) {

@@ -7,6 +7,8 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -27,6 +29,21 @@ def run(example: Path, folder: Path, **environment: str) -> str:
     return done.stdout
 
 
+Drawn = Callable[[Path], tuple[str, Path]]
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory: pytest.TempPathFactory) -> Drawn:
+    """Runs an example, once for all tests that ask: what it printed, and its folder."""
+
+    @cache
+    def run_once(example: Path) -> tuple[str, Path]:
+        folder = tmp_path_factory.mktemp(example.stem)
+        return run(example, folder), folder
+
+    return run_once
+
+
 def numbers(pattern: str, text: str) -> list[float]:
     match = re.search(pattern, text)
     assert match is not None, text
@@ -43,13 +60,13 @@ def test_there_are_examples() -> None:
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
-def test_an_example_draws(example: Path, tmp_path: Path) -> None:
+def test_an_example_draws(example: Path, drawn: Drawn) -> None:
     pytest.importorskip("matplotlib")
-    output = run(example, tmp_path)
+    output, folder = drawn(example)
     picture = f"{example.stem}.png"
     assert output.splitlines()[-1] == f"picture: {picture}"
-    assert {path.name for path in tmp_path.iterdir()} == {picture, *written(example)}
-    assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+    assert {path.name for path in folder.iterdir()} == {picture, *written(example)}
+    assert (folder / picture).read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
@@ -62,35 +79,35 @@ def test_an_example_does_without_matplotlib(example: Path, tmp_path: Path) -> No
     assert {path.name for path in tmp_path.iterdir()} == {"blocked", *written(example)}
 
 
-def test_the_fall_takes_as_long_as_it_must(tmp_path: Path) -> None:
-    output = run(EXAMPLES[0], tmp_path)
+def test_the_fall_takes_as_long_as_it_must(drawn: Drawn) -> None:
+    output, _ = drawn(EXAMPLES[0])
     (caught,) = numbers(r"caught after ([\d.]+) s", output)
     (fall,) = numbers(r"takes ([\d.]+) s", output)
     assert abs(caught - fall) <= 1.1e-3  # one step
 
 
-def test_calm_hands_take_as_long_as_for_a_pendulum(tmp_path: Path) -> None:
-    output = run(EXAMPLES[1], tmp_path)
+def test_calm_hands_take_as_long_as_for_a_pendulum(drawn: Drawn) -> None:
+    output, _ = drawn(EXAMPLES[1])
     (calmest,) = numbers(r"the calmest ones take ([\d.]+) s", output)
     (pendulum,) = numbers(r"of them: ([\d.]+) s", output)
     assert calmest == pytest.approx(pendulum, abs=0.03)
 
 
-def test_the_replay_beats_the_baseline(tmp_path: Path) -> None:
-    output = run(EXAMPLES[2], tmp_path)
+def test_the_replay_beats_the_baseline(drawn: Drawn) -> None:
+    output, _ = drawn(EXAMPLES[2])
     (error,) = numbers(r"mean error is ([\d.]+) cm", output)
     (lowest,) = numbers(r"would be ([\d.]+) cm", output)
     assert error < 0.5 * lowest
 
 
-def test_the_iteration_converges(tmp_path: Path) -> None:
-    output = run(EXAMPLES[3], tmp_path)
+def test_the_iteration_converges(drawn: Drawn) -> None:
+    output, _ = drawn(EXAMPLES[3])
     misses = [float(miss) for miss in re.findall(r"off by +([\d.]+) mm", output)]
     assert len(misses) == 5 and misses[0] > 10.0 and misses[2] < 0.1 and misses[4] == 0.0
 
 
-def test_what_was_found_helps_on_another_recording(tmp_path: Path) -> None:
-    output = run(EXAMPLES[4], tmp_path)
+def test_what_was_found_helps_on_another_recording(drawn: Drawn) -> None:
+    output, _ = drawn(EXAMPLES[4])
     (friction,) = numbers(r"string_friction, coefficient: ([\d.]+)", output)
     assert friction == pytest.approx(0.3, abs=0.03)
     (before,) = numbers(r"consistent: .*?([\d.]+) after 0.5 s", output)
@@ -98,8 +115,8 @@ def test_what_was_found_helps_on_another_recording(tmp_path: Path) -> None:
     assert after < 0.3 * before
 
 
-def test_a_clone_plays_nearly_as_well_as_its_teacher(tmp_path: Path) -> None:
-    output = run(EXAMPLES[5], tmp_path)
+def test_a_clone_plays_nearly_as_well_as_its_teacher(drawn: Drawn) -> None:
+    output, _ = drawn(EXAMPLES[5])
     teacher, clone = (
         numbers(rf"{name}: gains ([\d.]+) .*drops (\d+)", output) for name in ("teacher", "clone")
     )

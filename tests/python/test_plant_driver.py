@@ -70,13 +70,14 @@ def test_what_truly_happened_counts_from_the_motion(tmp_path: Path) -> None:
 
 
 def test_hands_are_moved_a_period_at_a_time(tmp_path: Path) -> None:
-    line = "0.02 FLYING 1 2 3 4 5 6 90 0 0.3 1.25 0 -0.3 1.25"
+    line = "0.02 FLYING 1 2 3 4 5 6 90 0 0.3 1.25 0 -0.3 1.25 1 0 0"
     live = program(tmp_path, f'echo "{line}"; while read period rest; do echo "{line}"; done')
     with plant.LivePlay(live, {}) as play:
         assert play.moment.mode == "FLYING"
         moment = play.push(0.02, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     assert moment.position.tolist() == [1.0, 2.0, 3.0]
     assert (moment.spin, moment.right.tolist()) == (90.0, [0.0, -0.3, 1.25])
+    assert moment.axis.tolist() == [1.0, 0.0, 0.0]
 
 
 def test_a_live_play_that_is_refused_says_why(tmp_path: Path) -> None:

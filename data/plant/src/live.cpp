@@ -48,6 +48,7 @@ void write_moment(std::ostream& out, const PlantParameters& parameters, const Mo
   write(moment.state.col(kVelocity));
   out << ' ' << play_spin(parameters.diabolo, moment.state);
   for (const Stick& stick : motion.at(moment.time)) write(stick.tip);
+  write(moment.state.col(kAxis));
   out << std::endl;
 }
 

@@ -37,6 +37,7 @@ struct Told {
   Vec3 position, velocity;
   double spin = 0.0;
   Pair<Vec3> hands;
+  Vec3 axis;
 };
 
 Told read(const std::string& line) {
@@ -48,6 +49,7 @@ Told read(const std::string& line) {
   words >> told.spin;
   for (Vec3& hand : told.hands)
     for (int i = 0; i < 3; ++i) words >> hand(i);
+  for (int i = 0; i < 3; ++i) words >> told.axis(i);
   REQUIRE(words);
   return told;
 }
@@ -69,6 +71,7 @@ TEST_CASE("hands that are not moved play what still hands play") {
     CHECK((live.position - Vec3(moment.state.col(kPosition))).norm() < 1e-9);
     CHECK((live.velocity - Vec3(moment.state.col(kVelocity))).norm() < 1e-7);
     CHECK(live.spin == Approx(play_spin(still.plant.diabolo, moment.state)));
+    CHECK((live.axis - Vec3(moment.state.col(kAxis))).norm() < 1e-9);
   }
 }
 

@@ -113,6 +113,7 @@ State<Pack> gather_state(const LaneBlock& block) {
   state.string_acceleration =
       gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->string_acceleration; });
   state.axis = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->axis; });
+  state.tumble = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->tumble; });
   state.spin = gather<Pack>([&](int l) { return block.states[l]->spin; });
   state.string_state.code =
       gather<Pack>([&](int l) { return static_cast<double>(block.states[l]->string_state); });
@@ -128,6 +129,7 @@ void scatter_state(const State<Pack>& state, const LaneBlock& block) {
       to.velocity[k] = state.velocity[k][lane];
       to.string_acceleration[k] = state.string_acceleration[k][lane];
       to.axis[k] = state.axis[k][lane];
+      to.tumble[k] = state.tumble[k][lane];
     }
     to.spin = state.spin[lane];
     to.string_state = static_cast<StringState>(static_cast<int>(state.string_state.code[lane]));

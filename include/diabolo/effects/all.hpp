@@ -5,6 +5,7 @@
 #include "diabolo/effects/finite_axle.hpp"
 #include "diabolo/effects/formula_laws.hpp"
 #include "diabolo/effects/gravity_tilt.hpp"
+#include "diabolo/effects/groove.hpp"
 #include "diabolo/effects/gyroscopic_tilt.hpp"
 #include "diabolo/effects/landing_restitution.hpp"
 #include "diabolo/effects/magnus_lift.hpp"
@@ -20,9 +21,9 @@ namespace diabolo {
 
 /// Every effect on place and spin, and others.
 template <class Scalar, template <class> class... Others>
-using MotionEffects =
-    EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss, GravityTilt, FiniteAxle,
-              StickFlex, StringMass, LandingRestitution, UnnamedForce, FormulaLaws, ResidualForce, Others...>;
+using MotionEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
+                                GravityTilt, FiniteAxle, Groove, StickFlex, StringMass, LandingRestitution,
+                                UnnamedForce, FormulaLaws, ResidualForce, Others...>;
 
 /// Every effect of the library.
 template <class Scalar>

@@ -89,12 +89,18 @@ struct NeutralEffect {
                           const Scalar& /*dt*/, const Parameters<Scalar>&) const {
     return {};
   }
-  /// Rate of change of the axle's direction, square to it, by the string in a step [1/s]; `tips` are those of
-  /// its end, `pull_difference` is that of all contacts.
-  Vector3<Scalar> axis_rate(const State<Scalar>&, const Tips<Scalar>& /*tips*/,
-                            const StringStepResult<Scalar>&, const Scalar& /*pull_difference*/) const {
+  /// Torque of the string about the diabolo's centre, mean over a step, less what is along the axle; over the
+  /// diabolo's mass and the axle's radius [m/s^2]. `tips` are those of the step's end, `pull_difference` is
+  /// that of all contacts.
+  Vector3<Scalar> axle_torque(const State<Scalar>&, const Tips<Scalar>& /*tips*/,
+                              const StringStepResult<Scalar>&, const Scalar& /*pull_difference*/,
+                              const Parameters<Scalar>&) const {
     return Vector3<Scalar>::Constant(Scalar(0));
   }
+  /// Turns the axle, `axis` and `tumble` of the state, for a step under the torque of all effects.
+  void turn_axle(State<Scalar>&, const Vector3<Scalar>& /*torque*/, const Scalar& /*dt*/) const {}
+  /// Whether the axle turns where no string pulls, too.
+  bool tumbles() const { return false; }
   /// Rate of change of the given spin [rad/s] beside the string's, its mean over a step [rad/s^2]. The spin
   /// is what string and other effects have made of the state's.
   Scalar spin_acceleration(const Scalar& /*spin*/, const State<Scalar>&, const Tips<Scalar>&,
@@ -125,7 +131,7 @@ struct EffectSet {
 
   static constexpr bool kTouches = (hides(&Effects<Scalar>::contact, &Neutral::contact) || ...);
 
-  static constexpr bool kTurnsAxle = (hides(&Effects<Scalar>::axis_rate, &Neutral::axis_rate) || ...);
+  static constexpr bool kTurnsAxle = (hides(&Effects<Scalar>::turn_axle, &Neutral::turn_axle) || ...);
 
   std::tuple<Effects<Scalar>...> members;
 
@@ -214,15 +220,24 @@ struct EffectSet {
     });
     return pull_difference;
   }
-  /// Turns the axle.
-  void turn_axis(Vector3<Scalar>& axis, const State<Scalar>& state, const Tips<Scalar>& given,
-                 const StringStepResult<Scalar>& result, const Scalar& pull_difference,
-                 const Scalar& dt) const {
+  /// Whether the axle turns where no string pulls, too.
+  bool tumbles() const {
+    bool tumbles = false;
+    each([&](const auto& effect) { tumbles |= effect.tumbles(); });
+    return tumbles;
+  }
+  /// Turns the axle of the state at a step's beginning.
+  void turn_axle(State<Scalar>& state, const Tips<Scalar>& given, const StringStepResult<Scalar>& result,
+                 const Scalar& pull_difference, const Scalar& dt,
+                 const Parameters<Scalar>& parameters) const {
+    Vector3<Scalar> torque = Vector3<Scalar>::Constant(Scalar(0));
+    if (any(result.taut || result.snapped_taut))
+      each([&]<class Effect>(const Effect& effect) {
+        if constexpr (hides(&Effect::axle_torque, &Neutral::axle_torque))
+          torque = torque + effect.axle_torque(state, given, result, pull_difference, parameters);
+      });
     each([&]<class Effect>(const Effect& effect) {
-      if constexpr (hides(&Effect::axis_rate, &Neutral::axis_rate)) {
-        const Vector3<Scalar> turned = axis + effect.axis_rate(state, given, result, pull_difference) * dt;
-        axis = turned * Scalar(norm(axis) / norm(turned));
-      }
+      if constexpr (hides(&Effect::turn_axle, &Neutral::turn_axle)) effect.turn_axle(state, torque, dt);
     });
   }
   /// The spin after all torques.

@@ -11,24 +11,32 @@ namespace diabolo {
 /// A string that turns the axle of a spinning diabolo. A strand of direction e under the tension T leaves the
 /// axle s at the radius r square to both and pulls with a torque whose part across s is r T (s.e) u, u the
 /// direction of e without its part along s, of one sign for the left strand and of the other for the right
-/// one. A gyroscope follows it slowly, ds/dt = torque / (I w): one hand forward and the other back tilts the
-/// axle, both forward yaw it. gain = m r / I, about 3 to 8 1/m for the paper's diabolos; some degrees a
-/// second in play.
+/// one. gain = m r / I, I the axial moment of inertia; about 3 to 8 1/m for the paper's diabolos.
 ///
-/// For tips that are nearly square to the axle and for a spin that is fast: the nutation is left out, and
-/// below kSlowSpin the law fades. Moves nothing by itself; lift and whoever looks at the axle see it.
+/// With an `inertia_ratio` the diabolo is a rigid body, a symmetric top: its angular momentum, over the
+/// transverse moment of inertia, is l = tumble - spin s / inertia_ratio; the torque changes l, and s turns
+/// about l, ds/dt = l x s (Euler's equations in the world frame). It nutes with some spin / inertia_ratio,
+/// in flight too, which the step has to resolve.
+///
+/// Without one it is the limit of a fast spin: no nutation, ds/dt = torque / (I w). One hand forward and the
+/// other back tilts the axle, both forward yaw it; some degrees a second in play. Below kSlowSpin that law
+/// fades.
 template <class Scalar>
 struct GyroscopicTilt : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "gyroscopic_tilt";
   static constexpr std::array kLaws{NamedLaw{
       "gyroscopic_tilt", "the tilt of the axle by the string", "axle", {"gyroscopic_gain"}, {}, "gain"}};
   static constexpr double kSlowSpin = 5.0;  ///< [rad/s]
-  Scalar gain{0};  ///< mass times axle radius over the axial moment of inertia [1/m], >= 0
+  Scalar gain{0};           ///< mass times axle radius over the axial moment of inertia [1/m], >= 0
+  Scalar inertia_ratio{0};  ///< transverse over axial moment of inertia; zero: no nutation
+  Scalar decay{0};          ///< of the nutation, by the air and by what gives [1/s], >= 0
 
-  bool neutral() const { return is_constant_zero(gain); }
+  bool neutral() const { return is_constant_zero(gain) && !tumbles(); }
+  bool tumbles() const { return any(inertia_ratio > Scalar(0)); }
 
-  Vector3<Scalar> axis_rate(const State<Scalar>& state, const Tips<Scalar>& tips,
-                            const StringStepResult<Scalar>& result, const Scalar& pull_difference) const {
+  Vector3<Scalar> axle_torque(const State<Scalar>& state, const Tips<Scalar>& tips,
+                              const StringStepResult<Scalar>& result, const Scalar& pull_difference,
+                              const Parameters<Scalar>&) const {
     const StringPath<Scalar> path(result.position, tips);
     const Vector3<Scalar> left = path.from_left * Scalar(Scalar(-1) / path.left_length),
                           right = path.from_right * Scalar(Scalar(-1) / path.right_length);
@@ -36,12 +44,29 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
     // Mean tension over mass.
     const Scalar pull = select(
         result.taut, Scalar(norm(result.string_acceleration) / maximum(norm(both), Scalar(0.02))), Scalar(0));
-    const Vector3<Scalar> torque = lever(state.axis, right) * Scalar(pull + Scalar(0.5) * pull_difference) -
-                                   lever(state.axis, left) * Scalar(pull - Scalar(0.5) * pull_difference);
+    const Vector3<Scalar> torque = lever(state.axis, left) * Scalar(pull - Scalar(0.5) * pull_difference) -
+                                   lever(state.axis, right) * Scalar(pull + Scalar(0.5) * pull_difference);
     // The left strand leaves the axle on the side of the left tip.
     const Scalar side = dot<Scalar>(cross<Scalar>(state.axis, both), tips.left - tips.right);
-    const Scalar slow = state.spin / (state.spin * state.spin + Scalar(kSlowSpin * kSlowSpin));
-    return torque * select(side > Scalar(0), Scalar(gain * slow), Scalar(-gain * slow));
+    return select<Scalar>(side > Scalar(0), torque, Vector3<Scalar>(-torque));
+  }
+
+  void turn_axle(State<Scalar>& state, const Vector3<Scalar>& torque, const Scalar& dt) const {
+    const Mask<Scalar> rigid = inertia_ratio > Scalar(0);
+    const Vector3<Scalar> followed = all(rigid) ? state.axis : after_slow_turn(state, torque, dt);
+    if (any(rigid)) {
+      const Scalar ratio = select(rigid, inertia_ratio, Scalar(1));
+      // Half of the torque's kick before the axle turns about the momentum, half after: second order.
+      const Vector3<Scalar> kick = torque * Scalar(Scalar(0.5) * dt * gain / ratio);
+      const Vector3<Scalar> momentum = state.tumble - state.axis * Scalar(state.spin / ratio) + kick;
+      state.axis = select<Scalar>(rigid, turned_about(momentum * dt, state.axis), followed);
+      const Vector3<Scalar> kicked = momentum + kick;
+      const Vector3<Scalar> across = kicked - state.axis * dot<Scalar>(kicked, state.axis);
+      state.tumble =
+          select<Scalar>(rigid, across * Scalar(Scalar(1) / (Scalar(1) + decay * dt)), state.tumble);
+    } else {
+      state.axis = followed;
+    }
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -54,6 +79,10 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
                         "mass times axle radius over axial moment of inertia",
                         {"gyroscopic_gain", 1.0, 0.0, 0.0, 100.0}},
           self.gain);
+    visit(ParameterInfo{"inertia_ratio", "1", 0.0, 100.0,
+                        "transverse over axial moment of inertia; zero: no nutation"},
+          self.inertia_ratio);
+    visit(ParameterInfo{"decay", "1/s", 0.0, 1e3, "decay of the nutation"}, self.decay);
   }
 
  private:
@@ -62,6 +91,22 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
     const Scalar along = dot<Scalar>(axis, strand);
     const Vector3<Scalar> across = strand - axis * along;
     return across * Scalar(along / maximum(norm(across), Scalar(0.02)));
+  }
+
+  /// The vector turned about `angle` [rad], by Cayley's map: a rotation whatever its size, right to second
+  /// order.
+  static Vector3<Scalar> turned_about(const Vector3<Scalar>& angle, const Vector3<Scalar>& v) {
+    const Vector3<Scalar> half = angle * Scalar(0.5);
+    const Vector3<Scalar> once = cross<Scalar>(half, v), twice = cross<Scalar>(half, once);
+    return v + (once + twice) * Scalar(Scalar(2) / (Scalar(1) + squared_norm<Scalar>(half)));
+  }
+
+  /// The axle that follows the torque without nutation.
+  Vector3<Scalar> after_slow_turn(const State<Scalar>& state, const Vector3<Scalar>& torque,
+                                  const Scalar& dt) const {
+    const Scalar slow = state.spin / (state.spin * state.spin + Scalar(kSlowSpin * kSlowSpin));
+    const Vector3<Scalar> turned = state.axis + torque * Scalar(-(gain * slow)) * dt;
+    return turned * Scalar(norm(state.axis) / norm(turned));
   }
 };
 

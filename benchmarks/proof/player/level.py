@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: MIT
+"""Levelling on the independent plant, whose axle is free.
+
+Its hands raise the spin by cycles of linear acceleration, each planned on the plant's own numbers. `raise`: a
+minute that gains 60 rad/s or more; the axle shall stay within 5 degrees of the heading all the time. `back`: a
+tilt of 20 degrees shall be below 5 within 3 s, and stay there. Hands that do not level play the same beside
+them. Each plant has its own numbers, friction and groove among them; the hands see its axle three frames late,
+with half a degree of noise, and its true spin.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import diabolo
+import numpy as np
+from diabolo import State, _core
+from diabolo.enums import StringState
+from numpy.typing import NDArray
+
+from ... import command
+from .. import plant as driver
+from .plant import STICKS, Plant
+from .session import GAINS, LIMITS, REACTION, draw
+
+EXAMPLE = """\
+  make plant && python -m benchmarks.proof.player.level raise --count 100
+  python -m benchmarks.proof.player.level back --count 100 --seed 2"""
+
+PERIOD = 0.01
+"""Of the hands [s]."""
+DELAY = 3
+"""Frames of 120 Hz from the axle to what is seen of it."""
+NOISE = np.radians(0.5)
+"""Of the seen axle's direction [rad]."""
+WARM_UP = 0.3  # that the plant hangs before [s]
+RAISED = 60.0
+"""How much spin a play of `raise` shall gain [rad/s]."""
+PLAYS = {"raise": ("linear_acceleration", 60.0), "back": ("linear_acceleration", 6.0)}
+"""How the hands play, and how long [s]."""
+LEVEL = 5.0  # [deg]
+TILT = 20.0  # that `back` begins with [deg]
+SOON = 3.0  # [s]
+LOST = 0.15  # a diabolo below is [m]
+
+
+class FreeAxle(NamedTuple):
+    """What a plant's axle and groove are, and how its play begins: spin [rad/s], tilt and yaw [deg]."""
+
+    inertia_ratio: float
+    groove_radius: float
+    groove_half_width: float
+    spin: float
+    pitch: float
+    yaw: float
+
+
+def draw_axle(rng: np.random.Generator, tilt: float) -> FreeAxle:
+    """Of the plants that the physics' notes allow; tilted one way or the other by `tilt` [deg], or as one
+    begins to play, where that is zero."""
+    pitch = tilt * rng.choice((-1.0, 1.0)) if tilt else rng.uniform(-3.0, 3.0)
+    return FreeAxle(
+        float(rng.uniform(1.0, 1.4)),
+        float(rng.uniform(0.002, 0.01)),
+        float(rng.uniform(0.003, 0.008)),
+        float(rng.uniform(60.0, 80.0)),
+        float(pitch),
+        float(rng.uniform(-3.0, 3.0)),
+    )
+
+
+def model_of(plant: Plant, axle: FreeAxle) -> diabolo.Model:
+    """The library's model of the plant with its axle."""
+    known = plant.known()
+    known.gyroscopic_tilt = diabolo.GyroscopicTilt(
+        gain=plant.mass * plant.axle_radius / plant.axial_inertia, inertia_ratio=axle.inertia_ratio
+    )
+    known.groove = diabolo.Groove(profile_radius=axle.groove_radius, half_width=axle.groove_half_width)
+    return known
+
+
+class Hands:
+    """Hands of the live plant that are brought to given tips: places and velocities are its own."""
+
+    def __init__(self, home: NDArray[np.float64]) -> None:
+        self.place = home.copy()
+        self.velocity = np.zeros(6)
+
+    def towards(self, place: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Accelerations for a period that end with the wanted velocity and half of the gap closed."""
+        drift = place - (self.place + 0.5 * PERIOD * (self.velocity + velocity))
+        acceleration = (velocity + 0.25 * drift / PERIOD - self.velocity) / PERIOD
+        acceleration = np.clip(acceleration, -60.0, 60.0)
+        self.place = self.place + PERIOD * self.velocity + 0.5 * PERIOD**2 * acceleration
+        self.velocity = self.velocity + PERIOD * acceleration
+        return acceleration
+
+
+@dataclass
+class Levelled:
+    """What came of a play: times [s], tilt and yaw of the axle against the heading [deg], the heading [deg],
+    spin [rad/s], and whether the diabolo was lost."""
+
+    time: NDArray[np.float64]
+    tilt: NDArray[np.float64]
+    yaw: NDArray[np.float64]
+    heading: NDArray[np.float64]
+    spin: NDArray[np.float64]
+    lost: bool
+
+
+Tips = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Both tips, left over right: places [m] and velocities [m/s], shape (6,)."""
+
+
+class Accelerating:
+    """Cycles of linear acceleration, one planned after the other from what is seen REACTION before."""
+
+    def __init__(self, plant: Plant, name: str, spin: float) -> None:
+        self._name = name
+        self._models = [plant.known()]
+        left, right = _core.home_pose(name, plant.length)
+        start = diabolo.hang_at_rest(self._models[0], left, right, spin, STICKS)
+        self._horizon = diabolo.RecedingHorizon(self._models[0], left, right, start, 0.0, STICKS)
+        self._home, self._length = (left, right), plant.length
+        self.home = np.concatenate([left, right])
+
+    def at(self, time: float, seen: State) -> Tips:
+        """The tips at a time [s], which grows from call to call; `seen` a period before it."""
+        if time > self._horizon.path.end - REACTION:
+            self._horizon.observe(time - PERIOD, seen)
+            seam = self._horizon.seam_at(self._horizon.path.end)
+            action = _core.action(
+                self._name, *self._home, seam.state, self._length, spin_gain=GAINS[self._name]
+            )
+            plan = diabolo.plan(
+                seam.state,
+                seam.joined(action.seed),
+                action.goals,
+                self._models,
+                limits=LIMITS,
+                freedom=action.freedom,
+            )
+            self._horizon.join(seam, plan, seam.time, 0.0)
+        place, velocity = self._horizon.path.derivatives(np.array([time]))[:2]
+        return place[0], velocity[0]
+
+
+def scenario(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[str, Any]:
+    hold = [{"type": "hold", "duration": WARM_UP}]
+    asked = plant._scenario(
+        (home[:3].tolist(), home[3:].tolist()), hold, axle.spin, {}, plant.seed, wander=False
+    )
+    asked["diabolo"] |= {
+        "inertia_ratio": axle.inertia_ratio,
+        "groove_radius": axle.groove_radius,
+        "groove_half_width": axle.groove_half_width,
+    }
+    asked["start"] |= {"pitch_deg": axle.pitch, "yaw_deg": axle.yaw}
+    return asked
+
+
+def play_level(plant: Plant, axle: FreeAxle, name: str, duration: float, *, levels: bool) -> Levelled:
+    """The plant's diabolo while its spin is raised, by hands that turn their motion to the axle, or not."""
+    rng = np.random.default_rng(plant.seed)
+    motion = Accelerating(plant, name, axle.spin)
+    level = diabolo.LevelHands(model_of(plant, axle), motion.home[:3], motion.home[3:], axle.spin)
+    hands = Hands(motion.home)
+    rows: list[tuple[float, ...]] = []
+    looks: list[NDArray[np.float64]] = []
+    late = int(np.ceil(DELAY / 120.0 / PERIOD))
+    lost = True  # also where a tip touches the axle, which ends the plant's program
+    with (
+        contextlib.suppress(driver.FailedError),
+        driver.LivePlay(plant.program, scenario(plant, axle, motion.home)) as live,
+    ):
+        for step in range(int(duration / PERIOD)):
+            moment = live.moment
+            if moment.mode == "MISSED" or moment.position[2] < LOST:
+                break
+            tilt, yaw = angles(moment.axis)
+            heading = np.degrees(level.heading)
+            rows.append((step * PERIOD, tilt, yaw - heading, heading, moment.spin))
+            look = moment.axis + NOISE * rng.standard_normal(3)
+            looks.append(look / np.linalg.norm(look))
+            if levels:
+                level.see(looks[max(0, step - late)], moment.spin)
+            level.advance(PERIOD)
+            seen = as_the_hands_see(moment, level.heading + level.lead, motion.home)
+            place, velocity = motion.at((step + 1) * PERIOD, seen)
+            tips = level.tips(place[:3], place[3:], velocity[:3], velocity[3:])
+            live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), np.concatenate(tips[2:])))
+        else:
+            lost = False
+    return Levelled(*np.array(rows).T, lost)
+
+
+def as_the_hands_see(moment: driver.Moment, heading: float, home: NDArray[np.float64]) -> State:
+    """The diabolo from hands that are turned: as it is before their motion is turned."""
+    pivot, c, s = 0.5 * (home[:3] + home[3:]), np.cos(heading), np.sin(heading)
+    back = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    place = pivot + back @ (moment.position - pivot)
+    return State(place, back @ moment.velocity, moment.spin, StringState[moment.mode])
+
+
+def angles(axis: NDArray[np.float64]) -> tuple[float, float]:
+    """Tilt and yaw of the axle [deg]."""
+    return (
+        float(np.degrees(np.arctan2(axis[2], np.hypot(axis[0], axis[1])))),
+        float(np.degrees(np.arctan2(axis[1], axis[0]))),
+    )
+
+
+def outcome(what: str, number: int, given: argparse.Namespace, *, levels: bool) -> tuple[bool, str]:
+    """Whether one plant's play is what is wanted, and what became of it."""
+    rng = np.random.default_rng([given.seed, number])
+    plant = draw(given.plant, rng)
+    axle = draw_axle(rng, TILT if what == "back" else 0.0)
+    name, duration = PLAYS[what]
+    play = play_level(plant, axle, name, duration, levels=levels)
+    off = np.maximum(np.abs(play.tilt), np.abs(play.yaw))
+    if what == "back":
+        well = not play.lost and bool((off[play.time >= SOON] < LEVEL).all())
+        then = off[np.searchsorted(play.time, SOON) - 1]
+        said = f"tilt {abs(play.tilt[0]):.0f} deg, {then:.1f} after {SOON:g} s"
+    else:
+        gained = float(play.spin.max() - play.spin[0])
+        well = not play.lost and bool((off < LEVEL).all()) and gained >= RAISED
+        said = f"off by {off.max():.1f} deg at most, {np.median(off):.1f} in the median, {gained:+.0f} rad/s"
+    lost = f", lost after {play.time[-1]:.1f} s" if play.lost else ""
+    return well, f"{said}, hands turned by {np.abs(play.heading).max():.0f} deg{lost}"
+
+
+def run(given: argparse.Namespace) -> int:
+    driver.check(given.plant)
+    done: dict[bool, int] = {}
+    for levels in (True, False):
+        who = "level" if levels else "do not level"
+
+        def one(number: int, levels: bool = levels, who: str = who) -> bool:
+            well, said = outcome(given.what, number, given, levels=levels)
+            print(f"plant {number}, hands {who}: {said}{'' if well else ' - FAILED'}", flush=True)
+            return well
+
+        with ThreadPoolExecutor(given.jobs) as pool:
+            done[levels] = sum(pool.map(one, range(given.count)))
+    print(
+        f"{given.what}: {done[True]} of {given.count} where the hands level, {done[False]} where they do not"
+    )
+    return 0 if done[True] >= given.wanted * given.count else 1
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = command.make_parser("benchmarks.proof.player.level", __doc__, EXAMPLE)
+    parser.add_argument("what", choices=("raise", "back"))
+    parser.add_argument("--count", metavar="N", type=int, default=10, help="plants (%(default)s)")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the plants (%(default)s)")
+    parser.add_argument("--jobs", metavar="N", type=int, default=1, help="plants at once (%(default)s)")
+    parser.add_argument(
+        "--wanted", metavar="SHARE", type=float, default=0.95,
+        help="exit with 1 where fewer are well (%(default)s)",
+    )  # fmt: skip
+    driver.add_option(parser)
+    return command.run(parser, run, arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

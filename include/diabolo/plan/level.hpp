@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "diabolo/full_predictor.hpp"
+#include "diabolo/string/hanging.hpp"
+
+namespace diabolo {
+
+/// Tilt of the axle up and yaw to the left [rad], of a unit vector that points forward.
+struct AxleAngles {
+  double tilt = 0.0, yaw = 0.0;
+};
+inline AxleAngles axle_angles(const Vector3<double>& axis) {
+  return {std::atan2(axis.z(), std::hypot(axis.x(), axis.y())), std::atan2(axis.y(), axis.x())};
+}
+inline Vector3<double> axle_at(const AxleAngles& angles) {
+  const double level = std::cos(angles.tilt);
+  return {level * std::cos(angles.yaw), level * std::sin(angles.yaw), std::sin(angles.tilt)};
+}
+
+/// A motion of the hands that is turned to the left by `heading` and `lead` [rad] about the vertical through
+/// `pivot`. The player faces along the heading; the lead sets the right hand forward and the left one back,
+/// as a player does who tilts the axle, and leaves the string's shape as it is.
+struct Turned {
+  double heading = 0.0, lead = 0.0;
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& v) const {
+    const double c = std::cos(heading + lead), s = std::sin(heading + lead);
+    return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()};
+  }
+  /// Places alone.
+  Tips<double> operator()(Tips<double> tips) const {
+    tips.left = pivot + (*this)(Eigen::Vector3d(tips.left - pivot));
+    tips.right = pivot + (*this)(Eigen::Vector3d(tips.right - pivot));
+    return tips;
+  }
+};
+
+/// How the axle of a diabolo that hangs between level hands answers them, to first order: d/dt (tilt, yaw,
+/// heading) = drift (tilt, yaw, heading) + drive (lead, turn), angles in rad as in Turned, and `turn`
+/// the rate of the heading [rad/s]. The axle follows its torque without nutation, so that both
+/// matrices go as one over the spin but for the heading's own row.
+struct AxleResponse {
+  Eigen::Matrix3d drift;
+  Eigen::Matrix<double, 3, 2> drive;
+};
+
+namespace level_detail {
+
+/// Rate of the axle's angles under a string that carries the resting diabolo.
+inline Eigen::Vector2d angle_rates(const AllEffects<double>& effects, const Parameters<double>& parameters,
+                                   const AxleAngles& at, double spin, const Tips<double>& tips) {
+  constexpr double kStep = 1e-3;
+  State<double> state = hanging_state(tips.left, tips.right, parameters.string_length, spin);
+  state.axis = axle_at(at);
+  StringStepResult<double> result;
+  result.position = state.position;
+  result.string_acceleration = Vector3<double>(0.0, 0.0, parameters.gravity);
+  result.taut = true;
+  const TipShift<double> shift = effects.tip_shift(state, tips, parameters);
+  Tips<double> shifted = tips;
+  shifted.left += shift.left;
+  shifted.right += shift.right;
+  effects.turn_axle(state, shifted, result, 0.0, kStep, parameters);
+  const AxleAngles after = axle_angles(state.axis);
+  return {(after.tilt - at.tilt) / kStep, (after.yaw - at.yaw) / kStep};
+}
+
+}  // namespace level_detail
+
+/// The response of the model's diabolo at that spin [rad/s], between hands at `home`, by central differences.
+/// Throws std::invalid_argument where the model does not turn its axle, or the spin is too slow to steer.
+inline AxleResponse axle_response(const FullPredictor<double>& model, const Tips<double>& home, double spin) {
+  constexpr double kSmall = 1e-4;
+  AllEffects<double> effects = model.effects();
+  effects.get<GyroscopicTilt>().inertia_ratio = 0.0;
+  if (!(effects.get<GyroscopicTilt>().gain > 0.0))
+    throw std::invalid_argument("gyroscopic_tilt gain: 0 1/m; levelling needs a model that turns its axle");
+  if (!(std::abs(spin) >= 2.0 * GyroscopicTilt<double>::kSlowSpin))
+    throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; levelling needs 10 at least");
+  const Eigen::Vector3d pivot = 0.5 * (home.left + home.right);
+  const auto rates = [&](double tilt, double yaw, double heading, double lead) {
+    return level_detail::angle_rates(effects, model.parameters(), {tilt, yaw}, spin,
+                                     Turned{heading, lead, pivot}(home));
+  };
+  const auto slope = [&](double tilt, double yaw, double heading, double lead) -> Eigen::Vector2d {
+    return (rates(kSmall * tilt, kSmall * yaw, kSmall * heading, kSmall * lead) -
+            rates(-kSmall * tilt, -kSmall * yaw, -kSmall * heading, -kSmall * lead)) /
+           (2.0 * kSmall);
+  };
+  AxleResponse response{Eigen::Matrix3d::Zero(), Eigen::Matrix<double, 3, 2>::Zero()};
+  response.drift.topRows<2>() << slope(1, 0, 0, 0), slope(0, 1, 0, 0), slope(0, 0, 1, 0);
+  response.drive.topLeftCorner<2, 1>() = slope(0, 0, 0, 1);
+  response.drive(2, 1) = 1.0;
+  return response;
+}
+
+/// What levelling weighs: each quantity by the size at which it costs one.
+struct LevelWeights {
+  double tilt = 0.05;     ///< [rad]
+  double yaw = 0.05;      ///< of the axle against the heading [rad]
+  double heading = 1.0;   ///< of the player [rad]
+  double lead = 0.3;      ///< [rad]
+  double turn = 0.5;      ///< [rad/s]
+  double horizon = 20.0;  ///< [s]
+};
+
+/// Gains K of the linear-quadratic regulator, (lead, turn) = -K (tilt, yaw, heading), which minimises the
+/// weighed squares over the horizon: Riccati's recursion backwards. (What no hand can move, such as the yaw
+/// of an axle in a groove without flanks, costs and stays.)
+inline Eigen::Matrix<double, 2, 3> level_gains(const AxleResponse& response,
+                                               const LevelWeights& weights = {}) {
+  constexpr double kStep = 0.02;  // [s]
+  const auto one_over_square = [](double size) { return 1.0 / (size * size); };
+  const double yaw = one_over_square(weights.yaw);
+  Eigen::Matrix3d cost = Eigen::Matrix3d::Zero();
+  cost(0, 0) = one_over_square(weights.tilt);
+  cost.bottomRightCorner<2, 2>() << yaw, -yaw, -yaw, yaw + one_over_square(weights.heading);
+  const Eigen::Matrix2d effort =
+      Eigen::Vector2d(one_over_square(weights.lead), one_over_square(weights.turn)).asDiagonal();
+  const Eigen::Matrix3d next = Eigen::Matrix3d::Identity() + kStep * response.drift;
+  const Eigen::Matrix<double, 3, 2> push = kStep * response.drive;
+  Eigen::Matrix3d to_go = cost;
+  Eigen::Matrix<double, 2, 3> gains;
+  for (int i = 0; i < static_cast<int>(weights.horizon / kStep); ++i) {
+    const Eigen::Matrix2d weight = effort + push.transpose() * to_go * push;
+    const Eigen::Matrix<double, 2, 3> wanted = push.transpose() * to_go * next;
+    const double determinant = weight(0, 0) * weight(1, 1) - weight(0, 1) * weight(1, 0);
+    Eigen::Matrix2d inverse;
+    inverse << weight(1, 1), -weight(0, 1), -weight(1, 0), weight(0, 0);
+    gains = inverse * wanted / determinant;
+    to_go = cost + next.transpose() * to_go * (next - push * gains);
+  }
+  return gains;
+}
+
+}  // namespace diabolo

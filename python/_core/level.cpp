@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "diabolo/model.hpp"
+#include "diabolo/plan/level_hands.hpp"
+
+namespace diabolo::python {
+
+namespace {
+
+using namespace py::literals;
+
+double positive(double value, const char* name, const char* unit) {
+  if (!(value > 0.0) || !std::isfinite(value))
+    throw std::invalid_argument(std::string(name) + ": " + std::to_string(value) + " " + unit +
+                                "; expected a positive number");
+  return value;
+}
+
+LevelHands make_level_hands(const Model& model, const Array& left, const Array& right, double spin,
+                            double lead, double turn, double quickness) {
+  Tips<double> home;
+  home.left = to_vector3(left, "left");
+  home.right = to_vector3(right, "right");
+  if (!((home.left - home.right).norm() < model.parameters.string_length))
+    throw std::invalid_argument("left, right: " + std::to_string((home.left - home.right).norm()) +
+                                " m apart; expected less than the string's length");
+  const LevelHandLimits limits{positive(lead, "lead", "rad"), positive(turn, "turn", "rad/s"),
+                               positive(quickness, "quickness", "1/s")};
+  return {FullPredictor<double>(model.parameters, model.effects), home, spin, {}, limits};
+}
+
+void see(LevelHands& hands, const Array& axis, double spin) {
+  const Vector3<double> seen = to_vector3(axis, "axis");
+  if (!(std::abs(seen.norm() - 1.0) < 1e-6))
+    throw std::invalid_argument("axis: norm " + std::to_string(seen.norm()) + "; expected a unit vector");
+  if (!std::isfinite(spin))
+    throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
+  hands.see(seen, spin);
+}
+
+py::tuple level_tips(const LevelHands& hands, const Array& left, const Array& right,
+                     const Array& left_velocity, const Array& right_velocity) {
+  Tips<double> base;
+  base.left = to_vector3(left, "left");
+  base.right = to_vector3(right, "right");
+  base.left_velocity = to_vector3(left_velocity, "left_velocity");
+  base.right_velocity = to_vector3(right_velocity, "right_velocity");
+  const Tips<double> tips = hands.tips(base);
+  return py::make_tuple(from_vector3(tips.left), from_vector3(tips.right), from_vector3(tips.left_velocity),
+                        from_vector3(tips.right_velocity));
+}
+
+}  // namespace
+
+void bind_level(py::module_& module) {
+  const Array zero = from_vector3(Vector3<double>::Zero());
+  py::class_<LevelHands>(module, "LevelHands",
+                         R"(Hands that keep the axle of a diabolo level while they play any motion.
+
+They turn the motion towards the axle, and beyond it to tilt it, by the gains of a linear-quadratic regulator on
+the model, learnt anew where the spin has changed by a tenth. The model needs a GyroscopicTilt.)")
+      .def(
+          py::init(&make_level_hands), "model"_a, "left"_a, "right"_a, "spin"_a, py::kw_only(),
+          "lead"_a = LevelHandLimits{}.lead, "turn"_a = LevelHandLimits{}.turn,
+          "quickness"_a = LevelHandLimits{}.quickness,
+          R"(left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
+[rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the rate `quickness` [1/s].)")
+      .def("see", &see, "axis"_a, "spin"_a,
+           "Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s].")
+      .def(
+          "advance", [](LevelHands& hands, double dt) { hands.advance(positive(dt, "dt", "s")); }, "dt"_a,
+          "Let the hands follow for `dt` [s].")
+      .def("tips", &level_tips, "left"_a, "right"_a, "left_velocity"_a = zero, "right_velocity"_a = zero,
+           R"(The motion's tips [m] and their velocities [m/s] as these hands play them now.
+
+Returns left, right, left_velocity, right_velocity, each of the shape (3,).)")
+      .def_property_readonly(
+          "heading", [](const LevelHands& hands) { return hands.turned().heading; },
+          "Where the player faces, from where the play began to the left [rad].")
+      .def_property_readonly(
+          "lead", [](const LevelHands& hands) { return hands.turned().lead; },
+          "How far the hands are turned to the left beyond the heading [rad].")
+      .def_property_readonly(
+          "gains",
+          [](const LevelHands& hands) {
+            const Eigen::Matrix<double, 2, 3, Eigen::RowMajor> gains = hands.gains();
+            return Array({2, 3}, gains.data());
+          },
+          "K of (lead, turn) = -K (tilt, yaw, heading), shape (2, 3).");
+}
+
+}  // namespace diabolo::python

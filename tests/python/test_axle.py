@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""The axle in Python: a rigid diabolo, and hands that level it."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+
+import diabolo
+import numpy as np
+import pytest
+from diabolo import Groove, GyroscopicTilt, LevelHands, Model, Parameters, Predictor, State
+
+LEFT, RIGHT = [0.55, 0.3, 1.25], [0.55, -0.3, 1.25]
+RIGID = Model(
+    Parameters(spin_coupling=0.0),
+    gyroscopic_tilt=GyroscopicTilt(gain=3.4, inertia_ratio=1.2),
+    groove=Groove(profile_radius=0.004, half_width=0.005),
+)
+
+
+def test_a_state_carries_the_tumble_of_its_axle() -> None:
+    state = State([0, 0, 1], axis=[1, 0, 0], tumble=[0.0, 0.5, -0.2])
+    assert state.tumble.tolist() == [0.0, 0.5, -0.2]
+    for other in (copy.copy(state), copy.deepcopy(state), pickle.loads(pickle.dumps(state))):
+        assert other.tumble.tolist() == state.tumble.tolist()
+    state.axis = [0.0, 1.0, 0.0]  # what is now along the axle is spin
+    assert state.tumble.tolist() == [0.0, 0.0, -0.2]
+    with pytest.raises(ValueError, match=r"tumble: .* rad/s about the axis; expected"):
+        State([0, 0, 1], tumble=[1.0, 0.0, 0.0])
+    with pytest.raises(ValueError, match="tumble"):
+        state.tumble = [0.0, np.nan, 0.0]
+
+
+def test_a_rigid_axle_nutes_in_flight() -> None:
+    state = State([0, 0, 50], spin=90.0, string_state="flying", tumble=[0.0, 1.0, 0.0])
+    predictor = Predictor(RIGID)
+    axes = []
+    for _ in range(200):
+        predictor.step(state, LEFT, RIGHT, LEFT, RIGHT, 1e-3)
+        axes.append(state.axis)
+    momentum = 1.2 * state.tumble - 90.0 * state.axis
+    assert momentum == pytest.approx(
+        1.2 * np.array([0.0, 1.0, 0.0]) - 90.0 * np.array([1.0, 0.0, 0.0]), abs=1e-9
+    )
+    assert np.ptp(np.array(axes)[:, 1:], axis=0).min() > 0.01
+
+
+def test_hands_level_an_axle() -> None:
+    hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
+    assert hands.gains.shape == (2, 3)
+    state = diabolo.hang_at_rest(RIGID, LEFT, RIGHT, 60.0)
+    state.axis = [np.cos(0.3), 0.0, np.sin(0.3)]
+    predictor = Predictor(RIGID)
+    left, right, _, _ = hands.tips(LEFT, RIGHT)
+    for step in range(6000):
+        if step % 10 == 0:
+            hands.see(state.axis, state.spin)
+        hands.advance(1e-3)
+        before = left, right
+        left, right, _, _ = hands.tips(LEFT, RIGHT)
+        predictor.step(state, *before, left, right, 1e-3)
+    assert abs(state.axis[2]) < 0.02
+    assert np.arctan2(state.axis[1], state.axis[0]) == pytest.approx(hands.heading, abs=0.05)
+
+
+def test_what_cannot_be_levelled_is_refused() -> None:
+    with pytest.raises(ValueError, match="gyroscopic_tilt gain: 0 1/m"):
+        LevelHands(Model(), LEFT, RIGHT, 60.0)
+    with pytest.raises(ValueError, match=r"spin: .*needs 10 at least"):
+        LevelHands(RIGID, LEFT, RIGHT, 3.0)
+    with pytest.raises(ValueError, match=r"2\.000000 m apart; expected less than the string's length"):
+        LevelHands(RIGID, [0, 1, 1], [0, -1, 1], 60.0)
+    with pytest.raises(ValueError, match="lead: -1"):
+        LevelHands(RIGID, LEFT, RIGHT, 60.0, lead=-1.0)
+    hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
+    with pytest.raises(ValueError, match="axis: norm"):
+        hands.see([1.0, 1.0, 0.0], 60.0)
+    with pytest.raises(ValueError, match="spin"):
+        hands.see([1.0, 0.0, 0.0], float("nan"))
+    with pytest.raises(ValueError, match="dt: 0"):
+        hands.advance(0.0)
