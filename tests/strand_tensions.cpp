@@ -92,7 +92,7 @@ TEST_CASE("a string that slips has tensions as exp(c b)") {
     for (int i = 0; i < 200; ++i) {
       const State<double> before = state;
       const auto [left, right] = tensions_ahead(predictor, state, tips, i * kMillisecond);
-      const Strands strands = Strands::halfway(before, state, tips.at(0.0), tips.at(0.0));
+      const Strands<double> strands = Strands<double>::halfway(before, state, tips.at(0.0), tips.at(0.0));
       const double around = M_PI - std::acos(strands.left.dot(strands.right));
       CHECK(std::abs(std::log(right / left)) == Approx(0.2 * around).epsilon(0.01));
       CHECK((spin > 0.0) == (right < left));

@@ -31,7 +31,7 @@ BANDS: tuple[tuple[str, ...], ...] = (
     ("paper", "effects", "recording", "recording/formats", "recording/plausibility"),
     ("verbs", "batch"),
     ("evaluate",),
-    ("diagnose", "plan", "learn", "hosts", "robot/arm", "robot/motion", "robot/control"),  # uses
+    ("diagnose", "plan", "learn", "estimate", "hosts", "robot/arm", "robot/motion", "robot/control"),  # uses
     ("json",),
     ("umbrella",),
 )

@@ -30,6 +30,7 @@ void bind_residual_fit(pybind11::module_& module);
 void bind_level(pybind11::module_& module);
 void bind_player(pybind11::module_& module);
 void bind_robot(pybind11::module_& module);
+void bind_estimate(pybind11::module_& module);
 void bind_learn(pybind11::module_& module);
 
 }  // namespace diabolo::python

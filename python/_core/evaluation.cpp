@@ -37,15 +37,17 @@ auto watched(const Work& work) {
   return result;
 }
 
-/// States and string states at each row; before the start NaN, and as at the start.
+/// States, string states and forces on the tips at each row; before the start NaN, and as at the start.
 py::tuple predicted_rows(const Recording& recording, const Model& model,
                          std::optional<Eigen::Index> start_row, const std::string& start) {
   const Start rule = start_from_python(start);
   const Prediction predicted =
       watched([&](const Watch& watch) { return predict(recording, model, rule, start_row, watch); });
   Array states({recording.size(), Eigen::Index{7}});
+  Array forces({recording.size(), Eigen::Index{2}, Eigen::Index{3}});
   py::array_t<std::uint8_t> codes(recording.size());
   std::fill_n(states.mutable_data(), states.size(), kNaN);
+  std::fill_n(forces.mutable_data(), forces.size(), kNaN);
   std::fill_n(codes.mutable_data(), codes.size(),
               static_cast<std::uint8_t>(predicted.states.front().string_state));
   Eigen::Index row = predicted.first;
@@ -53,9 +55,12 @@ py::tuple predicted_rows(const Recording& recording, const Model& model,
     double* to = std::copy_n(state.position.data(), 3, states.mutable_data(row, 0));
     to = std::copy_n(state.velocity.data(), 3, to);
     *to = state.spin;
+    const TipForces<double>& on_tips = predicted.forces[static_cast<std::size_t>(row - predicted.first)];
+    double* force = std::copy_n(on_tips.left.data(), 3, forces.mutable_data(row, 0, 0));
+    std::copy_n(on_tips.right.data(), 3, force);
     codes.mutable_at(row++) = static_cast<std::uint8_t>(state.string_state);
   }
-  return py::make_tuple(states, codes);
+  return py::make_tuple(states, codes, forces);
 }
 
 std::vector<HorizonScore> horizons(const std::vector<Recording>& recordings, const Model& model,

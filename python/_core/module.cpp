@@ -32,6 +32,7 @@ PYBIND11_MODULE(_core, module) {
   bind_level(module);
   bind_player(module);  // plays what an agent learns from
   bind_robot(module);
+  bind_estimate(module);  // takes an arm's torques
   bind_pickles();
   check_arguments(module);
   pybind11::register_local_exception_translator([](std::exception_ptr thrown) {

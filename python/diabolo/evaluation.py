@@ -171,7 +171,8 @@ def predict(
     """Predict the diabolo at each row of a recording from its state at one row and the recorded tips.
 
     row: where to start; by default the first one from which the authors' program could.
-    start: as for `evaluate`. Rows before the start are NaN; `time` is that of the recording.
+    start: as for `evaluate`. Rows before the start are NaN; `time` is that of the recording. `forces`
+        are those of the string on the tips.
 
     Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
@@ -180,8 +181,8 @@ def predict(
         row = whole_number("row", row, 0, len(recording) - 1)
     warn_of([recording])
     chosen = model_of("model", model)
-    states, string_states = _core.predict(recording, chosen, row, one_of("start", start, STARTS))
-    return Rollout(np.asarray(recording.time), states, string_states)
+    states, string_states, forces = _core.predict(recording, chosen, row, one_of("start", start, STARTS))
+    return Rollout(np.asarray(recording.time), states, string_states, forces)
 
 
 def position_errors(recording: AnyRecording, predicted: Rollout) -> NDArray[np.float64]:

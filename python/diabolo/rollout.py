@@ -52,6 +52,9 @@ class Rollout(NamedTuple):
     """Position [m], velocity [m/s] and spin [rad/s], shape (N, frames, 7)."""
     string_states: NDArray[np.uint8]
     """As in StringState, shape (N, frames)."""
+    forces: NDArray[np.float64] | None = None
+    """Of the string on the left and the right tip, the mean over a frame's last step [N], shape (N, frames, 2, 3);
+    None where nobody asked. A strand's tension is the norm."""
 
     def __repr__(self) -> str:
         """How many samples, over how long, and where the first one ends."""
@@ -91,6 +94,7 @@ def rollout(
     axis: ArrayLike = (1.0, 0.0, 0.0),
     record_every: int = 1,
     threads: int = 0,
+    forces: bool = False,
 ) -> Rollout:
     """Predict the diabolo from each of N initial states while the tips move.
 
@@ -104,6 +108,7 @@ def rollout(
     axis: the axle's direction, which matters to MagnusLift and GyroscopicTilt, shape (3,) or (N, 3).
     record_every: a frame after each so many steps; `steps` must be a multiple of it.
     threads: 0 takes all cores. The result does not depend on it.
+    forces: whether the forces of the string on the tips are wanted, too.
 
     Ctrl-C ends it at once. Raises ValueError about bad input, and FloatingPointError where a state does not
     stay finite. Warns (RolloutWarning) of input that is odd, such as in other units.
@@ -134,7 +139,7 @@ def rollout(
         )
     _warn_of_units(states, motions[0], models[0], dt)
 
-    records, record_states = _core.rollout(
+    records, record_states, on_tips = _core.rollout(
         models,
         np.concatenate([np.broadcast_to(states, (size, 7)), np.broadcast_to(axes, (size, 3))], axis=1),
         np.broadcast_to(codes, (size,)),
@@ -144,10 +149,13 @@ def rollout(
         steps,
         record_every,
         whole_number("threads", threads, 0, MOST_THREADS),
+        bool(forces),
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     batched = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or is_several(model) or is_several(tips)
-    return Rollout(time, records, record_states) if batched else Rollout(time, records[0], record_states[0])
+    if batched:
+        return Rollout(time, records, record_states, on_tips)
+    return Rollout(time, records[0], record_states[0], None if on_tips is None else on_tips[0])
 
 
 def rollout_gradient(

@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "chain.hpp"
 
 namespace plant {
+namespace {
+
+/// Tension of a segment [N].
+double pull(const Spring& spring) {
+  return spring.excess > 0.0
+             ? std::max(0.0, spring.stiffness * spring.excess + spring.damping * spring.rate)
+             : 0.0;
+}
+
+}  // namespace
 
 Reading ChainPlant::read(const Moment& moment) const {
   const DiaboloParameters& diabolo = parameters_.diabolo;
@@ -38,9 +50,13 @@ Reading ChainPlant::read(const Moment& moment) const {
   for (std::size_t i = 1; i + 1 < chain.places.size(); ++i) {
     reading.energy += moving(measures_.node_mass, chain.places[i], chain.velocities[i]);
   }
-  for (const Spring& spring : springs(moment, around, sticks)) {
+  std::vector<Spring> segments = springs(moment, around, sticks);
+  measure_rates(moment, &Spring::rate, segments);
+  for (const Spring& spring : segments) {
     if (spring.excess > 0.0) reading.energy += 0.5 * spring.stiffness * spring.excess * spring.excess;
   }
+  reading.on_tips = {-pull(segments.front()) * segments.front().pulls[0],
+                     -pull(segments.back()) * segments.back().pulls[1]};
   if (stick.bending_stiffness) {
     for (std::size_t side = 0; side < 2; ++side) {
       reading.energy += moving(stick.tip_mass, state.col(kBend[side]), state.col(kBendRate[side])) +

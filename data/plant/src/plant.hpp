@@ -56,7 +56,8 @@ struct Reading {
   double stretch = 0.0;  ///< string beyond its length [m]; negative when slack, not a number when flying
   double wrap = 0.0;     ///< contact angle [rad]; 0 when flying
   double slip = 0.0;     ///< string over axle [m/s]; 0 unless taut
-  Tensions tensions;     ///< [N]; 0 unless taut
+  Tensions tensions;     ///< on either side of the axle [N]; 0 unless taut
+  Pair<Vec3> on_tips{Vec3::Zero(), Vec3::Zero()};  ///< the string's force on the tips [N]; 0 unless it pulls
   double energy = 0.0;   ///< kinetic, potential, elastic and of the sticks' bends [J]
 };
 

@@ -46,6 +46,8 @@ Reading StrandsPlant::read(const Moment& moment) const {
     reading.tensions =
         bearing_limited(parameters_.diabolo, string, moment.chirality,
                         spin_about_axis(parameters_.diabolo, moment.state), string_tensions(string, now));
+    reading.on_tips = {-reading.tensions.left * now.strands[0].direction,
+                       -reading.tensions.right * now.strands[1].direction};
   }
   return reading;
 }

@@ -21,6 +21,7 @@ struct Batch {
   std::vector<const TipMotion<double>*> motions;   ///< 1 or n
   Steps steps;
   std::size_t record_every = 0;  ///< a record after each so many steps; 0: final states only
+  bool forces = false;           ///< whether the records have the string's forces on the tips, too
 
   std::size_t records() const { return record_every == 0 ? 0 : steps.count / record_every; }
 
@@ -69,6 +70,7 @@ struct BatchResult {
   std::vector<State<double>> final_states;  ///< n
   std::vector<double> records;              ///< n x records x 7
   std::vector<StringState> record_states;   ///< n x records
+  std::vector<double> forces;  ///< n x records x 6: on the left and the right tip in a record's last step [N]
 };
 
 /// The kernel that any processor runs; `batch/kernels.hpp` has faster ones. A template, so that only
@@ -121,6 +123,7 @@ class BatchWorker {
     std::vector<double>& records = spare_records_;
     std::vector<StringState>& record_states = spare_record_states_;
     records.resize(7 * batch_.records());
+    if (batch_.forces) spare_forces_.resize(6 * batch_.records());
     record_states.resize(batch_.records());
     LaneBlock block{};
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(kernel_.lanes); ++lane) {
@@ -132,6 +135,9 @@ class BatchWorker {
       block.states[lane] = real ? &result_.final_states[i] : &spare[lane];
       block.tips[lane] = tips_[batch_.motions.size() == 1 ? 0 : std::min(lane, used - 1)].data();
       block.records[lane] = real ? result_.records.data() + 7 * batch_.records() * i : records.data();
+      if (batch_.forces)
+        block.forces[lane] =
+            real ? result_.forces.data() + 6 * batch_.records() * i : spare_forces_.data();
       block.record_states[lane] =
           real ? result_.record_states.data() + batch_.records() * i : record_states.data();
     }
@@ -148,7 +154,7 @@ class BatchWorker {
   BatchResult& result_;
   std::array<std::vector<Tips<double>>, kMostLanes> tips_;
   std::array<std::size_t, kMostLanes> hints_{};
-  std::vector<double> spare_records_;
+  std::vector<double> spare_records_, spare_forces_;
   std::vector<StringState> spare_record_states_;
 };
 
@@ -163,7 +169,8 @@ inline BatchResult rollout_batch(const Batch& batch, const BatchKernel& kernel, 
   batch.validate();
   const std::size_t n = batch.initial.size();
   BatchResult result{batch.initial, std::vector<double>(n * batch.records() * 7),
-                     std::vector<StringState>(n * batch.records())};
+                     std::vector<StringState>(n * batch.records()),
+                     std::vector<double>(batch.forces ? n * batch.records() * 6 : 0)};
   // One share for each thread, of whole groups, since a worker reads shared tip motions anew.
   const auto parts = [](std::size_t whole, std::size_t part) { return (whole + part - 1) / part; };
   const std::size_t lanes = static_cast<std::size_t>(kernel.lanes);

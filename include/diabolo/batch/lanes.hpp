@@ -8,6 +8,7 @@
 
 #include "diabolo/full_predictor.hpp"
 #include "diabolo/math/pack.hpp"
+#include "diabolo/strand_tensions.hpp"
 
 namespace diabolo {
 
@@ -22,6 +23,7 @@ struct LaneBlock {
   State<double>* states[kMostLanes];       ///< in and out
   const Tips<double>* tips[kMostLanes];    ///< steps + 1 poses each; lanes may share them
   double* records[kMostLanes];             ///< 7 numbers a record: position, velocity, spin; null: none
+  double* forces[kMostLanes];              ///< 6 numbers a record: on the left and the right tip; null: none
   StringState* record_states[kMostLanes];  ///< one a record
   bool shared_tips;                        ///< all lanes have the same tips
   double dt;                               ///< [s]
@@ -150,19 +152,34 @@ void scatter_record(const State<Pack>& state, const LaneBlock& block, std::size_
   }
 }
 
+template <class Pack>
+void scatter_forces(const TipForces<Pack>& forces, const LaneBlock& block, std::size_t index) {
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane)
+    for (int k = 0; k < 3; ++k) {
+      block.forces[lane][6 * index + static_cast<std::size_t>(k)] = forces.left[k][lane];
+      block.forces[lane][6 * index + static_cast<std::size_t>(k) + 3] = forces.right[k][lane];
+    }
+}
+
 template <class Pack, class P>
 void run_with(const P& predictor, const LaneBlock& block) {
-  State<Pack> state = gather_state<Pack>(block);
+  State<Pack> state = gather_state<Pack>(block), before;
   Tips<Pack> tips[2];
   gather_tips(block, 0, tips[0]);
   for (std::size_t i = 1; i <= block.steps; ++i) {
     const Tips<Pack>& now = tips[(i - 1) % 2];
     Tips<Pack>& next = tips[i % 2];
     gather_tips(block, i, next);
-    predictor.step(state, now, next, Pack(block.dt));
     const std::size_t done = block.first_step + i;
-    if (block.record_every > 0 && done % block.record_every == 0)
-      scatter_record(state, block, done / block.record_every - 1);
+    const bool records = block.record_every > 0 && done % block.record_every == 0;
+    const bool pulls = records && block.forces[0];
+    if (pulls) before = state;
+    predictor.step(state, now, next, Pack(block.dt));
+    if (!records) continue;
+    const std::size_t index = done / block.record_every - 1;
+    scatter_record(state, block, index);
+    if (pulls)
+      scatter_forces(tip_forces(predictor, before, state, now, next, Pack(block.dt)), block, index);
   }
   scatter_state(state, block);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/tip_motion.hpp"
 #include "diabolo/rollout.hpp"
+#include "diabolo/strand_tensions.hpp"
 
 namespace diabolo {
 
@@ -23,6 +25,8 @@ namespace diabolo {
 struct Prediction {
   Eigen::Index first = 0;
   std::vector<State<double>> states;
+  /// Of the string on the tips, in the step that ends at each row; at the first row in the one that begins.
+  std::vector<TipForces<double>> forces;
 };
 
 /// The state at a row; `starts` are the recording's. Throws std::invalid_argument where a prediction cannot
@@ -53,18 +57,30 @@ inline Prediction predict(const Recording& recording, const Model& model, Start 
   const RecordedTips tips(recording, model.interpolation);
   const Eigen::Index last = recording.size() - 1;
   const auto elapsed = [&](Eigen::Index at) { return tips.times()[at] - tips.times()[result.first]; };
-  const auto record = [&](std::size_t step, const State<double>& state) {
+  const auto record = [&](std::size_t step, const State<double>& state, const TipForces<double>& forces) {
     for (Eigen::Index next = result.first + static_cast<Eigen::Index>(result.states.size());
-         next <= last && steps_until(elapsed(next)) == step; ++next)
+         next <= last && steps_until(elapsed(next)) == step; ++next) {
       result.states.push_back(state);
+      result.forces.push_back(forces);
+    }
   };
-  record(0, begin);
+  record(0, begin, {});
   const auto motion = tips.motion(result.first, last);
   const Steps steps{tips.times()[result.first], kEvaluationStep, steps_until(elapsed(last))};
-  rollout(predictor_for(model, recording), begin, *motion, steps,
-          [&](std::size_t step, double, const State<double>& state, const StepStatus<double>&) {
+  const FullPredictor<double> predictor = predictor_for(model, recording);
+  State<double> before = begin;
+  std::size_t hint = 0;
+  Tips<double> tips_before = motion->at(steps.begin, hint);
+  rollout(predictor, begin, *motion, steps,
+          [&](std::size_t step, double time, const State<double>& state, const StepStatus<double>&) {
             if (watch.cancelled && watch.cancelled()) throw Cancelled();
-            record(step, state);
+            const Tips<double> tips_now = motion->at(time, hint);
+            const TipForces<double> forces =
+                tip_forces(predictor, before, state, tips_before, tips_now, kEvaluationStep);
+            if (step == 1) std::ranges::fill(result.forces, forces);
+            record(step, state, forces);
+            before = state;
+            tips_before = tips_now;
           });
   return result;
 }

@@ -123,7 +123,7 @@ class AttachedString {
   void pull_strands(const HostBody& body, const State<double>& before, const State<double>& after,
                     const Tips<double>& begin, const Tips<double>& end, double dt,
                     const Vector3<double>& reached, StringWrench& wrench) const {
-    const Strands strands = Strands::halfway(before, after, begin, end);
+    const Strands<double> strands = pulling_strands(predictor_, before, after, begin, end);
     const Vector3<double> pull = string_pull(predictor_, before, after, begin, dt);
     std::tie(wrench.left_tension, wrench.right_tension) = strands.tensions(mass_ * pull);
     const Vector3<double> given =

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <utility>
 
 #include "diabolo/state.hpp"
@@ -10,29 +9,32 @@
 namespace diabolo {
 
 /// The two straight strands of the string: unit vectors from the diabolo to the tips.
+template <class Scalar>
 struct Strands {
-  Vector3<double> left, right;
+  Vector3<Scalar> left, right;
 
   /// In the middle of a step of the diabolo and of the tips.
-  static Strands halfway(const State<double>& before, const State<double>& after, const Tips<double>& begin,
-                         const Tips<double>& end) {
-    const Vector3<double> middle = 0.5 * (before.position + after.position);
-    return {(0.5 * (begin.left + end.left) - middle).normalized(),
-            (0.5 * (begin.right + end.right) - middle).normalized()};
+  static Strands halfway(const State<Scalar>& before, const State<Scalar>& after, const Tips<Scalar>& begin,
+                         const Tips<Scalar>& end) {
+    const Scalar half(0.5);
+    const Vector3<Scalar> middle = (before.position + after.position) * half;
+    return {unit((begin.left + end.left) * half - middle), unit((begin.right + end.right) * half - middle)};
   }
 
   /// Left and right tension that add up to a pull, in its unit; none is negative. Strands on each other share
   /// it; those that are all but straight have as much as at an angle of 1e-3.
-  std::pair<double, double> tensions(const Vector3<double>& pull) const {
-    const double cosine = left.dot(right), square = 1.0 - cosine * cosine;
-    if (!(square > 1e-6)) {
-      const double each = (cosine > 0.0 ? 0.5 : 1000.0) * pull.norm();
-      return {each, each};
-    }
-    const double to_left = left.dot(pull), to_right = right.dot(pull);
-    return {std::max(0.0, (to_left - cosine * to_right) / square),
-            std::max(0.0, (to_right - cosine * to_left) / square)};
+  std::pair<Scalar, Scalar> tensions(const Vector3<Scalar>& pull) const {
+    const Scalar cosine = dot<Scalar>(left, right), square = Scalar(1) - cosine * cosine;
+    const Scalar to_left = dot<Scalar>(left, pull), to_right = dot<Scalar>(right, pull);
+    const Mask<Scalar> apart = square > Scalar(1e-6);
+    const Scalar inverse = Scalar(1) / maximum(square, Scalar(1e-6));
+    const Scalar each = select(cosine > Scalar(0), Scalar(0.5), Scalar(1000)) * norm(pull);
+    return {select(apart, maximum(Scalar(0), Scalar((to_left - cosine * to_right) * inverse)), each),
+            select(apart, maximum(Scalar(0), Scalar((to_right - cosine * to_left) * inverse)), each)};
   }
+
+ private:
+  static Vector3<Scalar> unit(const Vector3<Scalar>& v) { return v * Scalar(Scalar(1) / norm(v)); }
 };
 
 }  // namespace diabolo

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "diabolo/estimate/tick.hpp"
+
+namespace diabolo {
+
+/// What became of a measurement.
+enum class Taken {
+  kYes,
+  kTooOld,   ///< from before the history
+  kTooNew,   ///< from after the last step
+  kOccupied  ///< its step has one of that kind already
+};
+
+/// Estimates position, velocity, spin and, with `kAxle`, the axle's direction of the diabolo, from the tips'
+/// motion and from any of: pulls on the tips, looks of a camera. A square-root unscented Kalman filter whose
+/// process is the predictor.
+///
+///     Estimator<false> estimator(predictor, {}, start, {}, tips, 0.0, 250);
+///     estimator.step(tips_now, 0.002);
+///     estimator.take(ForceReading{...});
+///     estimator.take(CameraLook{.time = seen, .position = ...});  // late: goes back, and forth again
+///     estimator.now().state
+///
+/// The order in which measurements arrive does not change the result. Allocates in its constructor alone.
+template <bool kAxle, template <class> class... Effects>
+class Estimator {
+ public:
+  /// From what is known at `time` [s]: a state, how sure it is, and where the tips are. `history` counts the
+  /// steps that a late measurement may go back. The predictor's string must not stretch, nor its sticks bend:
+  /// such bounces are faster than what an estimate follows. Throws std::invalid_argument naming the field.
+  Estimator(const Predictor<double, Effects...>& predictor, const ProcessNoise& noise,
+            const State<double>& start, const Spread& spread, const Tips<double>& tips, double time,
+            std::size_t history)
+      : filter_(predictor, noise), ticks_(history + 1) {
+    spread.validate();
+    estimate_detail::expect_finite("start, time", std::isfinite(time));
+    estimate_detail::expect_finite("start", start.position.allFinite() && start.velocity.allFinite() &&
+                                                std::isfinite(start.spin) && start.axis.allFinite());
+    refuse_spring(predictor, start, tips);
+    Tick<kAxle>& first = ticks_.front();
+    first.before = first.after = Belief<kAxle>::begin(time, start, spread);
+    first.begin = first.end = tips;
+    count_ = 1;
+  }
+
+  const Predictor<double, Effects...>& predictor() const { return filter_.predictor(); }
+  const Belief<kAxle>& now() const { return tick(0).after; }
+  /// What is known by now of the end of the step `ago` steps before the last one. Throws
+  /// std::invalid_argument beyond history().
+  const Belief<kAxle>& past(std::size_t ago) const {
+    if (ago > history())
+      throw std::invalid_argument("past, ago: " + std::to_string(ago) + " steps; expected at most " +
+                                  std::to_string(history()));
+    return tick(ago).after;
+  }
+  std::size_t history() const { return std::min(count_, ticks_.size()) - 1; }
+
+  /// The tips have moved on to `tips` in `dt` > 0 [s]. Throws std::invalid_argument where that is not so.
+  void step(const Tips<double>& tips, double dt) {
+    estimate_detail::expect_positive("step, dt", dt);
+    estimate_detail::expect_finite("step, tips", tips.left.allFinite() && tips.right.allFinite() &&
+                                                     tips.left_velocity.allFinite() &&
+                                                     tips.right_velocity.allFinite());
+    const Belief<kAxle> before = now();
+    const Tips<double> begin = tick(0).end;
+    ++count_;
+    Tick<kAxle>& next = tick(0);
+    next.before = before;
+    next.begin = begin;
+    next.end = tips;
+    next.dt = dt;
+    next.pulls = {};
+    next.look.reset();
+    filter_.run(next);
+  }
+
+  /// Pulls at the end of the last step.
+  Taken take(const ForceReading& reading) { return take_pulls(reading, now().time); }
+  Taken take(const TensionReading& reading) { return take_pulls(reading, now().time); }
+  /// Pulls that come late: `time` [s] is that of the step's end, within half a step.
+  Taken take(const ForceReading& reading, double time) { return take_pulls(reading, time); }
+  Taken take(const TensionReading& reading, double time) { return take_pulls(reading, time); }
+
+  /// A look, however late within the history.
+  Taken take(const CameraLook& look) {
+    validate(look);
+    std::size_t ago = 0;
+    const Taken found = find(look.time, ago);
+    if (found != Taken::kYes) return found;
+    if (tick(ago).look) return Taken::kOccupied;
+    tick(ago).look = look;
+    replay(ago);
+    return Taken::kYes;
+  }
+
+ private:
+  Tick<kAxle>& tick(std::size_t ago) { return ticks_[(count_ - 1 - ago) % ticks_.size()]; }
+  const Tick<kAxle>& tick(std::size_t ago) const { return ticks_[(count_ - 1 - ago) % ticks_.size()]; }
+
+  template <class Reading>
+  Taken take_pulls(const Reading& reading, double time) {
+    validate(reading);
+    estimate_detail::expect_finite("pulls, time", std::isfinite(time));
+    std::size_t ago = 0;
+    const Taken found = find(time, ago);
+    if (found != Taken::kYes) return found;
+    if (!(tick(ago).dt > 0.0)) return Taken::kTooOld;  // no step ends there
+    if (tick(ago).pulls.index() != 0) return Taken::kOccupied;
+    tick(ago).pulls = reading;
+    replay(ago);
+    return Taken::kYes;
+  }
+
+  /// The step whose end is nearest to a time.
+  Taken find(double time, std::size_t& ago) const {
+    const double half = 0.5 * tick(0).dt + 1e-9;
+    if (time > now().time + half) return Taken::kTooNew;
+    ago = 0;
+    while (ago < history() && time < tick(ago).after.time - 0.5 * tick(ago).dt) ++ago;
+    return time < tick(ago).after.time - 0.5 * tick(ago).dt - 1e-9 ? Taken::kTooOld : Taken::kYes;
+  }
+
+  /// All steps from one on, anew.
+  void replay(std::size_t ago) {
+    filter_.run(tick(ago));
+    while (ago-- > 0) {
+      tick(ago).before = tick(ago + 1).after;
+      filter_.run(tick(ago));
+    }
+  }
+
+  static void refuse_spring(const Predictor<double, Effects...>& predictor, State<double> start,
+                            const Tips<double>& tips) {
+    const auto& effects = predictor.effects();
+    const auto& parameters = predictor.parameters();
+    const double compliance =
+        effects.string_at(effects.string(parameters), start, tips, parameters).compliance;
+    if (compliance != 0.0)
+      throw std::invalid_argument("estimator, string: compliance " + shown(compliance / parameters.mass) +
+                                  " m/N; expected a model without string_elasticity and stick_flex");
+    if (parameters.string_law != StringLaw::kInextensible)
+      throw std::invalid_argument("estimator, string_law: pull_velocity; expected inextensible");
+  }
+
+  TickFilter<kAxle, Effects...> filter_;
+  std::vector<Tick<kAxle>> ticks_;  ///< a ring
+  std::size_t count_ = 0;           ///< of ticks ever
+};
+
+}  // namespace diabolo

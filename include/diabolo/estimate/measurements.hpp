@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "diabolo/estimate/square_root.hpp"
+#include "diabolo/strand_tensions.hpp"
+#include "diabolo/text/shown.hpp"
+
+namespace diabolo {
+
+/// The diabolo as a camera saw it. Noises are standard deviations.
+struct CameraLook {
+  double time = 0.0;                                    ///< when it was seen, not when that is known [s]
+  Vector3<double> position = Vector3<double>::Zero();   ///< [m], world frame
+  double noise = 5e-3;                                  ///< of each coordinate [m]
+  std::optional<Vector3<double>> axle = std::nullopt;   ///< a unit vector; only estimates with an axle take it
+  double axle_noise = 0.02;                             ///< [rad]
+  std::optional<double> spin = std::nullopt;            ///< [rad/s], where the camera sees marks turn
+  double spin_noise = 1.0;                              ///< [rad/s]
+};
+
+/// Forces of the string on both tips at the end of a step, world frame, less what sticks and arms weigh.
+struct ForceReading {
+  TipForces<double> forces;  ///< [N]
+  /// Lower factors of the covariances of both readings [N].
+  MatrixOf<3> left_noise = 0.1 * MatrixOf<3>::Identity(), right_noise = 0.1 * MatrixOf<3>::Identity();
+};
+
+/// Tensions of both strands alone.
+struct TensionReading {
+  double left = 0.0, right = 0.0;  ///< [N]
+  double noise = 0.1;              ///< of each, a standard deviation [N]
+};
+
+/// What a step's end has of the strands.
+using PullReading = std::variant<std::monostate, ForceReading, TensionReading>;
+
+namespace estimate_detail {
+
+inline void expect_finite(const char* what, bool finite) {
+  if (!finite) throw std::invalid_argument(std::string(what) + ": not finite; expected numbers");
+}
+inline void expect_positive(const char* what, double value) {
+  if (!(value > 0.0) || !std::isfinite(value))
+    throw std::invalid_argument(std::string(what) + ": " + shown(value) +
+                                "; expected a finite number above zero");
+}
+
+}  // namespace estimate_detail
+
+/// Throws std::invalid_argument naming the field, what was found and what was expected.
+inline void validate(const CameraLook& look) {
+  using namespace estimate_detail;
+  expect_finite("look, time", std::isfinite(look.time));
+  expect_finite("look, position", look.position.allFinite());
+  expect_positive("look, noise", look.noise);
+  expect_positive("look, axle_noise", look.axle_noise);
+  expect_positive("look, spin_noise", look.spin_noise);
+  if (look.axle && !(std::abs(look.axle->norm() - 1.0) < 1e-6))
+    throw std::invalid_argument("look, axle: norm " + shown(look.axle->norm()) + "; expected a unit vector");
+  if (look.spin) expect_finite("look, spin", std::isfinite(*look.spin));
+}
+inline void validate(const ForceReading& reading) {
+  using namespace estimate_detail;
+  expect_finite("forces, left", reading.forces.left.allFinite());
+  expect_finite("forces, right", reading.forces.right.allFinite());
+  for (const MatrixOf<3>& noise : {reading.left_noise, reading.right_noise})
+    for (int i = 0; i < 3; ++i) {
+      expect_positive("forces, noise", noise(i, i));
+      expect_finite("forces, noise", noise.allFinite());
+    }
+}
+inline void validate(const TensionReading& reading) {
+  using namespace estimate_detail;
+  expect_finite("tensions, left", std::isfinite(reading.left));
+  expect_finite("tensions, right", std::isfinite(reading.right));
+  expect_positive("tensions, noise", reading.noise);
+}
+
+}  // namespace diabolo

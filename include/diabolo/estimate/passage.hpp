@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "diabolo/estimate/belief.hpp"
+#include "diabolo/estimate/carried.hpp"
+#include "diabolo/estimate/pulls.hpp"
+#include "diabolo/estimate/within_string.hpp"
+
+namespace diabolo {
+
+/// Where a step takes the sigma points of a belief, and the pulls that each would have shown:
+/// StrandPull::expected() of the left strand over that of the right one.
+template <bool kAxle>
+struct Passage {
+  using Chart = StateChart<kAxle>;
+  using Points = SigmaPoints<Chart::kSize>;
+  static constexpr int kPulls = 6;
+
+  State<double> centre;  ///< of the first point
+  MatrixOf<Chart::kSize, Points::kCount> places;
+  MatrixOf<kPulls, Points::kCount> pulls;
+  std::array<double, 3> string_weights{};
+  double pulled = 0.0;  ///< weight of the points at which the string pulled
+};
+
+/// A step of the tips, and what was read of the strands.
+struct PulledStep {
+  const Tips<double>&begin, &end;
+  double dt;  ///< [s]
+  StrandPulls read;
+
+  bool sure() const { return read[0].sure && read[1].sure; }
+};
+
+namespace estimate_detail {
+
+/// `move(state)` makes the step and gives the strands' tensions.
+template <bool kAxle, template <class> class... Effects, class Move>
+Passage<kAxle> passage(const Predictor<double, Effects...>& predictor, const PulledStep& step,
+                       const State<double>& from, const MatrixOf<StateChart<kAxle>::kSize>& factor,
+                       const Move& move) {
+  using Points = typename Passage<kAxle>::Points;
+  const StrandPulls& read = step.read;
+  Passage<kAxle> result;
+  for (int i = 0; i < Points::kCount; ++i) {
+    State<double> state = StateChart<kAxle>::at(from, Points::offset(factor, i));
+    const State<double> start = state;
+    const auto [left, right] = move(state);
+    const Strands<double> strands = pulling_strands(predictor, start, state, step.begin, step.end);
+    if (step.sure())
+      state.spin = spin_by_tensions(predictor, start, state, step.begin, step.end, step.dt, read[0].tension,
+                                    read[1].tension);
+    if (i == 0) result.centre = state;
+    result.places.col(i) = StateChart<kAxle>::from(result.centre, state);
+    result.pulls.col(i) << read[0].expected(left, strands.left), read[1].expected(right, strands.right);
+    result.string_weights[static_cast<std::size_t>(state.string_state)] += Points::weight(i);
+    if (squared_norm(state.string_acceleration) > 0.0) result.pulled += Points::weight(i);
+  }
+  return result;
+}
+
+}  // namespace estimate_detail
+
+/// The predictor's steps. Where both pulls are sure the string is under the diabolo, and the difference of
+/// the tensions is the measured one: friction is known less well.
+template <bool kAxle, template <class> class... Effects>
+Passage<kAxle> pass_on_string(const Predictor<double, Effects...>& predictor, const PulledStep& step,
+                              const Belief<kAxle>& before) {
+  State<double> from = before.state;
+  if (step.sure() && from.string_state == StringState::kFlying) from.string_state = StringState::kLoose;
+  return estimate_detail::passage<kAxle>(predictor, step, from, before.factor, [&](State<double>& state) {
+    keep_within_string(predictor, state, step.begin, before.pulled);
+    const State<double> start = state;
+    predictor.step(state, step.begin, step.end, step.dt);
+    const auto tensions = strand_tensions(predictor, start, state, step.begin, step.end, step.dt);
+    if (step.sure() && state.string_state == StringState::kOnString)
+      lean_by_tensions(state, pulling_strands(predictor, start, state, step.begin, step.end),
+                       predictor.parameters().mass,
+                       (step.read[1].tension - step.read[0].tension) - (tensions.second - tensions.first),
+                       step.dt);
+    return tensions;
+  });
+}
+
+/// Steps by the measured tensions alone: of a string that gives, and bounces. They say nothing of themselves
+/// then. A diabolo that nothing pulls where the string does not reach is off it.
+template <bool kAxle, template <class> class... Effects>
+Passage<kAxle> pass_by_tensions(const Predictor<double, Effects...>& predictor, const PulledStep& step,
+                                const Belief<kAxle>& before) {
+  const double left = step.sure() ? step.read[0].tension : 0.0;
+  const double right = step.sure() ? step.read[1].tension : 0.0;
+  return estimate_detail::passage<kAxle>(
+      predictor, step, before.state, before.factor, [&](State<double>& state) {
+        carry_by_tensions(predictor, state, step.begin, step.dt, left, right);
+        if (step.sure())
+          state.string_state = StringState::kOnString;
+        else if (TightString::around(predictor, state, step.end).excess() >
+                 predictor.parameters().flying_distance)
+          state.string_state = StringState::kFlying;
+        return std::pair(step.read[0].tension, step.read[1].tension);
+      });
+}
+
+/// What a step adds to the deviations of a passage: process noise; and, where the string pulls, how far a
+/// string of another length would have all points alike, and how fast one that stretches.
+template <bool kAxle>
+MatrixOf<StateChart<kAxle>::kSize, StateChart<kAxle>::kSize + 2> passage_noise(
+    const ProcessNoise& noise, const Passage<kAxle>& passage, const Tips<double>& tips, double dt) {
+  using Chart = StateChart<kAxle>;
+  const double root = std::sqrt(dt);
+  MatrixOf<Chart::kSize, Chart::kSize + 2> deviations = MatrixOf<Chart::kSize, Chart::kSize + 2>::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const int position = Chart::kPosition + axis, velocity = Chart::kVelocity + axis;
+    deviations(position, position) = noise.acceleration * dt * root / std::sqrt(3.0);
+    deviations(velocity, velocity) = noise.acceleration * root;
+  }
+  deviations(Chart::kSpin, Chart::kSpin) = noise.spin * root;
+  if constexpr (kAxle)
+    for (int i = Chart::kDirection; i < Chart::kSize; ++i) deviations(i, i) = noise.axle * root;
+  if (!(passage.pulled > 0.5)) return deviations;
+  const Vector3<double> gradient = StringPath<double>(passage.centre.position, tips).gradient();
+  const Vector3<double> way = gradient * (1.0 / std::max(0.1, squared_norm(gradient)));
+  deviations.template block<3, 1>(Chart::kPosition, Chart::kSize) = way * noise.string_length;
+  deviations.template block<3, 1>(Chart::kVelocity, Chart::kSize + 1) = way * noise.string_rate;
+  return deviations;
+}
+
+}  // namespace diabolo
