@@ -136,8 +136,7 @@ class BatchWorker {
       block.tips[lane] = tips_[batch_.motions.size() == 1 ? 0 : std::min(lane, used - 1)].data();
       block.records[lane] = real ? result_.records.data() + 7 * batch_.records() * i : records.data();
       if (batch_.forces)
-        block.forces[lane] =
-            real ? result_.forces.data() + 6 * batch_.records() * i : spare_forces_.data();
+        block.forces[lane] = real ? result_.forces.data() + 6 * batch_.records() * i : spare_forces_.data();
       block.record_states[lane] =
           real ? result_.record_states.data() + batch_.records() * i : record_states.data();
     }

@@ -178,8 +178,7 @@ void run_with(const P& predictor, const LaneBlock& block) {
     if (!records) continue;
     const std::size_t index = done / block.record_every - 1;
     scatter_record(state, block, index);
-    if (pulls)
-      scatter_forces(tip_forces(predictor, before, state, now, next, Pack(block.dt)), block, index);
+    if (pulls) scatter_forces(tip_forces(predictor, before, state, now, next, Pack(block.dt)), block, index);
   }
   scatter_state(state, block);
 }
