@@ -42,8 +42,8 @@ def throw(duration: float) -> TipMotion:
 
 
 def wind_up(duration: float) -> TipMotion:
-    """Speeds up a diabolo with one turn of the string (`Parameters.wraps` 1): the right hand pulls, the left one
-    follows, and the string slips back while it is all but slack."""
+    """Speeds up a diabolo with one turn of the string (`Parameters.wraps` 1): the right hand pulls, the left
+    one follows, and the string slips back while it is all but slack."""
     return _repeated("wind_up", duration)
 
 
