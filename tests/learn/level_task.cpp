@@ -98,11 +98,10 @@ TEST_CASE("hands that hold still lose the axle, and hands by the regulator's gai
   for (const double reach : {0.1, 0.35}) {
     Arena one = levelling(reach), other = levelling(reach);
     const Levelled still = played(one, false), following = played(other, true);
-    INFO("reach " << reach << " m: level " << following.level << " of " << kEpisodes << ", worth "
-                  << following.worth << ", still " << still.worth);
+    CAPTURE(reach, following.level, following.worth, still.level, still.worth);
     CHECK(still.level == 0);
     CHECK(following.dropped == 0);
-    CHECK(following.worth > 5.0 * still.worth);
+    CHECK(following.worth > 3.0 * still.worth);
     // A box as deep as the usual one holds the hands up; one that does not shows that it can be done.
     CHECK(following.level >= (reach > 0.2 ? 16 : 8));
   }
