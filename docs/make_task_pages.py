@@ -52,7 +52,7 @@ def page_of(task: dict[str, Any]) -> str:
         "## Episode",
         _table(("", "what"), _episode(task)),
         "## Observations",
-        _table(("numbers", "name", "unit", "what"), _observations(task["goal"])),
+        _table(("numbers", "name", "unit", "what"), _observations(task)),
         "## Actions",
         _table(("numbers", "name", "unit", "what"), _actions()),
         *_curve(name),
@@ -89,10 +89,11 @@ def _episode(task: dict[str, Any]) -> list[tuple[str, ...]]:
     ]
 
 
-def _observations(goal: list[dict[str, Any]]) -> list[tuple[str, ...]]:
+def _observations(task: dict[str, Any]) -> list[tuple[str, ...]]:
     """Of the goal, each number by itself."""
+    goal: list[dict[str, Any]] = task["goal"]
     rows, first = [], 0
-    for info in observation_infos():
+    for info in observation_infos(task["name"]):
         if info["name"] == "goal":
             for number in range(info["size"]):
                 unused = {"name": "-", "unit": "1", "meaning": "always 0", "seen_over": 1.0}

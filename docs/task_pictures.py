@@ -35,6 +35,7 @@ FIGURES: dict[str, list[tuple[str, dict[str, Any]]]] = {
     "ThrowAndCatch": [("throw_and_catch", {"height": 0.6})],
     "Pass": [("side_throw", {"sideways": -0.8})],
     "Routine": [("linear_acceleration", {}), ("throw_and_catch", {"height": 0.5})],
+    "Level": [("stop", {})],
 }
 """What the planner plays of a task that has no agent in the package: figures, one after the other."""
 

@@ -7,6 +7,7 @@ From the root of a checkout, with the package installed in its Python (`make pla
   python -m benchmarks.proof.single_effects           one effect at a time, in plain sight
   python -m benchmarks.proof.player small             plans, played on the independent plant
   python -m benchmarks.proof.robust                   plans for one model and for five, over a spread
+  python -m benchmarks.proof.wind_up                  a wind-up with one turn of the string, on the plant
   python -m benchmarks.proof.real.controls TAKE.csv   what is hidden from the simulator of a real take, found
   python -m benchmarks.proof.real.salted TAKE.csv     what is added to a real take, found
 

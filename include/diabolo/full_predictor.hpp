@@ -69,6 +69,7 @@ State<To> state_in(const State<double>& from) {
   to.axis = from.axis.cast<To>();
   to.string_acceleration = from.string_acceleration.cast<To>();
   to.tumble = from.tumble.cast<To>();
+  to.turns = To(from.turns);
   return to;
 }
 

@@ -21,7 +21,8 @@ struct Parameters {
   Scalar gravity = Scalar(kStandardGravity);  ///< [m/s^2], along -z
   Scalar mass = Scalar(0.2845);               ///< of the diabolo [kg]; default: the paper's red one
   Scalar axle_radius = Scalar(0.0065);        ///< r [m]
-  Scalar wraps = Scalar(0);  ///< whole turns of the string around the axle beyond the pass under it
+  /// Whole turns of the string around the axle beyond the pass under it; with follow_turns, at the beginning.
+  Scalar wraps = Scalar(0);
   Scalar spin_coupling = Scalar(0.15);    ///< rate at which slip is worn off (SpinRule::kSlip) [1/s]
   Scalar dissipation_rate = Scalar(0.0);  ///< decay of the velocity while ON_STRING [1/s]
   Scalar loose_distance = Scalar(0.01);   ///< c_L [m]
@@ -29,6 +30,8 @@ struct Parameters {
   Scalar catch_slack = Scalar(0.03);      ///< a catch needs tips no closer than L minus this [m]
   Scalar catch_distance = Scalar(0.10);   ///< and the diabolo no farther from the line of the tips [m]
   StringLaw string_law = StringLaw::kInextensible;
+  /// Turns of the string around the axle come and go (string/winding.hpp); else there are always `wraps`.
+  bool follow_turns = false;
   /// Keep position and velocity in the plane through the start position with the normal `plane_normal`.
   bool planar = false;
   Vector3<double> plane_normal = Vector3<double>::UnitX();
@@ -66,7 +69,7 @@ struct Parameters {
   }
 
   /// What is not numeric, in the order of rules_of().
-  static constexpr std::array<RuleInfo, 11> kRules{{
+  static constexpr std::array<RuleInfo, 12> kRules{{
       {"string_law", "how the string acts on the diabolo"},
       {"projection", "where a diabolo outside the spheroid is put back"},
       {"normal_rule", "which direction counts as the spheroid's normal"},
@@ -78,6 +81,7 @@ struct Parameters {
        "apply the factors as if every step were a reference step, so that the motion depends on the step"},
       {"release_when_overstretched",
        "let go where the tips are farther apart than the string, instead of holding the diabolo"},
+      {"follow_turns", "let turns of the string around the axle come and go, from `wraps` on"},
       {"planar", "keep the diabolo in the plane through its start square to plane_normal"},
       {"plane_normal", "unit vector, shape (3,)"},
   }};
@@ -88,7 +92,7 @@ struct Parameters {
     auto& pull = self.pull;
     return std::tie(self.string_law, pull.projection, pull.normal_rule, pull.flight_rule, pull.thin_rule,
                     pull.spin_rule, pull.integrator, pull.per_step, pull.release_when_overstretched,
-                    self.planar, self.plane_normal);
+                    self.follow_turns, self.planar, self.plane_normal);
   }
 
   /// Calls `visit(info, field)` for everything that is not numeric: choices, bools, and the plane's normal.
@@ -157,6 +161,9 @@ struct Parameters {
     validate_fields<Scalar>(*this);
     if (!all(spin_coupling * pull.reference_step <= Scalar(1)))
       throw std::invalid_argument("spin_coupling: times reference_step must not exceed 1");
+    if (follow_turns && string_law != StringLaw::kInextensible)
+      throw std::invalid_argument(
+          "follow_turns: true under the string law 'pull_velocity'; expected 'inextensible'");
     if (planar && !(std::abs(plane_normal.norm() - 1.0) < 1e-9))
       throw std::invalid_argument("plane_normal: must be a unit vector");
   }

@@ -13,6 +13,8 @@
 #include "diabolo/string/settle_on_string.hpp"
 #include "diabolo/string/slide_along_string.hpp"
 #include "diabolo/string/taut_string.hpp"
+#include "diabolo/string/turn_events.hpp"
+#include "diabolo/string/winding.hpp"
 
 namespace diabolo {
 
@@ -49,13 +51,31 @@ class Predictor {
   StepStatus<Scalar> step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                           const Scalar& dt) const {
     assert(all(dt > Scalar(0)));
-    if constexpr (Set::kChangesTips)
-      if (effects_.moves_tips()) return step_with_shifted_tips(state, begin, end, dt);
-    return dispatch(state, begin, end, dt, string_);
+    return parameters_.follow_turns ? step_with_turns(state, begin, end, dt)
+                                    : step_with_effects(state, begin, end, dt);
   }
 
  private:
   static constexpr bool kMayStretch = sizeof...(Effects) > 0;
+
+  [[gnu::noinline]] StepStatus<Scalar> step_with_turns(State<Scalar>& state, const Tips<Scalar>& begin,
+                                                       const Tips<Scalar>& end, const Scalar& dt) const {
+    count_turns(state, begin, parameters_);
+    const State<Scalar> before = state;
+    StepStatus<Scalar> status = step_with_effects(state, begin, end, dt);
+    count_turns(state, end, parameters_);
+    locate_turn(before, state, begin, end, dt, parameters_, status);
+    return status;
+  }
+
+  [[gnu::always_inline]] inline StepStatus<Scalar> step_with_effects(State<Scalar>& state,
+                                                                     const Tips<Scalar>& begin,
+                                                                     const Tips<Scalar>& end,
+                                                                     const Scalar& dt) const {
+    if constexpr (Set::kChangesTips)
+      if (effects_.moves_tips()) return step_with_shifted_tips(state, begin, end, dt);
+    return dispatch(state, begin, end, dt, string_);
+  }
 
   [[gnu::noinline]] StepStatus<Scalar> step_with_shifted_tips(State<Scalar>& state, Tips<Scalar> begin,
                                                               Tips<Scalar> end, const Scalar& dt) const {
@@ -88,6 +108,7 @@ class Predictor {
     StringStepResult<Scalar> result;
     if (!(elastic(string) ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
       return false;
+    if (parameters_.follow_turns) measure_passing(step, result);
     take_over(state, step, result);
     return true;
   }
@@ -101,14 +122,16 @@ class Predictor {
     const Vector3<Scalar> outer = plane_(effects_.acceleration(state, begin, dt, parameters_));
     const StringStep<Scalar> step = step_on(string, state, velocity, outer, begin, end, dt, plane_);
     const Mask<Scalar> flying = is(state.string_state, StringState::kFlying);
-    const StringStepResult<Scalar> result =
+    StringStepResult<Scalar> result =
         any(flying) ? advance_in_flight<kMayStretch>(state, step, parameters_, status.caught)
                     : advance_captured<kMayStretch>(step, !flying);
+    if (parameters_.follow_turns) measure_passing(step, result);
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     take_over(state, step, result);
     if (!all(result.taut))
-      state.string_state = slack_string_state(state.string_state, state.position, result.slack,
-                                              result.gradient_squared, end.left, end.right, parameters_);
+      state.string_state =
+          slack_string_state(state.string_state, state.position, result.slack, result.gradient_squared,
+                             end.left, end.right, is_wound(state, end, parameters_), parameters_);
     status.snapped_taut = result.snapped_taut;
     status.overstretched = step.overstretched();
     if (any(status.overstretched)) hold(state, end, dt, captured && status.overstretched, string);
@@ -119,8 +142,9 @@ class Predictor {
   [[gnu::always_inline]] inline void take_over(State<Scalar>& state, const StringStep<Scalar>& step,
                                                const StringStepResult<Scalar>& result) const {
     const Scalar& dt = step.dt;
+    const Scalar passing = side_of_axle(state, parameters_) * result.passed / dt;
     const Scalar slipped =
-        spin_after_slip<Scalar>(state.spin, result.passed / dt, factor_time(parameters_, dt), parameters_);
+        spin_after_slip<Scalar>(state.spin, passing, factor_time(parameters_, dt), parameters_);
     Scalar spin =
         effects_.after_torques(select(result.taut, slipped, state.spin), state, step.begin, dt, parameters_);
     Vector3<Scalar> velocity = result.velocity;

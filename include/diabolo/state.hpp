@@ -65,6 +65,11 @@ struct State {
   /// Angular velocity of the axle itself [rad/s], square to it, world frame. Only a GyroscopicTilt with an
   /// inertia looks at it and changes it.
   Vector3<Scalar> tumble = Vector3<Scalar>::Constant(Scalar(0));
+  /// Turns of the string around the axle beyond Parameters::wraps, the pass under it counted: some 0.4 under
+  /// hands side by side, 1.4 with one turn more, negative where the string runs around the axle the other
+  /// way. A start of n means n whole turns and the pass that the strands show. Parameters::follow_turns
+  /// alone looks at it and changes it.
+  Scalar turns{0};
 };
 
 /// What happened in one step.
@@ -75,6 +80,8 @@ struct StepStatus {
   Mask<Scalar> overstretched{false};
   Mask<Scalar> snapped_taut{false};  ///< an inextensible string came taut within the step
   Mask<Scalar> caught{false};        ///< the string was under a flying diabolo again
+  Scalar turned{0};     ///< 1: a turn came onto the axle within the step; -1: one went off; by follow_turns
+  Scalar turned_at{0};  ///< when, after the beginning of the step [s]
 };
 
 }  // namespace diabolo

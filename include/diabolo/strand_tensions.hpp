@@ -72,8 +72,7 @@ TipForces<Scalar> tip_forces(const Predictor<Scalar, Effects...>& predictor, con
                              const State<Scalar>& after, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                              const Scalar& dt) {
   const Strands<Scalar> strands = pulling_strands(predictor, before, after, begin, end);
-  const auto [left, right] =
-      string_detail::taut_tensions(predictor, strands, before, after, begin, dt);
+  const auto [left, right] = string_detail::taut_tensions(predictor, strands, before, after, begin, dt);
   return {strands.left * Scalar(-left), strands.right * Scalar(-right)};
 }
 

@@ -40,10 +40,14 @@ Tips<double> tips_at(const Array& left, const Array& right, const Array& left_ve
 
 std::string name_of(Taken taken) {
   switch (taken) {
-    case Taken::kYes: return "yes";
-    case Taken::kTooOld: return "too_old";
-    case Taken::kTooNew: return "too_new";
-    default: return "occupied";
+    case Taken::kYes:
+      return "yes";
+    case Taken::kTooOld:
+      return "too_old";
+    case Taken::kTooNew:
+      return "too_new";
+    default:
+      return "occupied";
   }
 }
 
@@ -53,8 +57,8 @@ FullEstimator make(const Model& model, const State<double>& start, const Array& 
   const Array still = from_vector3(Vector3<double>::Zero());
   return FullEstimator(FullPredictor<double>(model.parameters, model.effects),
                        {noise[0], noise[1], noise[2], noise[3], noise[4], noise[5], noise[6]}, start,
-                       {spread[0], spread[1], spread[2], spread[3]},
-                       tips_at(left, right, still, still, time), time, history);
+                       {spread[0], spread[1], spread[2], spread[3]}, tips_at(left, right, still, still, time),
+                       time, history);
 }
 
 ForceReading force_reading(const Array& left, const Array& right, double noise) {
@@ -96,8 +100,8 @@ void bind_estimate(py::module_& module) {
           "step",
           [](FullEstimator& estimator, const Array& left, const Array& right, const Array& left_velocity,
              const Array& right_velocity, double dt) {
-            estimator.step(
-                tips_at(left, right, left_velocity, right_velocity, estimator.now().time + dt), dt);
+            estimator.step(tips_at(left, right, left_velocity, right_velocity, estimator.now().time + dt),
+                           dt);
           },
           "left"_a, "right"_a, "left_velocity"_a, "right_velocity"_a, "dt"_a)
       .def(
@@ -116,8 +120,9 @@ void bind_estimate(py::module_& module) {
           "left"_a, "right"_a, "noise"_a, "time"_a)
       .def(
           "take_torques",
-          [](FullEstimator& estimator, const std::array<StickArm, 2>& arms, const std::array<Array, 2>& joints,
-             const std::array<Array, 2>& torques, double noise, const std::optional<double>& time) {
+          [](FullEstimator& estimator, const std::array<StickArm, 2>& arms,
+             const std::array<Array, 2>& joints, const std::array<Array, 2>& torques, double noise,
+             const std::optional<double>& time) {
             const auto read = [&](std::size_t i) {
               return JointTorques{to_joints(joints[i], "joints"), to_joints(torques[i], "torques"), noise};
             };

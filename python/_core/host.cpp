@@ -69,23 +69,24 @@ StringWrench step_attached(Attached& attached, const Array& position, const Arra
   return wrench;
 }
 
-std::array<double, 7> memory_numbers(const StringMemory& m) {
+std::array<double, 8> memory_numbers(const StringMemory& m) {
   return {m.owed.x(),
           m.owed.y(),
           m.owed.z(),
           m.string_acceleration.x(),
           m.string_acceleration.y(),
           m.string_acceleration.z(),
-          static_cast<double>(m.string_state)};
+          static_cast<double>(m.string_state),
+          m.turns};
 }
 
 StringMemory memory_of(const Array& numbers) {
-  expect_shape(numbers, "memory", {7});
+  expect_shape(numbers, "memory", {8});
   python::expect_finite(numbers, "memory");
   const double* n = numbers.data();
   if (n[6] != 0.0 && n[6] != 1.0 && n[6] != 2.0)
     throw std::invalid_argument("memory[6]: " + std::to_string(n[6]) + "; expected a state 0, 1 or 2");
-  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, static_cast<StringState>(static_cast<int>(n[6]))};
+  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, static_cast<StringState>(static_cast<int>(n[6])), n[7]};
 }
 
 }  // namespace
@@ -117,8 +118,8 @@ In each step it says which force and torque make a free body move as the predict
       .def_property(
           "memory", [](const Attached& a) { return memory_numbers(a.memory); },
           [](Attached& a, const Array& numbers) { a.memory = memory_of(numbers); },
-          R"(What is kept from step to step, seven numbers: save and restore it with the host's state. The last is
-the string's state: 0 on the string, 1 loose (a new one's), 2 in flight.)")
+          R"(What is kept from step to step, eight numbers: save and restore it with the host's state. The last two are
+the string's state, 0 on the string, 1 loose (a new one's), 2 in flight, and State.turns.)")
       .def(py::pickle(
           [](const Attached& a) {
             return py::make_tuple(a.model, a.mass, a.axial_inertia, from_vector3(a.gravity), a.motion,

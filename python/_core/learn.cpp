@@ -30,7 +30,7 @@ using Actions = py::array_t<float, py::array::c_style | py::array::forcecast>;
 std::unique_ptr<Arena> make_arena(const std::string& task, std::vector<Model> models, std::size_t count,
                                   double period, int steps, const std::string& autoreset, int threads,
                                   const HandLimits& limits, const std::optional<Camera>& camera,
-                                  std::vector<EpisodeStart> starts, double start_share) {
+                                  std::vector<EpisodeStart> starts, double start_share, bool free_axis) {
   const ArenaOptions options{.task = task,
                              .count = count,
                              .period = period,
@@ -40,7 +40,8 @@ std::unique_ptr<Arena> make_arena(const std::string& task, std::vector<Model> mo
                              .limits = limits,
                              .camera = camera,
                              .starts = std::move(starts),
-                             .start_share = start_share};
+                             .start_share = start_share,
+                             .free_axis = free_axis};
   return std::make_unique<Arena>(options, std::move(models), best_batch_kernel());
 }
 
@@ -109,7 +110,8 @@ py::dict outcome(const Arena& arena, std::size_t i) {
   return py::dict("worth"_a = episode.worth, "seconds"_a = episode.periods * arena.options().period,
                   "over"_a = episode.over, "dropped"_a = episode.dropped, "first_spin"_a = episode.first_spin,
                   "spin"_a = episode.state.spin, "flights"_a = episode.memory.flights,
-                  "apex"_a = episode.memory.apex, "goal"_a = goal, "model"_a = episode.model);
+                  "apex"_a = episode.memory.apex, "level"_a = episode.memory.level, "goal"_a = goal,
+                  "model"_a = episode.model);
 }
 
 constexpr int kMostCounted = 1000;  // stages and flights of an episode's start
@@ -139,11 +141,11 @@ using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 Agent make_agent(const std::string& task, double period, int steps,
                  const std::vector<std::pair<Weights, Eigen::VectorXf>>& layers) {
   ArenaOptions{.task = task, .period = period, .steps = steps}.validate();
-  task_named(task);
+  const std::size_t seen = observation_size(*task_named(task).info);
   std::vector<Layer> own;
   own.reserve(layers.size());
   for (const auto& [weights, bias] : layers) own.push_back({weights, bias});
-  return {task, period, steps, Policy(std::move(own))};
+  return {task, period, steps, Policy(std::move(own), seen)};
 }
 
 py::list layers_of(const Agent& agent) {
@@ -153,14 +155,14 @@ py::list layers_of(const Agent& agent) {
 }
 
 py::array_t<float> act(const Agent& agent, const Actions& observations) {
-  constexpr auto kSeen = static_cast<py::ssize_t>(kObservationSize);
+  const py::ssize_t seen_numbers = agent.policy.inputs();
   const bool one = observations.ndim() == 1;
   const py::ssize_t count = one || observations.ndim() == 0 ? 1 : observations.shape(0);
   expect_shape(observations, "observations",
-               one ? std::vector<py::ssize_t>{kSeen} : std::vector<py::ssize_t>{count, kSeen});
+               one ? std::vector<py::ssize_t>{seen_numbers} : std::vector<py::ssize_t>{count, seen_numbers});
   py::array_t<float> result(one ? std::vector<py::ssize_t>{Policy::kActions}
                                 : std::vector<py::ssize_t>{count, Policy::kActions});
-  const Eigen::Map<const Eigen::MatrixXf> seen(observations.data(), kSeen, count);
+  const Eigen::Map<const Eigen::MatrixXf> seen(observations.data(), seen_numbers, count);
   Eigen::Map<Eigen::MatrixXf> done(result.mutable_data(), Policy::kActions, count);
   const py::gil_scoped_release unlocked;
   done = agent.policy.act(seen);
@@ -183,11 +185,15 @@ py::list task_infos() {
   return tasks;
 }
 
-py::list observation_infos() {
+py::list observation_infos(const std::optional<std::string>& task) {
   py::list infos;
-  for (const ObservationInfo& info : kObservations)
-    infos.append(py::dict("name"_a = info.name, "unit"_a = info.unit, "size"_a = info.size,
-                          "meaning"_a = info.meaning));
+  const auto append = [&infos](const auto& some) {
+    for (const ObservationInfo& info : some)
+      infos.append(py::dict("name"_a = info.name, "unit"_a = info.unit, "size"_a = info.size,
+                            "meaning"_a = info.meaning));
+  };
+  append(kObservations);
+  if (task && task_named(*task).info->axle) append(kAxleObservations);
   return infos;
 }
 
@@ -229,25 +235,30 @@ left half (along y) the left tip keeps to, and the right tip to the other.)")
       module, "Camera",
       R"(How an agent sees the diabolo: with noise, late, and not in every frame. A frame is a period.
 
-noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
+noise [m] of each coordinate, spin_noise [rad/s] and axle_noise of each coordinate of the axle's direction, where that
+is seen: standard deviations; dropouts: share of the frames in which
 nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
-      .def(py::init([](double noise, double spin_noise, double dropouts, int least_delay, int most_delay) {
-             const Camera camera{noise, spin_noise, dropouts, least_delay, most_delay};
+      .def(py::init([](double noise, double spin_noise, double dropouts, int least_delay, int most_delay,
+                       double axle_noise) {
+             const Camera camera{noise, spin_noise, axle_noise, dropouts, least_delay, most_delay};
              camera.validate();
              return camera;
            }),
            "noise"_a = eyes.noise, "spin_noise"_a = eyes.spin_noise, "dropouts"_a = eyes.dropouts,
-           "least_delay"_a = eyes.least_delay, "most_delay"_a = eyes.most_delay)
+           "least_delay"_a = eyes.least_delay, "most_delay"_a = eyes.most_delay,
+           "axle_noise"_a = eyes.axle_noise)
       .def(py::pickle(
           [](const Camera& c) {
-            return py::make_tuple(c.noise, c.spin_noise, c.dropouts, c.least_delay, c.most_delay);
+            return py::make_tuple(c.noise, c.spin_noise, c.axle_noise, c.dropouts, c.least_delay,
+                                  c.most_delay);
           },
           [](const py::tuple& t) {
-            return Camera{t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>(), t[3].cast<int>(),
-                          t[4].cast<int>()};
+            return Camera{t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>(),
+                          t[3].cast<double>(), t[4].cast<int>(),    t[5].cast<int>()};
           }))
       .def_readonly("noise", &Camera::noise)
       .def_readonly("spin_noise", &Camera::spin_noise)
+      .def_readonly("axle_noise", &Camera::axle_noise)
       .def_readonly("dropouts", &Camera::dropouts)
       .def_readonly("least_delay", &Camera::least_delay)
       .def_readonly("most_delay", &Camera::most_delay);
@@ -276,7 +287,8 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
                     "arrays are its own memory, which each step overwrites.")
       .def(py::init(&make_arena), "task"_a, "models"_a, "count"_a = 1, "period"_a = 0.01, "steps"_a = 10,
            "autoreset"_a = "next_step", "threads"_a = 1, py::arg_v("limits", usual, "HandLimits()"),
-           "camera"_a = py::none(), "starts"_a = std::vector<EpisodeStart>(), "start_share"_a = 0.0)
+           "camera"_a = py::none(), "starts"_a = std::vector<EpisodeStart>(), "start_share"_a = 0.0,
+           "free_axis"_a = false)
       .def(
           "seed",
           [](Arena& arena, std::size_t i, std::uint64_t seed) { arena.seed(checked(arena, i), seed); },
@@ -292,7 +304,9 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
           "environment"_a, "Number of the model that it plays with.")
       .def("outcome", &outcome, "environment"_a,
            "What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin "
-           "and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model.")
+           "and spin [rad/s], flights that ended in a catch, apex [m] of the last, level (how long the axle "
+           "has "
+           "been level by now [s], in a task that levels it), goal, model.")
       .def_property_readonly("count", &Arena::count)
       .def_property_readonly("observations", viewed(&Arena::observations),
                              "float32, shape (count, numbers of an observation).")
@@ -321,7 +335,7 @@ weights of the shape (outputs, inputs), with tanh between them. Outputs are cut 
       .def("__repr__",
            [](const Agent& agent) {
              std::string text = "Agent(" + agent.task + ", every " + shown(agent.period) +
-                                " s: " + std::to_string(kObservationSize);
+                                " s: " + std::to_string(agent.policy.inputs());
              for (const Layer& layer : agent.policy.layers())
                text.append("-").append(std::to_string(layer.bias.size()));
              return text + ")";
@@ -351,7 +365,9 @@ ValueError where the tips are not within the limits.)")
           "Until then their accelerations are constant.");
   module.def("task_infos", &task_infos,
              "What can be played: name, meaning, reward, seconds, goal and first spin of each.");
-  module.def("observation_infos", &observation_infos, "What an agent sees: name, unit, size and meaning.");
+  module.def(
+      "observation_infos", &observation_infos, "task"_a = py::none(),
+      "What an agent sees: name, unit, size and meaning. Of a task, with what it adds to the usual ones.");
 }
 
 }  // namespace diabolo::python

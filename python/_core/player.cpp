@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/plan/player.hpp"
+#include "diabolo/plan/aim_again.hpp"
 #include "diabolo/plan/plan_action.hpp"
 
 #include <pybind11/eigen.h>
@@ -492,6 +493,12 @@ void bind_played(py::module_& module) {
       "play"_a, "models"_a, "See diabolo.success_rate.");
 }
 
+ThrowAim throw_aim(const Array& array, const std::string& name) {
+  expect_shape(array, name, {2});
+  expect_finite(array, name);
+  return {array.data()[0], array.data()[1]};
+}
+
 void bind_plans(py::module_& module) {
   py::class_<GoalCost>(module, "GoalCost", "How far a plan is off one goal.")
       .def_readonly("name", &GoalCost::name)
@@ -523,6 +530,14 @@ void bind_plans(py::module_& module) {
       "at its end is followed for `flight` seconds, or until it falls through the height `down_to`.");
   module.def("plan_cost", &cost, "models"_a, "start"_a, "motion"_a, "goals"_a, "limits"_a, "dt"_a = 4e-3,
              "The paper's residual of a motion; infinite where it breaks a limit.");
+  module.def(
+      "aimed_again",
+      [](const Array& aim, const Array& wanted, const Array& came) {
+        const ThrowAim next =
+            aimed_again(throw_aim(aim, "aim"), throw_aim(wanted, "wanted"), throw_aim(came, "came"));
+        return py::make_tuple(next.height, next.sideways);
+      },
+      "aim"_a, "wanted"_a, "came"_a, "See diabolo.aimed_again.");
   py::class_<Seam>(module, "Seam", "Where a new piece of motion sets in.")
       .def_readonly("time", &Seam::time)
       .def_readonly("state", &Seam::state)

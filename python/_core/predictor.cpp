@@ -40,7 +40,8 @@ Step step(const Simulator& predictor, State<double>& state, const Array& left0, 
   const StepTips tips(left0, right0, left1, right1, dt, velocities, directions, time);
   State<double> next = state;
   const StepStatus<double> status = predictor.step(next, tips.begin, tips.end, dt);
-  if (!next.position.allFinite() || !next.velocity.allFinite() || !std::isfinite(next.spin)) {
+  if (!next.position.allFinite() || !next.velocity.allFinite() || !std::isfinite(next.spin) ||
+      !std::isfinite(next.turns)) {
     PyErr_SetString(PyExc_FloatingPointError, "step: the state is no longer finite");
     throw py::error_already_set();
   }
@@ -63,6 +64,13 @@ void bind_predictor(py::module_& module) {
                              "The string came taut within the step.")
       .def_property_readonly("caught", said(&StepStatus<double>::caught),
                              "The string was under a flying diabolo again.")
+      .def_property_readonly(
+          "turned", [](const Step& made) { return made.status.turned; },
+          "1 where a turn of the string came onto the axle within the step, -1 where one went off, else 0;\n"
+          "by Parameters.follow_turns.")
+      .def_property_readonly(
+          "turned_at", [](const Step& made) { return made.status.turned_at; },
+          "When it did, after the beginning of the step [s].")
       .def_property_readonly(
           "tensions", [](const Step& made) { return made.tensions; },
           "Mean tensions of the left and the right strand over the step [N], for the mass of the parameters.")

@@ -35,9 +35,11 @@ Vector3<double> to_tumble(const Array& array, const Vector3<double>& axis) {
 }
 
 S make_state(const Array& position, const Array& velocity, double spin, const py::object& string_state,
-             const Array& axis, const Array& tumble) {
+             const Array& axis, const Array& tumble, double turns) {
   if (!std::isfinite(spin))
     throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
+  if (!std::isfinite(turns))
+    throw std::invalid_argument("turns: " + std::to_string(turns) + "; expected a finite number");
   S state;
   state.position = to_vector3(position, "position");
   state.velocity = to_vector3(velocity, "velocity");
@@ -45,6 +47,7 @@ S make_state(const Array& position, const Array& velocity, double spin, const py
   state.string_state = string_state_from_python(string_state);
   state.axis = to_axis(axis);
   state.tumble = to_tumble(tumble, state.axis);
+  state.turns = turns;
   return state;
 }
 
@@ -84,10 +87,13 @@ void bind_state(py::module_& module) {
 z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
 string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
 is the axle's direction, which only GyroscopicTilt turns; `tumble` [rad/s], of the shape (3,) and square to it, is
-its angular velocity, which only one with an inertia_ratio has.)")
+its angular velocity, which only one with an inertia_ratio has. `turns` are those of the string around the axle
+beyond `Parameters.wraps`, the pass under it counted: about 0.4 under hands side by side, 1.4 with a turn more,
+below zero where the string runs around the axle the other way. A start of n means n whole turns and the pass that
+the strands show. Only `Parameters.follow_turns` looks at it and changes it.)")
       .def(py::init(&make_state), "position"_a, "velocity"_a = py::make_tuple(0.0, 0.0, 0.0), "spin"_a = 0.0,
            "string_state"_a = "loose", "axis"_a = py::make_tuple(1.0, 0.0, 0.0),
-           "tumble"_a = py::make_tuple(0.0, 0.0, 0.0))
+           "tumble"_a = py::make_tuple(0.0, 0.0, 0.0), "turns"_a = 0.0)
       .def_property(
           "position", [](const S& s) { return from_vector3(s.position); },
           [](S& s, const Array& value) { s.position = to_vector3(value, "position"); },
@@ -100,7 +106,7 @@ its angular velocity, which only one with an inertia_ratio has.)")
           [](S& s, double value) {
             s = make_state(from_vector3(s.position), from_vector3(s.velocity), value,
                            string_state_to_python(s.string_state), from_vector3(s.axis),
-                           from_vector3(s.tumble));
+                           from_vector3(s.tumble), s.turns);
           },
           "[rad/s]")
       .def_property(
@@ -118,6 +124,14 @@ its angular velocity, which only one with an inertia_ratio has.)")
           "tumble", [](const S& s) { return from_vector3(s.tumble); },
           [](S& s, const Array& value) { s.tumble = to_tumble(value, s.axis); },
           "Angular velocity of the axle itself, square to it [rad/s], shape (3,).")
+      .def_property(
+          "turns", [](const S& s) { return s.turns; },
+          [](S& s, double value) {
+            if (!std::isfinite(value))
+              throw std::invalid_argument("turns: " + std::to_string(value) + "; expected a finite number");
+            s.turns = value;
+          },
+          "Of the string around the axle beyond Parameters.wraps, the pass under it counted.")
       .def_property_readonly(
           "string_acceleration", [](const S& s) { return from_vector3(s.string_acceleration); },
           "Mean acceleration by the string over the last step [m/s^2], shape (3,).")
@@ -129,11 +143,11 @@ its angular velocity, which only one with an inertia_ratio has.)")
           [](const S& s) {
             return py::make_tuple(from_vector3(s.position), from_vector3(s.velocity), s.spin,
                                   static_cast<int>(s.string_state), from_vector3(s.axis),
-                                  from_vector3(s.string_acceleration), from_vector3(s.tumble));
+                                  from_vector3(s.string_acceleration), from_vector3(s.tumble), s.turns);
           },
           [](const py::tuple& t) {
             S state = make_state(t[0].cast<Array>(), t[1].cast<Array>(), t[2].cast<double>(), t[3],
-                                 t[4].cast<Array>(), t[6].cast<Array>());
+                                 t[4].cast<Array>(), t[6].cast<Array>(), t[7].cast<double>());
             state.string_acceleration = to_vector3(t[5].cast<Array>(), "string_acceleration");
             return state;
           }))

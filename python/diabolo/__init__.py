@@ -73,7 +73,7 @@ from .enums import (
 from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
 from .formats import load_recording, save_recording
 from .headers import get_include
-from .player import best_guess, hang_at_rest, model_for, plan, plan_action, success_rate
+from .player import aimed_again, best_guess, hang_at_rest, model_for, plan, plan_action, success_rate
 from .residual import fit_residual
 from .rollout import Rollout, RolloutGradient, RolloutWarning, rollout, rollout_gradient
 from .view import view_html
@@ -147,6 +147,7 @@ __all__ = [
     "Waypoint",
     "__version__",
     "baseline",
+    "aimed_again",
     "best_guess",
     "compare_simulator",
     "diagnose",

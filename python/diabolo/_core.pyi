@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
   """Name, unit and range of a numeric parameter."""
   @property
@@ -85,6 +85,11 @@ class Parameters:
     """paper's c_F [m]; within [0.0, 1.0]"""
   @flying_distance.setter
   def flying_distance(self, arg1: _Real) -> None: ...
+  @property
+  def follow_turns(self) -> bool:
+    """let turns of the string around the axle come and go, from `wraps` on"""
+  @follow_turns.setter
+  def follow_turns(self, arg1: bool) -> None: ...
   @property
   def gravity(self) -> float:
     """acceleration of gravity, downwards [m/s^2]; within [0.0, 100.0]"""
@@ -345,10 +350,45 @@ class FiniteAxle:
   def to_dict(self) -> dict:
     """All fields by name."""
   @property
+  def follows_axis(self) -> float:
+    """1: the axle points along the state's axis; 0: square to both strands [1]; within [0.0, 1.0]"""
+  @follows_axis.setter
+  def follows_axis(self, arg1: _Real) -> None: ...
+  @property
   def radius(self) -> float:
     """of the axle, to the string's centre line [m]; within [0.0, 0.1]"""
   @radius.setter
   def radius(self, arg1: _Real) -> None: ...
+class Groove:
+  """
+  A round groove whose flanks the string climbs, towards the tips.
+  
+  The string then pulls from up to half_width beside the centre and yaws the axle, where a GyroscopicTilt has its gain;
+  at the edge it brakes the spin by flank_brake times the force along the axle over the mass.
+  """
+  __hash__: typing.ClassVar[None] = None
+  @staticmethod
+  def fields() -> list:
+    """Name, unit and range of every field (ParameterInfo)."""
+  def __eq__(self, other: typing.Any) -> bool: ...
+  def __init__(self, **kwargs) -> None: ...
+  def to_dict(self) -> dict:
+    """All fields by name."""
+  @property
+  def flank_brake(self) -> float:
+    """friction on the flank times its radius times mass over axial moment of inertia [1/m]; within [0.0, 1000.0]"""
+  @flank_brake.setter
+  def flank_brake(self, arg1: _Real) -> None: ...
+  @property
+  def half_width(self) -> float:
+    """how far the string may climb from its middle [m]; within [0.0, 0.1]"""
+  @half_width.setter
+  def half_width(self, arg1: _Real) -> None: ...
+  @property
+  def profile_radius(self) -> float:
+    """of the groove's bottom, in a cut along the axle [m]; within [0.0, 1.0]"""
+  @profile_radius.setter
+  def profile_radius(self, arg1: _Real) -> None: ...
 class StickFlex:
   """Sticks that bend: each tip gives by compliance times the string's pull, square to its stick."""
   __hash__: typing.ClassVar[None] = None
@@ -456,7 +496,12 @@ class UnnamedForce:
   @string_tangent.setter
   def string_tangent(self, arg1: _Real) -> None: ...
 class GyroscopicTilt:
-  """Strands that leave the axle aside turn it while it spins: ds/dt = torque / (I w), gain = m r / I."""
+  """
+  Strands that leave the axle aside turn it: gain = m r / I, I the axial moment of inertia.
+  
+  Without an inertia_ratio the axle follows slowly, ds/dt = torque / (I w). With one, the transverse over the axial
+  moment of inertia (1 to 1.4), the diabolo is a rigid body that nutes, State.tumble its axle's angular velocity.
+  """
   __hash__: typing.ClassVar[None] = None
   @staticmethod
   def fields() -> list:
@@ -466,10 +511,20 @@ class GyroscopicTilt:
   def to_dict(self) -> dict:
     """All fields by name."""
   @property
+  def decay(self) -> float:
+    """decay of the nutation [1/s]; within [0.0, 1000.0]"""
+  @decay.setter
+  def decay(self, arg1: _Real) -> None: ...
+  @property
   def gain(self) -> float:
     """mass times axle radius over axial moment of inertia [1/m]; within [0.0, 1000.0]"""
   @gain.setter
   def gain(self, arg1: _Real) -> None: ...
+  @property
+  def inertia_ratio(self) -> float:
+    """transverse over axial moment of inertia; zero: no nutation [1]; within [0.0, 100.0]"""
+  @inertia_ratio.setter
+  def inertia_ratio(self, arg1: _Real) -> None: ...
 class FormulaLaws:
   """
   Laws by formulas: somebody's own, or learnt by a diagnosis.
@@ -529,6 +584,7 @@ class Model:
   air: Air
   finite_axle: FiniteAxle
   gravity_tilt: GravityTilt
+  groove: Groove
   gyroscopic_tilt: GyroscopicTilt
   landing_restitution: LandingRestitution
   magnus_lift: MagnusLift
@@ -592,14 +648,18 @@ class State:
   `position` [m] and `velocity` [m/s] have the shape (3,), world frame: x forward (away from the player), y left,
   z up. `spin` [rad/s] is positive when the axle's surface under the string moves towards the right tip. The
   string is 'on_string', 'loose' or 'flying', as in diabolo.StringState. `axis`, a unit vector of the shape (3,),
-  is the axle's direction, which only GyroscopicTilt turns.
+  is the axle's direction, which only GyroscopicTilt turns; `tumble` [rad/s], of the shape (3,) and square to it, is
+  its angular velocity, which only one with an inertia_ratio has. `turns` are those of the string around the axle
+  beyond `Parameters.wraps`, the pass under it counted: about 0.4 under hands side by side, 1.4 with a turn more,
+  below zero where the string runs around the axle the other way. A start of n means n whole turns and the pass that
+  the strands show. Only `Parameters.follow_turns` looks at it and changes it.
   """
-  def __init__(self, position: _Reals, velocity: _Reals = (0.0, 0.0, 0.0), spin: _Real = 0.0, string_state: typing.Any = 'loose', axis: _Reals = (1.0, 0.0, 0.0)) -> None: ...
+  def __init__(self, position: _Reals, velocity: _Reals = (0.0, 0.0, 0.0), spin: _Real = 0.0, string_state: typing.Any = 'loose', axis: _Reals = (1.0, 0.0, 0.0), tumble: _Reals = (0.0, 0.0, 0.0), turns: _Real = 0.0) -> None: ...
   def to_array(self) -> _Array:
     """Position, velocity and spin, shape (7,)."""
   @property
   def axis(self) -> _Array:
-    """Direction of the axle, forward: a unit vector, shape (3,)."""
+    """Direction of the axle, forward: a unit vector, shape (3,). Takes from tumble what is along it."""
   @axis.setter
   def axis(self, arg1: _Reals) -> None: ...
   @property
@@ -620,6 +680,16 @@ class State:
     """A StringState; its number or its name may be assigned."""
   @string_state.setter
   def string_state(self, arg1: typing.Any) -> None: ...
+  @property
+  def tumble(self) -> _Array:
+    """Angular velocity of the axle itself, square to it [rad/s], shape (3,)."""
+  @tumble.setter
+  def tumble(self, arg1: _Reals) -> None: ...
+  @property
+  def turns(self) -> float:
+    """Of the string around the axle beyond Parameters.wraps, the pass under it counted."""
+  @turns.setter
+  def turns(self, arg1: _Real) -> None: ...
   @property
   def velocity(self) -> _Array:
     """[m/s], shape (3,)."""
@@ -886,6 +956,15 @@ class StepStatus:
   @property
   def tensions(self) -> tuple[float, float]:
     """Mean tensions of the left and the right strand over the step [N], for the mass of the parameters."""
+  @property
+  def turned(self) -> float:
+    """
+    1 where a turn of the string came onto the axle within the step, -1 where one went off, else 0;
+    by Parameters.follow_turns.
+    """
+  @property
+  def turned_at(self) -> float:
+    """When it did, after the beginning of the step [s]."""
 class Predictor:
   """
   Predicts the diabolo from the motion of the stick tips.
@@ -954,10 +1033,10 @@ class AttachedString:
     the memory as it was, where the result is not finite.
     """
   @property
-  def memory(self) -> typing.Annotated[list[float], "FixedSize(7)"]:
+  def memory(self) -> typing.Annotated[list[float], "FixedSize(8)"]:
     """
-    What is kept from step to step, seven numbers: save and restore it with the host's state. The last is
-    the string's state: 0 on the string, 1 loose (a new one's), 2 in flight.
+    What is kept from step to step, eight numbers: save and restore it with the host's state. The last two are
+    the string's state, 0 on the string, 1 loose (a new one's), 2 in flight, and State.turns.
     """
   @memory.setter
   def memory(self, arg1: _Reals) -> None: ...
@@ -1898,6 +1977,37 @@ class LiveAgent:
     """Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant."""
   @property
   def agent(self) -> Agent: ...
+class LevelHands:
+  """
+  Hands that keep the axle of a diabolo level while they play any motion.
+  
+  They turn the motion towards the axle, and beyond it to tilt it, by the gains of a linear-quadratic regulator on
+  the model, learnt anew where the spin has changed by a tenth. The model needs a GyroscopicTilt.
+  """
+  def __init__(self, model: Model, left: _Reals, right: _Reals, spin: _Real, *, lead: _Real = 0.9, turn: _Real = 1.0, quickness: _Real = 10.0) -> None:
+    """
+    left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
+    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the rate `quickness` [1/s].
+    """
+  def advance(self, dt: _Real) -> None:
+    """Let the hands follow for `dt` [s]."""
+  def see(self, axis: _Reals, spin: _Real) -> None:
+    """Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s]."""
+  def tips(self, left: _Reals, right: _Reals, left_velocity: _Reals = ..., right_velocity: _Reals = ...) -> tuple:
+    """
+    The motion's tips [m] and their velocities [m/s] as these hands play them now.
+    
+    Returns left, right, left_velocity, right_velocity, each of the shape (3,).
+    """
+  @property
+  def gains(self) -> _Array:
+    """K of (lead, turn) = -K (tilt, yaw, heading), shape (2, 3)."""
+  @property
+  def heading(self) -> float:
+    """Where the player faces, from where the play began to the left [rad]."""
+  @property
+  def lead(self) -> float:
+    """How far the hands are turned to the left beyond the heading [rad]."""
 class Waypoint:
   """A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle."""
   def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: _Real = 1.0, velocity_weight: _Real = 0.0, direction_weight: _Real = 0.0) -> None: ...
@@ -2230,8 +2340,35 @@ class RobotLimits:
   """
   def __call__(self, path: TipPath) -> list[LimitUse]: ...
   def __init__(self, left: StickMap, right: StickMap, speed: _Real = 2.9845130209103035, acceleration: _Real = 15.0, jerk: _Real = 500.0, least_clearance: _Real = 0.1, share: _Real = 0.97) -> None: ...
+class Belief:
+  """See diabolo.estimate.Estimate."""
+  @property
+  def covariance(self) -> _Array: ...
+  @property
+  def state(self) -> State: ...
+  @property
+  def strange(self) -> bool: ...
+  @property
+  def string_weights(self) -> typing.Annotated[list[float], "FixedSize(3)"]: ...
+  @property
+  def surprise(self) -> float: ...
+  @property
+  def time(self) -> float: ...
+class Estimator:
+  """See diabolo.estimate.Estimator."""
+  def __init__(self, model: Model, start: State, left: _Reals, right: _Reals, spread: typing.Annotated[collections.abc.Sequence[_Real], "FixedSize(4)"], noise: typing.Annotated[collections.abc.Sequence[_Real], "FixedSize(7)"], time: _Real, history: _Whole) -> None: ...
+  def history(self) -> int: ...
+  def now(self) -> Belief: ...
+  def past(self, ago: _Whole) -> Belief: ...
+  def step(self, left: _Reals, right: _Reals, left_velocity: _Reals, right_velocity: _Reals, dt: _Real) -> None: ...
+  def take_forces(self, left: _Reals, right: _Reals, noise: _Real, time: _Real | None) -> str: ...
+  def take_look(self, time: _Real, position: _Reals, noise: _Real, axle: _Reals | None, axle_noise: _Real, spin: _Real | None, spin_noise: _Real) -> str: ...
+  def take_tensions(self, left: _Real, right: _Real, noise: _Real, time: _Real | None) -> str: ...
+  def take_torques(self, arms: typing.Annotated[collections.abc.Sequence[StickArm], "FixedSize(2)"], joints: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(2)"], torques: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(2)"], noise: _Real, time: _Real | None) -> str: ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: _Real, size: _Real = 1.0, pace: _Real = 1.0, height: _Real = 0.5, sideways: _Real = 0.3, spin_gain: _Real | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
   """The figure of that name from a pose of the tips and a state of the diabolo."""
+def aimed_again(aim: _Reals, wanted: _Reals, came: _Reals) -> tuple[float, float]:
+  """See diabolo.aimed_again."""
 def arm_hand_limits(left: StickMap, right: StickMap, speed: _Real = 2.9845130209103035, acceleration: _Real = 15.0, room: HandLimits | None = None) -> HandLimits:
   """
   HandLimits of an agent under which no joint of two arms, each a StickMap, exceeds `speed` [rad/s] or
@@ -2302,7 +2439,7 @@ def recorded_plan(recording: Recording) -> TipMotion:
   """The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow."""
 def recording_of_bodies(file: str, time: _Reals, bodies: collections.abc.Sequence[tuple[str, _Reals, _Reals | None]], notes: collections.abc.Sequence[str], calibration: Calibration, up: str | None) -> Recording:
   """The recording of rigid bodies: times [s], shape (N,), and of each body its name, positions [m], shape (N, 3), and orientations x, y, z, w, shape (N, 4), or None where it is a point; a row with NaN is a dropout. `file` is what messages name, `notes` what its reader changed."""
-def rollout(models: collections.abc.Sequence[Model], initial: _Reals, string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: _Real, dt: _Real, steps: _Whole, record_every: _Whole, threads: _Whole) -> tuple:
+def rollout(models: collections.abc.Sequence[Model], initial: _Reals, string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: _Real, dt: _Real, steps: _Whole, record_every: _Whole, threads: _Whole, forces: bool) -> tuple:
   """See diabolo.rollout, which checks and broadcasts what it hands over."""
 def rollout_gradient(model: Model, initial: State, tips: TipMotion, with_respect_to: collections.abc.Sequence[str], begin: _Real, dt: _Real, steps: _Whole, threads: _Whole) -> tuple:
   """See diabolo.rollout_gradient."""
@@ -2326,9 +2463,9 @@ def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list
   """Recordings without the samples that they share with ones before, and what was trimmed."""
 def ur5e_inverse(flange: _Reals) -> _Array:
   """Every joint vector of the data sheet's UR5e, shape (N, 6) with N up to 8, whose flange has a pose in the controller's base frame, shape (4, 4)."""
-AIMS: dict = {'height': ('hop', 'throw', 'side_throw', 'throw_and_catch'), 'sideways': ('swing', 'side_throw', 'throw_and_catch'), 'spin_gain': ('linear_acceleration', 'circular_acceleration')}
+AIMS: dict = {'height': ('hop', 'throw', 'side_throw', 'throw_and_catch'), 'sideways': ('swing', 'side_throw', 'throw_and_catch'), 'spin_gain': ('linear_acceleration', 'wind_up', 'one_turn_low', 'circular_acceleration')}
 DIAGNOSIS_SCHEMA: str = 'diabolo.diagnosis/1'
-PLANNED_ACTIONS: tuple = ('linear_acceleration', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'stop', 'throw_and_catch')
+PLANNED_ACTIONS: tuple = ('linear_acceleration', 'wind_up', 'one_turn_low', 'circular_acceleration', 'swing', 'hop', 'throw', 'side_throw', 'stop', 'throw_and_catch')
 __version__: str = '0.1.0'
 _Real: typing.TypeAlias = typing.SupportsFloat | typing.SupportsIndex
 _Whole: typing.TypeAlias = typing.SupportsInt | typing.SupportsIndex

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import TipMotion
+from ._core import TipMotion, TipPath, action, hanging_state, home_pose
 
 HEIGHT, FORWARD, HALF_SPAN = 1.0, 0.5, 0.3  # where the hands rest [m]
 _RATE = 240.0  # samples of a motion per second
@@ -41,11 +41,38 @@ def throw(duration: float) -> TipMotion:
     return _motion(duration, shifts)
 
 
+def wind_up(duration: float) -> TipMotion:
+    """Speeds up a diabolo with one turn of the string (`Parameters.wraps` 1): the right hand pulls, the left
+    one follows, and the string slips back while it is all but slack."""
+    return _repeated("wind_up", duration)
+
+
+def one_turn_low(duration: float) -> TipMotion:
+    """Likewise, by small strokes of hands that are held low."""
+    return _repeated("one_turn_low", duration)
+
+
+def cycles_of(figure: str, cycles: int, string_length: float = 1.45) -> TipPath:
+    """The seed motion of a figure of `diabolo.plan_action`, so many times in a row, from its home; nothing is
+    planned. Raises ValueError where there is no such figure."""
+    if cycles < 1:
+        raise ValueError(f"cycles: {cycles}; expected at least one")
+    left, right = home_pose(figure, string_length)
+    start = hanging_state(left, right, string_length, 0.0)
+    cycle = action(figure, left, right, start, string_length).seed.path()
+    path = cycle
+    for _ in range(cycles - 1):
+        path = path.followed_by(cycle)
+    return path
+
+
 MOTIONS: dict[str, Callable[[float], TipMotion]] = {
     "hold": hold,
     "swing": swing,
     "beat": beat,
     "throw": throw,
+    "wind_up": wind_up,
+    "one_turn_low": one_turn_low,
 }
 """The motions by name; each takes its duration [s]."""
 
@@ -56,6 +83,18 @@ def _fade_in(t: NDArray[np.float64]) -> NDArray[np.float64]:
     return s**2 * (3.0 - 2.0 * s)
 
 
+def _check(duration: float) -> None:
+    if not 0.0 < duration <= 3600.0:
+        raise ValueError(f"duration: {duration} s; expected more than 0, at most an hour")
+
+
+def _repeated(figure: str, duration: float) -> TipMotion:
+    """Whole cycles of a figure, as many as begin within the duration, and rest from then on."""
+    _check(duration)
+    cycle = cycles_of(figure, 1)
+    return cycles_of(figure, int(np.ceil(duration / (cycle.end - cycle.begin)))).tips()
+
+
 def _motion(
     duration: float,
     shifts: Callable[
@@ -63,8 +102,7 @@ def _motion(
     ],
 ) -> TipMotion:
     """`shifts` gives, at times [s]: both tips to the left, right tip up and left tip down, both apart [m]."""
-    if not 0.0 < duration <= 3600.0:
-        raise ValueError(f"duration: {duration} s; expected more than 0, at most an hour")
+    _check(duration)
     time = np.linspace(0.0, duration, int(np.ceil(duration * _RATE)) + 1)
     sideways, tilt, apart = shifts(time)
     forward = np.full_like(time, FORWARD)

@@ -164,6 +164,19 @@ def hang_at_rest(
     )
 
 
+def aimed_again(aim: ArrayLike, wanted: ArrayLike, came: ArrayLike) -> tuple[float, float]:
+    """What to aim a throw at next, where one aimed at `aim` came to `came` instead of `wanted`.
+
+    Each is the apex above the tips and the place to the left where it comes down [m], shape (2,). It is
+    Newton's method on the throw's own error, with the identity for what a change of aim changes: each throw
+    leaves the share of the error by which the model is wrong. Returns the height and the place of the next.
+
+        height, sideways = aimed_again((0.6, 0.0), (0.6, 0.0), came=(0.54, 0.03))
+        plan_action("throw", height=height, sideways=sideways)
+    """
+    return _core.aimed_again(numbers("aim", aim), numbers("wanted", wanted), numbers("came", came))
+
+
 def success_rate(play: PlannedPlay, models: Sequence[Model]) -> float:
     """The share of the models by which the diabolo of a planned motion ends on its string, within 0.3 m of
     where it was planned to: how robust the motion is."""

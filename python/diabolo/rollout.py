@@ -53,8 +53,8 @@ class Rollout(NamedTuple):
     string_states: NDArray[np.uint8]
     """As in StringState, shape (N, frames)."""
     forces: NDArray[np.float64] | None = None
-    """Of the string on the left and the right tip, the mean over a frame's last step [N], shape (N, frames, 2, 3);
-    None where nobody asked. A strand's tension is the norm."""
+    """Of the string on the left and the right tip, the mean over a frame's last step [N], shape
+    (N, frames, 2, 3); None where nobody asked. A strand's tension is the norm."""
 
     def __repr__(self) -> str:
         """How many samples, over how long, and where the first one ends."""

@@ -207,3 +207,28 @@ TEST_CASE("a body without mass is refused") {
   CHECK_THROWS_AS(AttachedString(predictor, 0.0, 1.0, Vector3<double>::Zero()), std::invalid_argument);
   CHECK_THROWS_AS(AttachedString(predictor, 1.0, -1.0, Vector3<double>::Zero()), std::invalid_argument);
 }
+
+TEST_CASE("a host's memory counts the turns that a tip winds on") {
+  Parameters<double> parameters;
+  parameters.follow_turns = true;
+  const double mass = parameters.mass;
+  const AttachedString string(FullPredictor<double>(parameters), mass, kInertia, {0.0, 0.0, -9.81});
+  HostBody body;
+  body.position = {0.0, 0.03, 0.25};
+  body.axle = Vector3<double>::UnitX();
+  const auto tips = [](double t) {  // the right tip goes around the body, four times a second
+    const double angle = -0.4 + 8.0 * std::numbers::pi * t;
+    Tips<double> now;
+    now.left = {0.0, 0.15, 1.1};
+    now.right = {0.0, 0.4 * std::sin(angle), 0.2 + 0.4 * std::cos(angle)};
+    return now;
+  };
+  StringMemory memory;
+  for (int i = 0; i < 200; ++i) {
+    const StringWrench wrench = string.step(body, tips(i * kDt), tips((i + 1) * kDt), kDt, memory);
+    body.velocity += (wrench.force / mass + Vector3<double>(0.0, 0.0, -9.81)) * kDt;
+    body.position += body.velocity * kDt;
+  }
+  CHECK(memory.turns > 1.0);
+  CHECK(memory.turns < 1.5);
+}

@@ -47,6 +47,7 @@ Model random_model(Random& random) {
     else
       rule = random.direction().normalized();
   });
+  if (model.parameters.string_law != StringLaw::kInextensible) model.parameters.follow_turns = false;
   StringElasticity<double>& elasticity = model.effects.get<StringElasticity>();
   if (random.chance(0.5)) elasticity.compliance_per_newton = random.log_uniform(1e-6, 1.0);
   if (random.chance(0.5)) elasticity.damping = random.uniform(0.0, 1e4);

@@ -51,8 +51,9 @@ TEST_CASE("an environment plays the same bits alone and among others, with any n
       one.step(actions.data() + 6 * kWatched);
       REQUIRE(many.rewards[kWatched] == one.rewards[0]);
       REQUIRE(many.terminated[kWatched] == one.terminated[0]);
-      REQUIRE(std::equal(one.observations.begin(), one.observations.end(),
-                         many.observations.begin() + kObservationSize * kWatched));
+      REQUIRE(std::equal(
+          one.observations.begin(), one.observations.end(),
+          many.observations.begin() + static_cast<std::ptrdiff_t>(one.observations.size() * kWatched)));
     }
   }
 }
@@ -303,7 +304,7 @@ TEST_CASE("what cannot be played is refused before anything moves") {
   CHECK_THROWS_WITH(one.reset(0, {.model = 1}), "model: found 1; expected less than 1, the number of models");
   CHECK_THROWS_WITH(arena({.task = "Fly"}),
                     "task: found \"Fly\"; expected one of Hold, Swing, SpinUp, SpinUpCircle, Hop, Throw, "
-                    "ThrowAndCatch, Pass, Routine");
+                    "ThrowAndCatch, Pass, Routine, Level");
   CHECK_THROWS_WITH(arena({.count = 0}), "count: 0; expected at least one environment");
   CHECK_THROWS_WITH(arena({.period = 1.0}), "period: 1 s; expected 0.001 to 0.1 s");
   CHECK_THROWS_WITH(arena({.steps = 0}), "steps: 0; expected 1 to 1000");

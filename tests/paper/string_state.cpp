@@ -37,7 +37,7 @@ StringState published(StringState state, const Vector& point, const Spheroid<dou
 StringState slack(StringState state, const Vector& point, const Spheroid<double>& spheroid) {
   return slack_string_state<double>(state, point, kLength - spheroid.path_length(point),
                                     spheroid.path_gradient(point).squaredNorm(), spheroid.left(),
-                                    spheroid.right(), Parameters<double>::consistent());
+                                    spheroid.right(), false, Parameters<double>::consistent());
 }
 
 }  // namespace

@@ -80,3 +80,11 @@ def test_what_cannot_be_levelled_is_refused() -> None:
         hands.see([1.0, 0.0, 0.0], float("nan"))
     with pytest.raises(ValueError, match="dt: 0"):
         hands.advance(0.0)
+
+
+def test_a_throw_is_aimed_again_by_its_own_error() -> None:
+    assert diabolo.aimed_again((0.6, 0.0), (0.6, 0.0), (0.54, 0.03)) == pytest.approx((0.66, -0.03))
+    with pytest.raises(ValueError, match=r"came: shape \(3,\)"):
+        diabolo.aimed_again((0.6, 0.0), (0.6, 0.0), (0.5, 0.0, 0.0))
+    with pytest.raises(ValueError, match="aim"):
+        diabolo.aimed_again((float("nan"), 0.0), (0.6, 0.0), (0.5, 0.0))

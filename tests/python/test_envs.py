@@ -157,7 +157,7 @@ def test_episodes_begin_where_they_are_told_to() -> None:
 
 def test_an_agent_plays_the_same_in_python_and_in_the_core() -> None:
     random = np.random.default_rng(8)
-    size = DiaboloEnv.observation_space.shape[0]
+    size = DiaboloEnv().observation_space.shape[0]
     layers = [(random.normal(size=(16, size)) / 6.0, np.zeros(16)), (random.normal(size=(6, 16)), np.ones(6))]
     agent = Agent("Hold", 0.02, 20, layers)
     weights = [(np.float32(w), np.float32(b)) for w, b in layers]

@@ -103,8 +103,8 @@ def test_a_step_that_cannot_be_is_refused_and_changes_nothing() -> None:
             string.step(*body, *tips, dt)
     with pytest.raises(ValueError, match="axle_rate: inf"):
         string.step(place, [0, 0, 0], [1, 0, 0], float("inf"), *tips, DT)
-    assert string.memory == [0.0] * 6 + [1.0]
-    for memory, words in (([0.0] * 6 + [7.0], r"memory\[6\]"), ([0.0] * 6, r"memory: shape \(6,\)")):
+    assert string.memory == [0.0] * 6 + [1.0, 0.0]
+    for memory, words in (([0.0] * 6 + [7.0, 0.0], r"memory\[6\]"), ([0.0] * 6, r"memory: shape \(6,\)")):
         with pytest.raises(ValueError, match=words):
             string.memory = memory
 

@@ -154,6 +154,7 @@ Parameters<Scalar> random_parameters(Random& random, int preset) {
   parameters.pull.per_step = random.chance(0.5);
   parameters.planar = random.chance(0.2);
   parameters.plane_normal = random.direction();
+  parameters.follow_turns = preset == 0 && random.chance(0.3);
   return parameters;
 }
 
@@ -192,7 +193,7 @@ double energy_of(const State<Scalar>& state, double gravity, int i) {
 
 template <class Scalar>
 bool all_finite(const State<Scalar>& state) {
-  Mask<Scalar> finite = is_finite(state.spin);
+  Mask<Scalar> finite = is_finite(state.spin) && is_finite(state.turns);
   for (int k = 0; k < 3; ++k)
     finite = finite && is_finite(state.position[k]) && is_finite(state.velocity[k]) &&
              is_finite(state.string_acceleration[k]);

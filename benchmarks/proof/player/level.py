@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Levelling on the independent plant, whose axle is free.
 
-Its hands raise the spin by cycles of linear acceleration, each planned on the plant's own numbers. `raise`: a
-minute that gains 60 rad/s or more; the axle shall stay within 5 degrees of the heading all the time. `back`: a
-tilt of 20 degrees shall be below 5 within 3 s, and stay there. Hands that do not level play the same beside
-them. Each plant has its own numbers, friction and groove among them; the hands see its axle three frames late,
-with half a degree of noise, and its true spin.
+Its hands raise the spin by cycles of linear acceleration, each planned on the plant's own numbers.
+
+raise   a minute that gains 60 rad/s or more; the axle shall stay within 5 degrees of the heading
+back    a tilt of 20 degrees shall be below 5 within 3 s, and stay there
+throw   twenty throws and catches in a row, with cycles of acceleration between, shall lose nothing
+
+Hands that do not level play the same beside them. Each plant has its own numbers, friction and groove among
+them; the hands see its axle three frames late, with half a degree of noise, and its true spin.
 """
 
 from __future__ import annotations
@@ -42,8 +45,11 @@ NOISE = np.radians(0.5)
 WARM_UP = 0.3  # that the plant hangs before [s]
 RAISED = 60.0
 """How much spin a play of `raise` shall gain [rad/s]."""
-PLAYS = {"raise": ("linear_acceleration", 60.0), "back": ("linear_acceleration", 6.0)}
-"""How the hands play, and how long [s]."""
+PLAYS = {"raise": 60.0, "back": 6.0, "throw": 300.0}
+"""How long a play lasts at most [s]."""
+THROWS = 20
+HEIGHT = 0.5  # of a throw above the tips [m]
+THROWN = 100.0  # a diabolo that spins faster is [rad/s]
 LEVEL = 5.0  # [deg]
 TILT = 20.0  # that `back` begins with [deg]
 SOON = 3.0  # [s]
@@ -105,13 +111,14 @@ class Hands:
 @dataclass
 class Levelled:
     """What came of a play: times [s], tilt and yaw of the axle against the heading [deg], the heading [deg],
-    spin [rad/s], and whether the diabolo was lost."""
+    spin [rad/s], throws that were caught, and whether the diabolo was lost."""
 
     time: NDArray[np.float64]
     tilt: NDArray[np.float64]
     yaw: NDArray[np.float64]
     heading: NDArray[np.float64]
     spin: NDArray[np.float64]
+    caught: int
     lost: bool
 
 
@@ -119,37 +126,54 @@ Tips = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Both tips, left over right: places [m] and velocities [m/s], shape (6,)."""
 
 
-class Accelerating:
-    """Cycles of linear acceleration, one planned after the other from what is seen REACTION before."""
+class Playing:
+    """Pieces of play, one planned after the other from what is seen REACTION before it sets in: cycles of
+    linear acceleration; and, where it throws, a throw and its catch as soon as the spin is high enough."""
 
-    def __init__(self, plant: Plant, name: str, spin: float) -> None:
-        self._name = name
-        self._models = [plant.known()]
-        left, right = _core.home_pose(name, plant.length)
+    def __init__(self, plant: Plant, spin: float, *, throws: bool) -> None:
+        self._models, self._length, self._throws = [plant.known()], plant.length, throws
+        left, right = _core.home_pose("linear_acceleration", plant.length)
         start = diabolo.hang_at_rest(self._models[0], left, right, spin, STICKS)
         self._horizon = diabolo.RecedingHorizon(self._models[0], left, right, start, 0.0, STICKS)
-        self._home, self._length = (left, right), plant.length
+        self._piece = "linear_acceleration"
         self.home = np.concatenate([left, right])
+        self.caught = 0
 
     def at(self, time: float, seen: State) -> Tips:
         """The tips at a time [s], which grows from call to call; `seen` a period before it."""
-        if time > self._horizon.path.end - REACTION:
+        # What flies is looked at once it does, and the catch sets in later; else the next piece goes on.
+        flies = self._piece == "throw"
+        if time > self._horizon.path.end - (0.0 if flies else REACTION):
             self._horizon.observe(time - PERIOD, seen)
-            seam = self._horizon.seam_at(self._horizon.path.end)
-            action = _core.action(
-                self._name, *self._home, seam.state, self._length, spin_gain=GAINS[self._name]
-            )
-            plan = diabolo.plan(
-                seam.state,
-                seam.joined(action.seed),
-                action.goals,
-                self._models,
-                limits=LIMITS,
-                freedom=action.freedom,
-            )
-            self._horizon.join(seam, plan, seam.time, 0.0)
+            self._go_on(REACTION if flies else 0.0, seen.spin)
         place, velocity = self._horizon.path.derivatives(np.array([time]))[:2]
         return place[0], velocity[0]
+
+    def _go_on(self, later: float, spin: float) -> None:
+        seam = self._horizon.seam_at(self._horizon.path.end + later)
+        self.caught += self._piece == "catch"
+        if self._piece == "throw":
+            self._piece = "catch"
+            action = seam.catch(*_core.home_pose("throw", self._length), self._models[0])
+        elif self._throws and spin > THROWN:
+            self._piece = "throw"
+            action = self._figure(seam, height=HEIGHT)
+        else:
+            self._piece = "linear_acceleration"
+            action = self._figure(seam, spin_gain=GAINS[self._piece])
+        plan = diabolo.plan(
+            seam.state,
+            seam.joined(action.seed),
+            action.goals,
+            self._models,
+            limits=LIMITS,
+            freedom=action.freedom,
+        )
+        self._horizon.join(seam, plan, seam.time, 0.0)
+
+    def _figure(self, seam: Any, **wanted: float) -> Any:
+        home = _core.home_pose(self._piece, self._length)
+        return _core.action(self._piece, *home, seam.state, self._length, **wanted)
 
 
 def scenario(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[str, Any]:
@@ -166,10 +190,10 @@ def scenario(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[st
     return asked
 
 
-def play_level(plant: Plant, axle: FreeAxle, name: str, duration: float, *, levels: bool) -> Levelled:
-    """The plant's diabolo while its spin is raised, by hands that turn their motion to the axle, or not."""
+def play_level(plant: Plant, axle: FreeAxle, what: str, *, levels: bool) -> Levelled:
+    """The plant's diabolo in a play of PLAYS, by hands that turn their motion to the axle, or not."""
     rng = np.random.default_rng(plant.seed)
-    motion = Accelerating(plant, name, axle.spin)
+    motion = Playing(plant, axle.spin, throws=what == "throw")
     level = diabolo.LevelHands(model_of(plant, axle), motion.home[:3], motion.home[3:], axle.spin)
     hands = Hands(motion.home)
     rows: list[tuple[float, ...]] = []
@@ -180,9 +204,12 @@ def play_level(plant: Plant, axle: FreeAxle, name: str, duration: float, *, leve
         contextlib.suppress(driver.FailedError),
         driver.LivePlay(plant.program, scenario(plant, axle, motion.home)) as live,
     ):
-        for step in range(int(duration / PERIOD)):
+        for step in range(int(PLAYS[what] / PERIOD)):
             moment = live.moment
             if moment.mode == "MISSED" or moment.position[2] < LOST:
+                break
+            if motion.caught == THROWS:
+                lost = False
                 break
             tilt, yaw = angles(moment.axis)
             heading = np.degrees(level.heading)
@@ -198,7 +225,7 @@ def play_level(plant: Plant, axle: FreeAxle, name: str, duration: float, *, leve
             live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), np.concatenate(tips[2:])))
         else:
             lost = False
-    return Levelled(*np.array(rows).T, lost)
+    return Levelled(*np.array(rows).T, motion.caught, lost)
 
 
 def as_the_hands_see(moment: driver.Moment, heading: float, home: NDArray[np.float64]) -> State:
@@ -222,13 +249,15 @@ def outcome(what: str, number: int, given: argparse.Namespace, *, levels: bool) 
     rng = np.random.default_rng([given.seed, number])
     plant = draw(given.plant, rng)
     axle = draw_axle(rng, TILT if what == "back" else 0.0)
-    name, duration = PLAYS[what]
-    play = play_level(plant, axle, name, duration, levels=levels)
+    play = play_level(plant, axle, what, levels=levels)
     off = np.maximum(np.abs(play.tilt), np.abs(play.yaw))
     if what == "back":
         well = not play.lost and bool((off[play.time >= SOON] < LEVEL).all())
         then = off[np.searchsorted(play.time, SOON) - 1]
         said = f"tilt {abs(play.tilt[0]):.0f} deg, {then:.1f} after {SOON:g} s"
+    elif what == "throw":
+        well = not play.lost and play.caught == THROWS
+        said = f"{play.caught} throws caught, off by {off.max():.0f} deg at most"
     else:
         gained = float(play.spin.max() - play.spin[0])
         well = not play.lost and bool((off < LEVEL).all()) and gained >= RAISED
@@ -258,7 +287,7 @@ def run(given: argparse.Namespace) -> int:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = command.make_parser("benchmarks.proof.player.level", __doc__, EXAMPLE)
-    parser.add_argument("what", choices=("raise", "back"))
+    parser.add_argument("what", choices=tuple(PLAYS))
     parser.add_argument("--count", metavar="N", type=int, default=10, help="plants (%(default)s)")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the plants (%(default)s)")
     parser.add_argument("--jobs", metavar="N", type=int, default=1, help="plants at once (%(default)s)")

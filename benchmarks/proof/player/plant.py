@@ -79,15 +79,17 @@ class Plant:
     axial_inertia: float = 5.6e-4
     axle_radius: float = 0.0065
     seed: int = 1
+    wraps: int = 0
 
     def facts(self) -> dict[str, float]:
         """What is true of it."""
-        return {name: value for name, value in vars(self).items() if name != "program"}
+        return {name: value for name, value in vars(self).items() if name not in ("program", "wraps")}
 
     def known(self) -> Model:
         """The library's model of it, with the plant's own numbers."""
         parameters = Parameters(spin_coupling=0.0, mass=self.mass, axle_radius=self.axle_radius)
         parameters.string_length = self.length
+        parameters.wraps = self.wraps
         return Model(
             parameters,
             name="truth",
@@ -154,7 +156,12 @@ class Plant:
                 "axial_inertia": self.axial_inertia,
                 "axle_radius": self.axle_radius,
             },
-            "string": {"length": self.length, "stiffness": self.stiffness, "friction": self.friction},
+            "string": {
+                "length": self.length,
+                "stiffness": self.stiffness,
+                "friction": self.friction,
+                "wraps": self.wraps,
+            },
             "sticks": {"bending_stiffness": self.bending_stiffness, "damping_ratio": 0.8},
             "air": {"drag": self.drag, "magnus": self.magnus},
             "player": player,

@@ -179,18 +179,17 @@ def throws(
     line: dict[str, Any] = {"plant": plant.facts(), "height": height, "sideways": sideways, "spin": spin}
     models = known(plant, kind, diagnosis)
     player = Player(plant, models, _core.home_pose(name, plant.length), spin, steers=False)
-    aimed_height, aim = height, 0.0
+    wanted = aim = (height, sideways)
     for which in ("first", "corrected"):
         player.begin()
         apex = place = None
         caught = False
         try:
-            player.throw(name, aimed_height, sideways, aim)
+            player.throw(name, aim[0], sideways, aim[1] - sideways)
             down = 2.0 * float(np.sqrt(2.0 * (height + 0.1) / 9.81))  # of the flight
             played = player.play(down)
             apex, place = played.flight(player.path)
-            aimed_height += height - apex
-            aim += sideways - place
+            aim = diabolo.aimed_again(aim, wanted, (apex, place))
             player.catch(played)
             caught = player.play().held_at(player.path.end)
         except (ValueError, RuntimeError) as error:  # nothing flew, or a tip ran into the diabolo

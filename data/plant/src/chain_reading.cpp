@@ -10,9 +10,8 @@ namespace {
 
 /// Tension of a segment [N].
 double pull(const Spring& spring) {
-  return spring.excess > 0.0
-             ? std::max(0.0, spring.stiffness * spring.excess + spring.damping * spring.rate)
-             : 0.0;
+  return spring.excess > 0.0 ? std::max(0.0, spring.stiffness * spring.excess + spring.damping * spring.rate)
+                             : 0.0;
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ struct Reading {
   double slip = 0.0;     ///< string over axle [m/s]; 0 unless taut
   Tensions tensions;     ///< on either side of the axle [N]; 0 unless taut
   Pair<Vec3> on_tips{Vec3::Zero(), Vec3::Zero()};  ///< the string's force on the tips [N]; 0 unless it pulls
-  double energy = 0.0;   ///< kinetic, potential, elastic and of the sticks' bends [J]
+  double energy = 0.0;  ///< kinetic, potential, elastic and of the sticks' bends [J]
 };
 
 /// A diabolo on a string between two driven sticks: what every structure of the string has in common.

@@ -81,7 +81,8 @@ void write_description(std::ostream& out, const Scenario& scenario) {
 
 void write_truth(std::ostream& out, const Plant& plant, const std::vector<Moment>& moments) {
   out << "time,mode,x,y,z,vx,vy,vz,qx,qy,qz,qw,spin,left_tip_x,left_tip_y,left_tip_z,right_tip_x,right_tip_y,"
-         "right_tip_z,stretch,wrap,slip,tension_left,tension_right,energy,left_force_x,left_force_y,left_force_z,"
+         "right_tip_z,stretch,wrap,slip,tension_left,tension_right,energy,left_force_x,left_force_y,left_"
+         "force_z,"
          "right_force_x,right_force_y,right_force_z\n";
   for (const Moment& moment : moments) {
     const Reading reading = plant.read(moment);

@@ -25,7 +25,7 @@ constexpr const char* kTips[2] = {"left", "right"};
 
 /// Where the two tips are and how they move, and what the next step begins with.
 struct Memory {
-  double owed[3], string_acceleration[3], string_state;
+  double owed[3], string_acceleration[3], string_state, turns;
   double tip[2][3], rate[2][3];  ///< see diabolo::TipMemory
 };
 
@@ -209,10 +209,12 @@ class StringOnBody {
     memory.string_acceleration = Seen(stored.now.string_acceleration);
     memory.string_state = first ? string_.begin(body.position, begin).string_state
                                 : static_cast<diabolo::StringState>(stored.now.string_state);
+    memory.turns = first ? 0.0 : stored.now.turns;
     const diabolo::StringWrench wrench = string_.step(body, begin, end, dt, memory);
     put(next.owed, memory.owed);
     put(next.string_acceleration, memory.string_acceleration);
     next.string_state = static_cast<double>(memory.string_state);
+    next.turns = memory.turns;
     stored.next = next;
     stored.time = d->time;
     put(stored.force, wrench.force);

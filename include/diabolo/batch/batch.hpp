@@ -45,7 +45,7 @@ struct Batch {
       if (!motion) throw std::invalid_argument("batch: a tip motion is a null pointer");
     for (const State<double>& s : initial)
       if (!s.position.allFinite() || !s.velocity.allFinite() || !s.axis.allFinite() ||
-          !s.string_acceleration.allFinite() || !std::isfinite(s.spin))
+          !s.string_acceleration.allFinite() || !std::isfinite(s.spin) || !std::isfinite(s.turns))
         throw std::invalid_argument("batch: an initial state is not finite");
     const std::size_t models = initial.empty() ? 0 : std::max(parameters.size(), effects.size());
     for (std::size_t i = 0; i < models; ++i) {
@@ -136,8 +136,7 @@ class BatchWorker {
       block.tips[lane] = tips_[batch_.motions.size() == 1 ? 0 : std::min(lane, used - 1)].data();
       block.records[lane] = real ? result_.records.data() + 7 * batch_.records() * i : records.data();
       if (batch_.forces)
-        block.forces[lane] =
-            real ? result_.forces.data() + 6 * batch_.records() * i : spare_forces_.data();
+        block.forces[lane] = real ? result_.forces.data() + 6 * batch_.records() * i : spare_forces_.data();
       block.record_states[lane] =
           real ? result_.record_states.data() + batch_.records() * i : record_states.data();
     }

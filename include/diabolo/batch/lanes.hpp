@@ -115,6 +115,7 @@ State<Pack> gather_state(const LaneBlock& block) {
   state.axis = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->axis; });
   state.tumble = gather3<Pack>([&](int l) -> const Vector3<double>& { return block.states[l]->tumble; });
   state.spin = gather<Pack>([&](int l) { return block.states[l]->spin; });
+  state.turns = gather<Pack>([&](int l) { return block.states[l]->turns; });
   state.string_state.code =
       gather<Pack>([&](int l) { return static_cast<double>(block.states[l]->string_state); });
   return state;
@@ -132,6 +133,7 @@ void scatter_state(const State<Pack>& state, const LaneBlock& block) {
       to.tumble[k] = state.tumble[k][lane];
     }
     to.spin = state.spin[lane];
+    to.turns = state.turns[lane];
     to.string_state = static_cast<StringState>(static_cast<int>(state.string_state.code[lane]));
   }
 }
@@ -176,8 +178,7 @@ void run_with(const P& predictor, const LaneBlock& block) {
     if (!records) continue;
     const std::size_t index = done / block.record_every - 1;
     scatter_record(state, block, index);
-    if (pulls)
-      scatter_forces(tip_forces(predictor, before, state, now, next, Pack(block.dt)), block, index);
+    if (pulls) scatter_forces(tip_forces(predictor, before, state, now, next, Pack(block.dt)), block, index);
   }
   scatter_state(state, block);
 }

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "diabolo/effects/effect.hpp"
-#include "diabolo/string/string_path.hpp"
+#include "diabolo/string/winding.hpp"
 
 namespace diabolo {
 
@@ -26,21 +26,15 @@ struct FiniteAxle : NeutralEffect<Scalar> {
   bool neutral() const { return is_constant_zero(radius); }
 
   TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips,
-                             const Parameters<Scalar>&) const {
+                             const Parameters<Scalar>& parameters) const {
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     if (!any(captured)) return {};
     TipShift<Scalar> shifted;
-    if (!all(follows())) {
-      const StringPath<Scalar> path(state.position, tips);
-      const Vector3<Scalar> to_left = path.from_left * Scalar(Scalar(-1) / path.left_length),
-                            to_right = path.from_right * Scalar(Scalar(-1) / path.right_length);
-      shifted = {shift(to_left, to_right, path.left_length), shift(to_right, to_left, path.right_length)};
-    }
+    if (!all(follows())) shifted = square_to_strands(state, tips, parameters);
     if (any(follows())) {
-      const Vector3<Scalar> left = across(state.position - tips.left, state.axis),
-                            right = across(state.position - tips.right, state.axis);
-      shifted.left = select<Scalar>(follows(), shift_around(state.axis, left, right), shifted.left);
-      shifted.right = select<Scalar>(follows(), shift_around(state.axis, right, left), shifted.right);
+      const TipShift<Scalar> around = around_axis(state, tips, parameters);
+      shifted.left = select<Scalar>(follows(), around.left, shifted.left);
+      shifted.right = select<Scalar>(follows(), around.right, shifted.right);
     }
     return {select<Scalar>(captured, shifted.left, TipShift<Scalar>().left),
             select<Scalar>(captured, shifted.right, TipShift<Scalar>().right)};
@@ -51,13 +45,13 @@ struct FiniteAxle : NeutralEffect<Scalar> {
     if (all(is(state.string_state, StringState::kFlying))) return Scalar(0);
     StringPath<Scalar> path(state.position, shifted);
     if (any(follows())) {
-      path.from_left = select<Scalar>(follows(), across(path.from_left, state.axis), path.from_left);
-      path.from_right = select<Scalar>(follows(), across(path.from_right, state.axis), path.from_right);
+      path.from_left = select<Scalar>(follows(), beside(path.from_left, state.axis), path.from_left);
+      path.from_right = select<Scalar>(follows(), beside(path.from_right, state.axis), path.from_right);
       path.left_length = norm(path.from_left);
       path.right_length = norm(path.from_right);
     }
     return select(is(state.string_state, StringState::kFlying), Scalar(0),
-                  Scalar(radius * (contact_angle(path) + wrapped_angle(parameters))));
+                  Scalar(radius * winding(state, path, parameters).angle));
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -72,27 +66,45 @@ struct FiniteAxle : NeutralEffect<Scalar> {
  private:
   Mask<Scalar> follows() const { return follows_axis > Scalar(0.5); }
 
+  TipShift<Scalar> square_to_strands(const State<Scalar>& state, const Tips<Scalar>& tips,
+                                     const Parameters<Scalar>& parameters) const {
+    const StringPath<Scalar> path(state.position, tips);
+    const Vector3<Scalar> to_left = path.from_left * Scalar(Scalar(-1) / path.left_length),
+                          to_right = path.from_right * Scalar(Scalar(-1) / path.right_length);
+    // Strands that cross leave the axle on the other side of each other.
+    const Vector3<Scalar> around = state.axis * side_of_axle(state, parameters);
+    const bool turns = parameters.follow_turns;
+    const Vector3<Scalar> left_in = turns ? cross<Scalar>(around, to_left) : across(to_left, to_right),
+                          right_in = turns ? cross<Scalar>(to_right, around) : across(to_right, to_left);
+    return {shift(to_left, left_in, path.left_length), shift(to_right, right_in, path.right_length)};
+  }
+
+  TipShift<Scalar> around_axis(const State<Scalar>& state, const Tips<Scalar>& tips,
+                               const Parameters<Scalar>& parameters) const {
+    const Vector3<Scalar> to_left = beside(tips.left - state.position, state.axis),
+                          to_right = beside(tips.right - state.position, state.axis);
+    const Vector3<Scalar> left = cross<Scalar>(state.axis, to_left),
+                          right = cross<Scalar>(state.axis, to_right);
+    const Scalar side = parameters.follow_turns
+                            ? side_of_axle(state, parameters)
+                            : select(dot<Scalar>(left, to_right) < Scalar(0), Scalar(-1), Scalar(1));
+    return {shift(to_left * Scalar(Scalar(1) / norm(to_left)), left * side, norm(to_left)),
+            shift(to_right * Scalar(Scalar(1) / norm(to_right)), right * Scalar(-side), norm(to_right))};
+  }
+
   /// Without its part along the axle; never nothing.
-  static Vector3<Scalar> across(const Vector3<Scalar>& v, const Vector3<Scalar>& axis) {
+  static Vector3<Scalar> beside(const Vector3<Scalar>& v, const Vector3<Scalar>& axis) {
     return v - axis * Scalar(dot<Scalar>(v, axis) * Scalar(1.0 - 1e-9));
   }
 
-  /// Of the tip from which the axle is seen at `own`, square to it; from the other tip at `other`.
-  Vector3<Scalar> shift_around(const Vector3<Scalar>& axis, const Vector3<Scalar>& own,
-                               const Vector3<Scalar>& other) const {
-    const Scalar away = Scalar(1) / norm(own);
-    const Vector3<Scalar> square = cross<Scalar>(axis, own) * away;
-    const Scalar side = select(dot<Scalar>(square, other) > Scalar(0), Scalar(-radius), radius);
-    const Scalar sine = minimum(Scalar(radius * away), Scalar(1));  // a tip within the axle is on it
-    const Scalar cosine = positive_sqrt<Scalar>(Scalar(1) - sine * sine);
-    return square * Scalar(side * cosine) + own * Scalar(radius * sine * away);
+  /// The part of the unit vector `other` that is square to `own`.
+  static Vector3<Scalar> across(const Vector3<Scalar>& own, const Vector3<Scalar>& other) {
+    return other - own * dot<Scalar>(other, own);
   }
 
-  /// Of the tip that the unit vector `own` points to, `length` away.
-  Vector3<Scalar> shift(const Vector3<Scalar>& own, const Vector3<Scalar>& other,
-                        const Scalar& length) const {
-    const Vector3<Scalar> across = other - own * dot<Scalar>(other, own);
-    const Vector3<Scalar> inward = across * Scalar(Scalar(1) / (norm(across) + Scalar(1e-9)));
+  /// Of the tip that the unit vector `own` points to, `length` away; `in` is square to it.
+  Vector3<Scalar> shift(const Vector3<Scalar>& own, const Vector3<Scalar>& in, const Scalar& length) const {
+    const Vector3<Scalar> inward = in * Scalar(Scalar(1) / (norm(in) + Scalar(1e-9)));
     const Scalar sine = minimum(Scalar(radius / length), Scalar(1));  // a tip within the axle is on it
     const Scalar cosine = positive_sqrt<Scalar>(Scalar(1) - sine * sine);
     return inward * Scalar(radius * cosine) - own * Scalar(radius * sine);

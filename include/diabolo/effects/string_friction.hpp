@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "diabolo/effects/effect.hpp"
+#include "diabolo/effects/wound_contact.hpp"
 
 namespace diabolo {
 
@@ -40,6 +41,8 @@ struct StringFriction : NeutralEffect<Scalar> {
                           const Parameters<Scalar>& parameters) const {
     using std::atan2;
     using std::tanh;
+    if (parameters.follow_turns)
+      return wound_contact(coefficient, spin_gain, state, tips, result, dt, parameters);
     // Everything at the middle of the step: the strands, the slip and the normal force.
     const Scalar half = Scalar(0.5) * dt;
     const Vector3<Scalar> middle = (state.position + result.position) * Scalar(0.5);

@@ -15,13 +15,13 @@ namespace diabolo {
 
 /// The diabolo as a camera saw it. Noises are standard deviations.
 struct CameraLook {
-  double time = 0.0;                                    ///< when it was seen, not when that is known [s]
-  Vector3<double> position = Vector3<double>::Zero();   ///< [m], world frame
-  double noise = 5e-3;                                  ///< of each coordinate [m]
-  std::optional<Vector3<double>> axle = std::nullopt;   ///< a unit vector; only estimates with an axle take it
-  double axle_noise = 0.02;                             ///< [rad]
-  std::optional<double> spin = std::nullopt;            ///< [rad/s], where the camera sees marks turn
-  double spin_noise = 1.0;                              ///< [rad/s]
+  double time = 0.0;                                   ///< when it was seen, not when that is known [s]
+  Vector3<double> position = Vector3<double>::Zero();  ///< [m], world frame
+  double noise = 5e-3;                                 ///< of each coordinate [m]
+  std::optional<Vector3<double>> axle = std::nullopt;  ///< a unit vector; only estimates with an axle take it
+  double axle_noise = 0.02;                            ///< [rad]
+  std::optional<double> spin = std::nullopt;           ///< [rad/s], where the camera sees marks turn
+  double spin_noise = 1.0;                             ///< [rad/s]
 };
 
 /// Forces of the string on both tips at the end of a step, world frame, less what sticks and arms weigh.

@@ -79,10 +79,9 @@ Passage<kAxle> pass_on_string(const Predictor<double, Effects...>& predictor, co
     predictor.step(state, step.begin, step.end, step.dt);
     const auto tensions = strand_tensions(predictor, start, state, step.begin, step.end, step.dt);
     if (step.sure() && state.string_state == StringState::kOnString)
-      lean_by_tensions(state, pulling_strands(predictor, start, state, step.begin, step.end),
-                       predictor.parameters().mass,
-                       (step.read[1].tension - step.read[0].tension) - (tensions.second - tensions.first),
-                       step.dt);
+      lean_by_tensions(
+          state, pulling_strands(predictor, start, state, step.begin, step.end), predictor.parameters().mass,
+          (step.read[1].tension - step.read[0].tension) - (tensions.second - tensions.first), step.dt);
     return tensions;
   });
 }
@@ -109,8 +108,10 @@ Passage<kAxle> pass_by_tensions(const Predictor<double, Effects...>& predictor, 
 /// What a step adds to the deviations of a passage: process noise; and, where the string pulls, how far a
 /// string of another length would have all points alike, and how fast one that stretches.
 template <bool kAxle>
-MatrixOf<StateChart<kAxle>::kSize, StateChart<kAxle>::kSize + 2> passage_noise(
-    const ProcessNoise& noise, const Passage<kAxle>& passage, const Tips<double>& tips, double dt) {
+MatrixOf<StateChart<kAxle>::kSize, StateChart<kAxle>::kSize + 2> passage_noise(const ProcessNoise& noise,
+                                                                               const Passage<kAxle>& passage,
+                                                                               const Tips<double>& tips,
+                                                                               double dt) {
   using Chart = StateChart<kAxle>;
   const double root = std::sqrt(dt);
   MatrixOf<Chart::kSize, Chart::kSize + 2> deviations = MatrixOf<Chart::kSize, Chart::kSize + 2>::Zero();

@@ -16,10 +16,10 @@ struct StrandPull {
   static constexpr double kSure = 3.0;
 
   bool sure = false;
-  double tension = 0.0;                                 ///< [N]; of noise alone, either sign
-  MatrixOf<3> frame = MatrixOf<3>::Identity();          ///< towards the tip, and two directions across
-  MatrixOf<3> noise = MatrixOf<3>::Identity();          ///< a factor of the covariance in that frame [N]
-  bool directed = false;                                ///< the direction was measured, too
+  double tension = 0.0;                         ///< [N]; of noise alone, either sign
+  MatrixOf<3> frame = MatrixOf<3>::Identity();  ///< towards the tip, and two directions across
+  MatrixOf<3> noise = MatrixOf<3>::Identity();  ///< a factor of the covariance in that frame [N]
+  bool directed = false;                        ///< the direction was measured, too
 
   /// From a force on the tip [N]; `expected` is the strand's unit vector from the diabolo to the tip.
   static StrandPull of_force(const Vector3<double>& on_tip, const MatrixOf<3>& noise,

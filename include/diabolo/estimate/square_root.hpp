@@ -45,8 +45,8 @@ struct SigmaPoints {
     return factor.col((point - 1) / 2) * reach;
   }
 
-  /// Values at the points, as columns, become deviations from their mean times the roots of the weights: S with
-  /// S S' their covariance. Returns the mean.
+  /// Values at the points, as columns, become deviations from their mean times the roots of the weights: S
+  /// with S S' their covariance. Returns the mean.
   template <int Rows>
   static ColumnOf<Rows> deviate(MatrixOf<Rows, kCount>& values) {
     ColumnOf<Rows> mean = ColumnOf<Rows>::Zero();
@@ -59,13 +59,14 @@ struct SigmaPoints {
 /// What K measured numbers say of N others.
 template <int N>
 struct Correction {
-  ColumnOf<N> shift;    ///< of the mean
-  MatrixOf<N> factor;   ///< of the covariance that is left
-  double surprise{};  ///< innovation squared over its covariance; K on average
+  ColumnOf<N> shift;   ///< of the mean
+  MatrixOf<N> factor;  ///< of the covariance that is left
+  double surprise{};   ///< innovation squared over its covariance; K on average
 };
 
 /// Conditions N numbers on K measured ones that are off by `innovation` from what was expected. `x` and `y`
-/// are deviations of both, M columns that belong together; `noise` is a factor of the measurement's covariance.
+/// are deviations of both, M columns that belong together; `noise` is a factor of the measurement's
+/// covariance.
 template <int N, int K, int M>
 Correction<N> condition(const MatrixOf<N, M>& x, const MatrixOf<K, M>& y, const MatrixOf<K>& noise,
                         const ColumnOf<K>& innovation) {

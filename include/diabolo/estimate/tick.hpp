@@ -72,8 +72,8 @@ class TickFilter {
     now.pulled = passage.pulled > 0.5;
     now.surprise = 0.0;
     now.state = Chart::at(passage.centre, Points::deviate(passage.places));
-    now.state.string_state = static_cast<StringState>(
-        std::ranges::max_element(now.string_weights) - now.string_weights.begin());
+    now.state.string_state =
+        static_cast<StringState>(std::ranges::max_element(now.string_weights) - now.string_weights.begin());
     Deviations spread;
     spread << passage.places, passage_noise<kAxle>(noise_, passage, tick.end, tick.dt);
     if (reads)
@@ -102,7 +102,8 @@ class TickFilter {
     MatrixOf<3> noise = read.noise;
     noise.row(0) *= std::hypot(1.0, kLasting * noise_.tension * read.tension / noise.row(0).norm());
     for (int across = 1; across < 3; ++across)
-      noise.row(across) *= std::hypot(1.0, kLasting * noise_.direction * read.tension / noise.row(across).norm());
+      noise.row(across) *=
+          std::hypot(1.0, kLasting * noise_.direction * read.tension / noise.row(across).norm());
     return noise;
   }
 

@@ -36,8 +36,8 @@ struct TightString {
 template <template <class> class... Effects>
 void keep_within_string(const Predictor<double, Effects...>& predictor, State<double>& state,
                         const Tips<double>& tips, bool pulls) {
-  constexpr int kTurns = 3;            // of Newton's method, from a few centimetres
-  constexpr double kStraight = 0.01;   // squared gradient of a string that leaves no room across
+  constexpr int kTurns = 3;           // of Newton's method, from a few centimetres
+  constexpr double kStraight = 0.01;  // squared gradient of a string that leaves no room across
   if (state.string_state == StringState::kFlying) return;
   for (int turn = 1; turn <= kTurns; ++turn) {
     const TightString string = TightString::around(predictor, state, tips);

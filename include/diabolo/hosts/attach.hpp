@@ -11,6 +11,7 @@
 #include "diabolo/full_predictor.hpp"
 #include "diabolo/strand_tensions.hpp"
 #include "diabolo/string/tip_geometry.hpp"
+#include "diabolo/string/winding.hpp"
 
 // Our string on a body of somebody else's simulator. The host integrates, and knows contacts, joints and all
 // else; in each step we say which force and torque make its body move as the predictor does, see
@@ -47,6 +48,7 @@ struct StringMemory {
   Vector3<double> owed = Vector3<double>::Zero();  ///< velocity that the host has not got yet [m/s]
   Vector3<double> string_acceleration = Vector3<double>::Zero();  ///< see State
   StringState string_state = StringState::kLoose;
+  double turns = 0.0;  ///< see State
 };
 
 /// The string between two tips that a host moves, on a body that it integrates. Holds constants alone: one
@@ -93,6 +95,7 @@ class AttachedString {
     state.axis = body.axle;
     state.string_state = memory.string_state;
     state.string_acceleration = memory.string_acceleration;
+    state.turns = memory.turns;
     settle(state, begin);
     const State<double> before = state;
     StringWrench wrench;
@@ -104,7 +107,7 @@ class AttachedString {
     wrench.torque = body.axle * (-inertia_ * (state.spin - before.spin) / dt);
     if (state.string_state == StringState::kOnString)
       pull_strands(body, before, state, begin, end, dt, reached, wrench);
-    memory = {state.velocity - reached, state.string_acceleration, state.string_state};
+    memory = {state.velocity - reached, state.string_acceleration, state.string_state, state.turns};
     return wrench;
   }
 
@@ -131,7 +134,8 @@ class AttachedString {
     wrench.on_left = -left * strands.left - rest;
     wrench.on_right = -right * strands.right - rest;
     const double passed = (end.right - after.position).norm() - (begin.right - before.position).norm();
-    wrench.slip = passed / dt - predictor_.parameters().axle_radius * after.spin;
+    const Parameters<double>& parameters = predictor_.parameters();
+    wrench.slip = passed / dt - side_of_axle(after, parameters) * parameters.axle_radius * after.spin;
   }
 
   FullPredictor<double> predictor_;

@@ -83,8 +83,8 @@ inline Agent read_agent(std::string_view text, const std::string& file_name) {
     ArenaOptions options{.task = file.text("task"), .period = file.positive("period")};
     options.steps = static_cast<int>(steps);
     options.validate();
-    task_named(options.task);
-    return {options.task, options.period, options.steps, Policy(std::move(layers))};
+    const TaskInfo& task = *task_named(options.task).info;
+    return {options.task, options.period, options.steps, Policy(std::move(layers), observation_size(task))};
   } catch (const RecordingError&) {
     throw;
   } catch (const std::invalid_argument& error) {

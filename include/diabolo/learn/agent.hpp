@@ -24,9 +24,11 @@ class Policy {
  public:
   static constexpr Eigen::Index kActions = 6;
 
-  /// Throws std::invalid_argument where layers do not fit each other, what is seen or what is done.
-  explicit Policy(std::vector<Layer> layers) : layers_(std::move(layers)) {
-    Eigen::Index inputs = static_cast<Eigen::Index>(kObservationSize);
+  /// `seen`: how many numbers it sees (observation_size). Throws std::invalid_argument where layers do not
+  /// fit each other, what is seen or what is done.
+  explicit Policy(std::vector<Layer> layers, std::size_t seen = kObservationSize)
+      : layers_(std::move(layers)) {
+    Eigen::Index inputs = static_cast<Eigen::Index>(seen);
     for (std::size_t i = 0; i < layers_.size(); ++i) {
       const auto& [weights, bias] = layers_[i];
       const std::string here = "layer " + std::to_string(i) + ": ";
@@ -45,8 +47,10 @@ class Policy {
   }
 
   const std::vector<Layer>& layers() const { return layers_; }
+  /// How many numbers it sees.
+  Eigen::Index inputs() const { return layers_.front().weights.cols(); }
 
-  /// Actions, 6 x n, of observations, kObservationSize x n. Throws std::invalid_argument where a number is
+  /// Actions, 6 x n, of observations, inputs() x n. Throws std::invalid_argument where a number is
   /// not finite, or so large that the layers give none that is.
   Eigen::MatrixXf act(const Eigen::Ref<const Eigen::MatrixXf>& observations) const {
     if (!observations.allFinite()) throw std::invalid_argument("observations: not finite; expected numbers");

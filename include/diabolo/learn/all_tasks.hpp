@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "diabolo/learn/flight_tasks.hpp"
+#include "diabolo/learn/level_task.hpp"
 #include "diabolo/learn/staged_tasks.hpp"
 #include "diabolo/learn/string_tasks.hpp"
 #include "diabolo/text/shown.hpp"
@@ -38,11 +39,11 @@ constexpr std::array<Task, sizeof...(Tasks)> listed() {
 
 }  // namespace learn_detail
 
-/// All tasks, the easy ones first. A new one is a struct with kInfo and judge(), and prepare() where it
-/// begins in a way of its own, and its name here.
+/// All tasks, the easy ones first, and then those of a free axle. A new one is a struct with kInfo and
+/// judge(), and prepare() where it begins in a way of its own, and its name here.
 inline constexpr std::array kTasks =
     learn_detail::listed<HoldTask, SwingTask, SpinUpTask, SpinUpCircleTask, HopTask, ThrowTask,
-                         ThrowAndCatchTask, PassTask, RoutineTask>();
+                         ThrowAndCatchTask, PassTask, RoutineTask, LevelTask>();
 
 /// The task of that name. Throws std::invalid_argument where there is none.
 inline const Task& task_named(std::string_view name) {

@@ -13,6 +13,7 @@
 
 #include "diabolo/batch/lanes.hpp"
 #include "diabolo/learn/arena_options.hpp"
+#include "diabolo/learn/free_axle.hpp"
 #include "diabolo/math/worker_pool.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/plan/hang_at_rest.hpp"
@@ -23,14 +24,14 @@ namespace diabolo {
 /// same bits alone and among others, with any number of threads. A step takes no memory.
 class Arena {
  public:
-  // One entry (observations: kObservationSize) for each environment, written by reset() and step().
+  // One entry (observations: observation_size(task())) for each environment, written by reset() and step().
   std::vector<float> observations, final_observations;
   std::vector<double> rewards;
   std::vector<std::uint8_t> terminated, truncated;
 
   /// Each episode draws its model from `models`, which have the same rules. Throws std::invalid_argument.
   Arena(const ArenaOptions& options, std::vector<Model> models, const BatchKernel& kernel)
-      : observations(options.count * kObservationSize),
+      : observations(options.count * observation_size(*task_named(options.task).info)),
         final_observations(observations),
         rewards(options.count),
         terminated(options.count),
@@ -41,6 +42,7 @@ class Arena {
         kernel_(kernel),
         workers_(options.threads),
         episodes_((options.validate(), options.count)),
+        free_(free_axis() ? options.count : 0),
         scratch_(workers_.threads(), std::vector<Tips<double>>(kMostLanes * tip_count())) {
     if (models_.empty()) throw std::invalid_argument("models: none; expected at least one");
     for (const Model& model : models_) {
@@ -63,6 +65,12 @@ class Arena {
   const HandLimits& limits() const { return options_.limits; }
   const TaskInfo& task() const { return *task_.info; }
   std::size_t count() const { return episodes_.size(); }
+  /// Whether each episode draws a free axle.
+  bool free_axis() const { return options_.free_axis || task().axle; }
+  /// What environment `i` plays with.
+  const AllEffects<double>& effects_of(std::size_t i) const {
+    return free_axis() ? free_.at(i) : models_[episodes_.at(i).model].effects;
+  }
   const Episode& episode(std::size_t i) const { return episodes_.at(i); }
 
   /// Environment `i` begins its episodes anew with this seed.
@@ -82,7 +90,7 @@ class Arena {
       if (!std::isfinite(number)) throw std::invalid_argument("goal: not finite; expected numbers");
     if (given.state && !is_finite_state(*given.state))
       throw std::invalid_argument("state: not finite; expected numbers");
-    begin(episode, given.model);
+    begin(i, given.model);
     if (given.goal) episode.goal = *given.goal;
     if (given.state) set_state(episode, *given.state);
     observe_into(observations, i);
@@ -130,7 +138,8 @@ class Arena {
                                   " m apart; expected at most " + shown(longest) + " m, as for the string");
   }
 
-  void begin(Episode& episode, const std::optional<std::size_t>& model = {}) const {
+  void begin(std::size_t i, const std::optional<std::size_t>& model = {}) {
+    Episode& episode = episodes_[i];
     Draw draw(episode.seed, episode.number);
     const std::uint64_t seed = episode.seed, number = episode.number + 1;
     episode = {};
@@ -160,6 +169,10 @@ class Arena {
       episode.memory.stage = start.stage;
       episode.memory.flights = start.flights;
     }
+    if (free_axis()) {
+      free_[i] = models_[episode.model].effects;
+      draw_free_axle(free_[i], draw);
+    }
     episode.draw = draw;
     set_state(episode, state);
   }
@@ -174,7 +187,8 @@ class Arena {
 
   void observe_into(std::vector<float>& to, std::size_t i) {
     const Episode& episode = episodes_[i];
-    observe(episode, task(), limits().centre, options_.camera.has_value(), to.data() + kObservationSize * i);
+    observe(episode, task(), limits().centre, options_.camera.has_value(),
+            to.data() + observation_size(task()) * i);
   }
 
   /// Environments [first, first + used) play a period, a lane each; unused lanes repeat the last one.
@@ -201,7 +215,7 @@ class Arena {
       }
       after[lane] = episode.state;
       block.parameters[lane] = &models_[episode.model].parameters;
-      block.effects[lane] = &models_[episode.model].effects;
+      block.effects[lane] = &effects_of(i);
       block.states[lane] = &after[lane];
       block.tips[lane] = path;
     }
@@ -217,7 +231,7 @@ class Arena {
     rewards[i] = 0.0;
     terminated[i] = truncated[i] = 0;
     if (episode.over) {
-      if (options_.autoreset == Autoreset::kNextStep) begin(episode);
+      if (options_.autoreset == Autoreset::kNextStep) begin(i);
       observe_into(observations, i);
       return;
     }
@@ -231,7 +245,8 @@ class Arena {
     if (!failed)
       worth = task_.judge(moment_of(episode, before, limits().centre, parameters.gravity, options_.period),
                           episode.memory);
-    if (options_.camera) episode.sight.look(*options_.camera, episode.state, options_.period, episode.draw);
+    if (options_.camera)
+      episode.sight.look(*options_.camera, episode.state, options_.period, task().axle, episode.draw);
     const bool lost =
         failed || (!worth.achieved && dropped(episode, limits().centre, parameters.string_length));
     episode.dropped = lost;
@@ -243,14 +258,9 @@ class Arena {
     episode.over = terminated[i] || truncated[i];
     if (episode.over && options_.autoreset == Autoreset::kSameStep) {
       observe_into(final_observations, i);
-      begin(episode);
+      begin(i);
     }
     observe_into(observations, i);
-  }
-
-  static bool is_finite_state(const State<double>& s) {
-    return s.position.allFinite() && s.velocity.allFinite() && std::isfinite(s.spin) &&
-           s.string_acceleration.allFinite();
   }
 
   static constexpr double kDropCosts = 1.0;
@@ -262,6 +272,7 @@ class Arena {
   BatchKernel kernel_;
   WorkerPool workers_;
   std::vector<Episode> episodes_;
+  std::vector<AllEffects<double>> free_;            ///< effects of each environment, where its axle is free
   std::vector<std::vector<Tips<double>>> scratch_;  ///< of each thread
 };
 

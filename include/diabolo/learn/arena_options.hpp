@@ -37,6 +37,7 @@ struct ArenaOptions {
   std::optional<Camera> camera{};      ///< none: an agent sees the exact state
   std::vector<EpisodeStart> starts{};  ///< that episodes may begin with
   double start_share = 0.0;            ///< of the episodes that do
+  bool free_axis = false;              ///< each episode draws a free axle (draw_free_axle) in every task
 
   /// Throws std::invalid_argument naming what is out of its range.
   void validate() const {

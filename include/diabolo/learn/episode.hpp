@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -40,6 +41,12 @@ struct EpisodeStart {
   std::optional<Goal> goal{};  ///< none: it is drawn
   int stage = 0, flights = 0;  ///< see Memory
 };
+
+/// Whether every number of it is.
+inline bool is_finite_state(const State<double>& s) {
+  return s.position.allFinite() && s.velocity.allFinite() && std::isfinite(s.spin) && s.axis.allFinite() &&
+         s.tumble.allFinite() && s.string_acceleration.allFinite();
+}
 
 /// What the string does to the diabolo where an episode begins: it carries what hangs on it [m/s^2].
 inline Vector3<double> first_pull(const State<double>& state, double gravity) {
@@ -93,11 +100,29 @@ inline constexpr std::array kObservations{
     ObservationInfo{"stage", "1", 1, "of a task that has several"},
 };
 
-inline constexpr std::size_t kObservationSize = [] {
+/// What an agent sees after these in a task that says so.
+inline constexpr std::array kAxleObservations{
+    ObservationInfo{"axle", "1", 3, "direction of the axle, forward"},
+    ObservationInfo{"axle_rate", "1/s", 3, "of that direction"},
+};
+
+namespace learn_detail {
+
+constexpr std::size_t size_of(const auto& infos) {
   std::size_t sum = 0;
-  for (const ObservationInfo& info : kObservations) sum += info.size;
+  for (const ObservationInfo& info : infos) sum += info.size;
   return sum;
-}();
+}
+
+}  // namespace learn_detail
+
+inline constexpr std::size_t kObservationSize = learn_detail::size_of(kObservations);  ///< without an axle
+inline constexpr std::size_t kAxleSize = learn_detail::size_of(kAxleObservations);
+
+/// How many numbers an agent sees of a task.
+constexpr std::size_t observation_size(const TaskInfo& task) {
+  return kObservationSize + (task.axle ? kAxleSize : 0);
+}
 
 /// Largest number of an observation.
 inline constexpr double kMostObserved = 1e3;
@@ -117,7 +142,7 @@ inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, co
           std::clamp((right - cosine * left) / determinant, 0.0, kMost) * sides[1]};
 }
 
-/// Writes kObservationSize numbers, none beyond kMostObserved. With `camera`, what it saw.
+/// Writes observation_size(task) numbers, none beyond kMostObserved. With `camera`, what it saw.
 inline void observe(const Episode& episode, const TaskInfo& task, const Vector3<double>& centre, bool camera,
                     float* to) {
   const auto put = [&to](double x) {
@@ -129,7 +154,7 @@ inline void observe(const Episode& episode, const TaskInfo& task, const Vector3<
   const State<double>& state = episode.state;
   const auto& [left, right] = episode.hands.position;
   const Hands::Pair forces = tip_forces(state, episode.hands, episode.pull);
-  const Seen seen = camera ? episode.sight.seen() : Seen{state.position, state.velocity, state.spin};
+  const Seen seen = camera ? episode.sight.seen() : seen_exactly(state);
   constexpr double kFelt = 0.05;  // [weights]
   const StringState string = !camera                    ? state.string_state
                              : forces[0].norm() > kFelt ? StringState::kOnString
@@ -146,6 +171,9 @@ inline void observe(const Episode& episode, const TaskInfo& task, const Vector3<
   put(episode.memory.flights);
   for (const Vector3<double>& force : forces) put3(force);
   put(episode.memory.stage);
+  if (!task.axle) return;
+  put3(seen.axis);
+  put3(seen.axis_rate);
 }
 
 /// Whether nobody can catch it any more: it flies far below the tips, or it is far from the box.

@@ -48,21 +48,21 @@ class LiveAgent {
   /// their accelerations are constant (tips_between). Throws std::invalid_argument where a number is not
   /// finite.
   const Hands& act(const State<double>& state) {
-    if (!state.position.allFinite() || !state.velocity.allFinite() || !std::isfinite(state.spin))
-      throw std::invalid_argument("state: not finite; expected numbers");
+    if (!is_finite_state(state)) throw std::invalid_argument("state: not finite; expected numbers");
     const State<double> before = episode_.periods > 0 ? episode_.state : state;
     episode_.state = state;
     if (episode_.periods++ > 0) {
       episode_.pull = mean_pull(episode_, before, options_.gravity, agent_.period);
       task_.judge(moment_of(episode_, before, options_.limits.centre, options_.gravity, agent_.period),
                   episode_.memory);
-      if (options_.camera) episode_.sight.look(*options_.camera, state, agent_.period, episode_.draw);
+      if (options_.camera)
+        episode_.sight.look(*options_.camera, state, agent_.period, task_.info->axle, episode_.draw);
     } else {
       episode_.rest = state.position;
       episode_.pull = first_pull(state, options_.gravity);
       if (options_.camera) episode_.sight = Sight(*options_.camera, state, episode_.draw);
     }
-    Eigen::VectorXf seen(static_cast<Eigen::Index>(kObservationSize));
+    Eigen::VectorXf seen(agent_.policy.inputs());
     observe(episode_, *task_.info, options_.limits.centre, options_.camera.has_value(), seen.data());
     const Eigen::MatrixXf action = agent_.policy.act(seen);
     move_hands(episode_.hands, action.data(), options_.limits, options_.string_length, agent_.period);

@@ -33,6 +33,7 @@ struct TaskInfo {
   double seconds;                          ///< an episode is cut off then
   std::array<GoalInfo, kMostGoalNumbers> goal{};
   double least_spin = 60.0, most_spin = 120.0;  ///< of the diabolo at first [rad/s]
+  bool axle = false;  ///< its axle is free (draw_free_axle), and seen after the usual numbers
 };
 
 /// What an episode remembers beyond the state.
@@ -40,8 +41,9 @@ struct Memory {
   std::optional<double> progress{};  ///< the last potential of a shaped reward
   double apex = 0.0;                 ///< highest place of the last flight, above the box's centre [m]
   double aloft = 0.0, caught = 0.0;  ///< time since it left the string, and since it was caught [s]
-  int flights = 0;                   ///< that ended in a catch
-  int stage = 0;                     ///< of a task that has several
+  double level = 0.0;  ///< how long the axle has been level by now, in a task that levels it [s]
+  int flights = 0;     ///< that ended in a catch
+  int stage = 0;       ///< of a task that has several
   bool flying = false;
 };
 

@@ -29,9 +29,10 @@ struct Aim {
 };
 
 inline const std::array<Aim, 3>& aims() {
-  static const std::array<Aim, 3> all{{{"height", {"hop", "throw", "side_throw", kThrowAndCatch}},
-                                       {"sideways", {"swing", "side_throw", kThrowAndCatch}},
-                                       {"spin_gain", {"linear_acceleration", "circular_acceleration"}}}};
+  static const std::array<Aim, 3> all{
+      {{"height", {"hop", "throw", "side_throw", kThrowAndCatch}},
+       {"sideways", {"swing", "side_throw", kThrowAndCatch}},
+       {"spin_gain", {"linear_acceleration", "wind_up", "one_turn_low", "circular_acceleration"}}}};
   return all;
 }
 

@@ -9,8 +9,8 @@ namespace diabolo {
 
 /// What hands may do to level the axle.
 struct LevelHandLimits {
-  double lead = 0.9;       ///< of the hands before the heading [rad]
-  double turn = 1.0;       ///< rate of the heading [rad/s]
+  double lead = 0.9;        ///< of the hands before the heading [rad]
+  double turn = 1.0;        ///< rate of the heading [rad/s]
   double quickness = 10.0;  ///< of the hands: they follow what is wanted with this rate [1/s]
 };
 

@@ -59,15 +59,19 @@ struct ActionOptions {
 };
 
 /// The names of the actions, as for action_named(); for the catch of a throw see catch_action().
-inline constexpr std::array<std::string_view, 7> kActionNames{
-    "linear_acceleration", "circular_acceleration", "swing", "hop", "throw", "side_throw", "stop"};
+inline constexpr std::array<std::string_view, 9> kActionNames{
+    "linear_acceleration", "wind_up", "one_turn_low", "circular_acceleration", "swing", "hop", "throw",
+    "side_throw",          "stop"};
 
 /// Where the tips start a figure whose name is one of kActionNames, for a string of the given length: the
-/// authors' poses, scaled with the string; left over right [m].
+/// authors' poses, scaled with the string, and close together where the string has a turn; left over right
+/// [m].
 inline TipColumn<double> home_pose(std::string_view action, double string_length) {
   const double s = string_length / kAuthorsStringLength;
   if (action == "linear_acceleration")
     return plan_detail::tips_column(0.55, 0.265 * s, 1.25 + 0.076 * s, -0.265 * s, 1.25 - 0.076 * s);
+  if (action == "wind_up") return plan_detail::tips_column(0.55, 0.11 * s, 1.25, -0.11 * s, 1.25);
+  if (action == "one_turn_low") return plan_detail::tips_column(0.55, 0.11 * s, 1.0, -0.11 * s, 1.0);
   if (action == "circular_acceleration")
     return plan_detail::tips_column(0.55, 0.21 * s, 1.25, -0.28 * s, 1.25);
   if (action == "throw" || action == "side_throw")
@@ -91,6 +95,24 @@ inline StickSpline<double> linear_acceleration_seed(const TipColumn<double>& hom
        tips_column(0.0, -0.155, -0.272, -0.163, 0.535), tips_column(0.0, 0.041, -0.083, -0.188, 0.532),
        tips_column(0.0, 0.161, 0.247, 0.073, 0.062), TipColumn<double>::Zero()},
       size, pace);
+}
+
+/// For a string with one turn (Parameters::wraps): the right hand pulls, which the left one follows, and both
+/// go back while the diabolo all but falls, so that the string slips back without pull. (Found by a random
+/// walk with string frictions of 0.2 to 0.3: at 60 rad/s a cycle gains 8 rad/s.)
+inline StickSpline<double> wind_up_seed(const TipColumn<double>& home, double size, double pace) {
+  return through(home, {0.134, 0.218, 0.371},
+                 {tips_column(0.0, 0.002, -0.143, -0.065, 0.099),
+                  tips_column(0.0, -0.051, -0.142, -0.047, 0.211), TipColumn<double>::Zero()},
+                 size, pace);
+}
+
+/// The same with small strokes of hands that are held low. (Found likewise.)
+inline StickSpline<double> one_turn_low_seed(const TipColumn<double>& home, double size, double pace) {
+  return through(home, {0.116, 0.212, 0.346},
+                 {tips_column(0.0, -0.015, -0.046, 0.043, -0.028),
+                  tips_column(0.0, -0.08, -0.08, -0.016, 0.1), TipColumn<double>::Zero()},
+                 size, pace);
 }
 
 /// The hands go around, and the diabolo up on the left, over to the right and down. (Found likewise: repeated
@@ -161,6 +183,13 @@ inline Action action_named(std::string_view name, const TipColumn<double>& tips,
     action.seed =
         plan_detail::linear_acceleration_seed(tips, options.size * string_length / 1.45, options.pace);
     action.goals.tolerances.taut = 0.6;
+    spin_up();
+  } else if (name == "wind_up") {
+    action.seed = plan_detail::wind_up_seed(tips, options.size * string_length / 1.45, options.pace);
+    action.goals.tolerances.taut = 0.6;
+    spin_up();
+  } else if (name == "one_turn_low") {
+    action.seed = plan_detail::one_turn_low_seed(tips, options.size * string_length / 1.45, options.pace);
     spin_up();
   } else if (name == "circular_acceleration") {
     action.seed =

@@ -46,6 +46,7 @@ template <class Scalar>
   const Scalar before = StringPath<Scalar>(step.position, step.begin).imbalance();
   result.passed = select(where, Scalar(Scalar(0.5) * (path.imbalance() - before)), result.passed);
   const Vector3<Scalar> pull = (velocity * limit - arriving) * Scalar(Scalar(1) / step.dt);
+  result.tension = select(where, Scalar(norm<Scalar>(pull) / norm<Scalar>(gradient)), result.tension);
   result.string_acceleration = select<Scalar>(where, pull, result.string_acceleration);
 }
 

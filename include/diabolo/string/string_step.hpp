@@ -84,9 +84,18 @@ struct StringStepResult {
   Vector3<Scalar> string_acceleration;  ///< mean of the string's part over the step [m/s^2]; 0 when slack
   Scalar slack{0};                      ///< string length minus path length [m], near the end of the step
   Scalar gradient_squared{0};           ///< |gradient of the path length|^2 there
-  Scalar passed{0};  ///< string that has passed the axle from the left strand to the right one [m]
+  Scalar tension{0};  ///< of both strands over mass, mean over the step, without friction [m/s^2]
+  Scalar passed{0};   ///< string that has passed the axle from the left strand to the right one [m]
   Mask<Scalar> taut{false}, snapped_taut{false};
 };
+
+/// The string that has passed the axle, to the last bit of the position; the search for the string's pull
+/// says it as of its last iterate but one.
+template <class Scalar>
+void measure_passing(const StringStep<Scalar>& step, StringStepResult<Scalar>& result) {
+  result.passed = Scalar(0.5) * (StringPath<Scalar>(result.position, step.end).imbalance() -
+                                 StringPath<Scalar>(step.position, step.begin).imbalance());
+}
 
 /// Energy per mass that a step may be wrong by [J/kg].
 template <class Scalar>

@@ -131,6 +131,7 @@ template <bool kElastic, class Scalar>
   result.velocity = arriving - string_impulse;
   result.position = search.free + found.shift;
   result.string_acceleration = string_impulse * Scalar(-inverse_dt);
+  result.tension = maximum(Scalar(impulse + removed), Scalar(0)) * inverse_dt;
   return result;
 }
 
@@ -148,13 +149,15 @@ template <bool kElastic, class Scalar>
   const Vector3<Scalar> velocity = select<Scalar>(where, leaving, arriving);
   const StringStep<Scalar> rest =
       step.rest(position, velocity, tips, maximum(Scalar(step.dt - t), Scalar(Scalar(1e-6) * step.dt)));
-  const Scalar passed_before = StringPath<Scalar>(position, tips).imbalance() -
-                               StringPath<Scalar>(step.position, step.begin).imbalance();
+  const StringPath<Scalar> path(position, tips);
+  const Scalar passed_before = path.imbalance() - StringPath<Scalar>(step.position, step.begin).imbalance();
   StringStepResult<Scalar> result = advance_on_string<kElastic>(rest, captured);
   result.passed += Scalar(0.5) * passed_before;
   const Vector3<Scalar> impulse = result.string_acceleration * rest.dt + (velocity - arriving);
   result.string_acceleration =
       select<Scalar>(where, impulse * Scalar(Scalar(1) / step.dt), result.string_acceleration);
+  const Scalar caught = norm<Scalar>(velocity - arriving) / norm<Scalar>(path.gradient());
+  result.tension = select(where, Scalar((result.tension * rest.dt + caught) / step.dt), result.tension);
   result.snapped_taut = where;
   return result;
 }

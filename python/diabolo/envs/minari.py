@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from .._core import Agent, __version__
 from ..checks import check_library, shown
 from .playing import Acting, Transition, play
-from .spaces import ACTION, OBSERVATION
+from .spaces import ACTION, observation_space
 
 if TYPE_CHECKING:
     from minari.data_collector import EpisodeBuffer
@@ -102,7 +102,7 @@ def _write(name: str, folder: Path, episodes: list[EpisodeBuffer], spec: EnvSpec
                 name,
                 episodes,
                 env=spec,
-                observation_space=OBSERVATION,
+                observation_space=observation_space(spec.kwargs["task"]),
                 action_space=ACTION,
                 description=f"{spec.name} of diabolo {__version__}",
                 requirements=[f"diabolo=={__version__}"],

@@ -11,7 +11,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv
 
-from .spaces import ACTION, OBSERVATION, AnyModels
+from .spaces import ACTION, AnyModels
 from .vector import DiaboloVectorEnv
 
 
@@ -33,7 +33,7 @@ class DiaboloVecEnv(VecEnv):  # type: ignore[misc]
         self._actions: NDArray[np.float32] | None = None
         self._return, self._length = np.zeros(num_envs), np.zeros(num_envs, int)
         self.render_mode = None
-        super().__init__(num_envs, OBSERVATION, ACTION)
+        super().__init__(num_envs, self._many.single_observation_space, ACTION)
 
     def reset(self) -> NDArray[np.float32]:
         """Begin episodes of all, with the seeds of seed() where it was called."""

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from .._core import Arena, Camera, EpisodeStart, HandLimits, State
 from ..checks import LARGEST_SEED, list_of, numbers, shown, whole_number
 from .picture import picture
-from .spaces import ACTION, OBSERVATION, AnyModels, camera_of, models_of, options_of
+from .spaces import ACTION, AnyModels, camera_of, models_of, observation_space, options_of
 
 
 class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
@@ -26,6 +26,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     difficulty: "easy", the exact state is seen; "real", what a Camera() sees; "sealed", that, of models
         that a diagnosis leaves open; or a Camera of one's own.
     starts: what a share of the episodes begins with, start_share of them.
+    free_axis: each episode draws a rigid axle that the string turns, which "Level" does anyhow.
     render_mode: "rgb_array" lets render() draw (`pip install '.[plot]'`).
 
     Raises ValueError about bad input, also for actions that are not numbers.
@@ -33,7 +34,6 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 100}  # noqa: RUF012 (an instance's, by Gymnasium's declaration)
     action_space = ACTION
-    observation_space = OBSERVATION
 
     def __init__(
         self,
@@ -46,6 +46,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         difficulty: str | Camera = "easy",
         starts: Sequence[EpisodeStart] = (),
         start_share: float = 0.0,
+        free_axis: bool = False,
         render_mode: str | None = None,
     ) -> None:
         if render_mode not in (None, "rgb_array"):
@@ -63,7 +64,9 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             camera=camera_of(difficulty),
             starts=list_of("starts", starts, (EpisodeStart,)),
             start_share=start_share,
+            free_axis=free_axis,
         )
+        self.observation_space = observation_space(task)
         self.metadata = {**self.metadata, "render_fps": round(1.0 / period)}
         arena = self._arena
         self._observation, self._reward = arena.observations[0], arena.rewards
@@ -108,7 +111,8 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def outcome(self) -> dict[str, Any]:
         """What the episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin
-        and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
+        and spin [rad/s], flights that ended in a catch, apex [m] of the last, level (how long the axle of
+        "Level" has been within 5 degrees by now [s]), goal, model."""
         self._expect_begun("outcome")
         return dict(self._arena.outcome(0))
 

@@ -30,11 +30,14 @@ AnyModels: TypeAlias = Model | Parameters | Sequence[Model | Parameters] | None
 
 ACTION = Box(-1.0, 1.0, (6,), np.float32)
 """Shares of the tips' largest accelerations along x, y and z: left, then right."""
-OBSERVATION = Box(-1e3, 1e3, (sum(info["size"] for info in observation_infos()),), np.float32)
-"""See diabolo.envs.observation_infos()."""
 
 OPTIONS = ("state", "goal", "model")
 DIFFICULTIES = ("easy", "real", "sealed")
+
+
+def observation_space(task: str) -> Box:
+    """What an agent sees of a task: see diabolo.envs.observation_infos()."""
+    return Box(-1e3, 1e3, (sum(info["size"] for info in observation_infos(task)),), np.float32)
 
 
 def usual_model() -> Model:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._core import Arena, Camera, EpisodeStart, HandLimits, State
 from ..checks import LARGEST_SEED, MOST_THREADS, list_of, shown, whole_number
-from .spaces import ACTION, OBSERVATION, AnyModels, camera_of, models_of, options_of
+from .spaces import ACTION, AnyModels, camera_of, models_of, observation_space, options_of
 
 Floats = NDArray[np.float32]
 MOST_ENVS = 2**20
@@ -49,6 +49,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         difficulty: str | Camera = "easy",
         starts: Sequence[EpisodeStart] = (),
         start_share: float = 0.0,
+        free_axis: bool = False,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         copy: bool = True,
         threads: int = 0,
@@ -63,9 +64,8 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             names = ", ".join(repr(one.value) for one in AutoresetMode)
             raise ValueError(f"autoreset_mode: {shown(autoreset_mode)}; expected one of {names}") from None
         self.metadata = {"render_modes": [], "autoreset_mode": mode}
-        self.single_action_space, self.single_observation_space = ACTION, OBSERVATION
+        self.single_action_space = ACTION
         self.action_space = batch_space(ACTION, self.num_envs)
-        self.observation_space = batch_space(OBSERVATION, self.num_envs)
         models = models_of(model, difficulty)
         self._models, self._mode, self._copy = len(models), mode, copy
         whole_number("threads", threads, 0, MOST_THREADS)
@@ -81,7 +81,10 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             camera_of(difficulty),
             list_of("starts", starts, (EpisodeStart,)),
             start_share,
+            free_axis,
         )
+        self.single_observation_space = observation_space(task)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self._arena, self._begun = arena, np.zeros(self.num_envs, bool)
         self._observations, self._final = arena.observations, arena.final_observations
         self._rewards = arena.rewards
