@@ -39,7 +39,7 @@ class Spread(NamedTuple):
 class ProcessNoise(NamedTuple):
     """What the model does not know. The first three are white: their effect grows with the root of time."""
 
-    acceleration: float = 0.1
+    acceleration: float = 0.05
     """Unknown, of the diabolo [m/s^2/sqrt(Hz)]: [m/s] after a second."""
     spin: float = 2.0
     """Unknown, of the spin [rad/s^2/sqrt(Hz)]."""

@@ -25,7 +25,7 @@ struct Spread {
 
 /// What the model does not know. The first three are white: their effect grows with the root of time.
 struct ProcessNoise {
-  double acceleration = 0.1;    ///< unknown, of the diabolo [m/s^2/sqrt(Hz)]: [m/s] after a second
+  double acceleration = 0.05;   ///< unknown, of the diabolo [m/s^2/sqrt(Hz)]: [m/s] after a second
   double spin = 2.0;            ///< unknown, of the spin [rad/s^2/sqrt(Hz)]
   double axle = 0.02;           ///< unknown turning of the axle [rad/s/sqrt(Hz)]
   double tension = 0.05;        ///< of a strand's tension, a share of it
