@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -71,6 +72,16 @@ struct State {
   /// alone looks at it and changes it.
   Scalar turns{0};
 };
+
+/// Most turns that a string of play has around the axle, either way.
+inline constexpr double kMostTurns = 10.0;
+
+/// Whether every number of it is finite.
+inline bool is_finite(const State<double>& state) {
+  return state.position.allFinite() && state.velocity.allFinite() && state.axis.allFinite() &&
+         state.string_acceleration.allFinite() && state.tumble.allFinite() && std::isfinite(state.spin) &&
+         std::isfinite(state.turns);
+}
 
 /// What happened in one step.
 template <class Scalar>

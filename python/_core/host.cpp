@@ -12,6 +12,7 @@
 #include "diabolo/hosts/attach.hpp"
 #include "diabolo/model.hpp"
 
+#include "state.hpp"
 #include "step_tips.hpp"
 
 namespace diabolo::python {
@@ -86,7 +87,10 @@ StringMemory memory_of(const Array& numbers) {
   const double* n = numbers.data();
   if (n[6] != 0.0 && n[6] != 1.0 && n[6] != 2.0)
     throw std::invalid_argument("memory[6]: " + std::to_string(n[6]) + "; expected a state 0, 1 or 2");
-  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, static_cast<StringState>(static_cast<int>(n[6])), n[7]};
+  return {{n[0], n[1], n[2]},
+          {n[3], n[4], n[5]},
+          static_cast<StringState>(static_cast<int>(n[6])),
+          to_turns(n[7])};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "bindings.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/plan/level_hands.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo::python {
 
@@ -15,23 +16,12 @@ namespace {
 
 using namespace py::literals;
 
-double positive(double value, const char* name, const char* unit) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw std::invalid_argument(std::string(name) + ": " + std::to_string(value) + " " + unit +
-                                "; expected a positive number");
-  return value;
-}
-
 LevelHands make_level_hands(const Model& model, const Array& left, const Array& right, double spin,
                             double lead, double turn, double quickness) {
   Tips<double> home;
   home.left = to_vector3(left, "left");
   home.right = to_vector3(right, "right");
-  if (!((home.left - home.right).norm() < model.parameters.string_length))
-    throw std::invalid_argument("left, right: " + std::to_string((home.left - home.right).norm()) +
-                                " m apart; expected less than the string's length");
-  const LevelHandLimits limits{positive(lead, "lead", "rad"), positive(turn, "turn", "rad/s"),
-                               positive(quickness, "quickness", "1/s")};
+  const LevelHandLimits limits{lead, turn, quickness};
   return {FullPredictor<double>(model.parameters, model.effects), home, spin, {}, limits};
 }
 
@@ -74,8 +64,13 @@ the model, learnt anew where the spin has changed by a tenth. The model needs a 
       .def("see", &see, "axis"_a, "spin"_a,
            "Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s].")
       .def(
-          "advance", [](LevelHands& hands, double dt) { hands.advance(positive(dt, "dt", "s")); }, "dt"_a,
-          "Let the hands follow for `dt` [s].")
+          "advance",
+          [](LevelHands& hands, double dt) {
+            if (!(dt > 0.0) || !std::isfinite(dt))
+              throw std::invalid_argument("dt: " + shown(dt) + " s; expected a positive number");
+            hands.advance(dt);
+          },
+          "dt"_a, "Let the hands follow for `dt` [s].")
       .def("tips", &level_tips, "left"_a, "right"_a, "left_velocity"_a = zero, "right_velocity"_a = zero,
            R"(The motion's tips [m] and their velocities [m/s] as these hands play them now.
 

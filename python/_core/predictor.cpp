@@ -40,8 +40,7 @@ Step step(const Simulator& predictor, State<double>& state, const Array& left0, 
   const StepTips tips(left0, right0, left1, right1, dt, velocities, directions, time);
   State<double> next = state;
   const StepStatus<double> status = predictor.step(next, tips.begin, tips.end, dt);
-  if (!next.position.allFinite() || !next.velocity.allFinite() || !std::isfinite(next.spin) ||
-      !std::isfinite(next.turns)) {
+  if (!is_finite(next)) {
     PyErr_SetString(PyExc_FloatingPointError, "step: the state is no longer finite");
     throw py::error_already_set();
   }

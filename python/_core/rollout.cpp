@@ -12,6 +12,7 @@
 #include "bindings.hpp"
 #include "diabolo/model.hpp"
 #include "interrupt.hpp"
+#include "state.hpp"
 
 #include "effects.hpp"
 
@@ -32,7 +33,7 @@ py::array_t<T> to_array(std::vector<T>&& numbers, const std::vector<py::ssize_t>
 }
 
 std::vector<State<double>> to_states(const Array& initial, const Codes& string_states) {
-  expect_shape(initial, "initial", {kAny, 10});
+  expect_shape(initial, "initial", {kAny, 14});
   expect_finite(initial, "initial");
   expect_shape(string_states, "string_states", {initial.shape(0)});
   std::vector<State<double>> states(static_cast<std::size_t>(initial.shape(0)));
@@ -45,8 +46,11 @@ std::vector<State<double>> to_states(const Array& initial, const Codes& string_s
     state.velocity = {from[3], from[4], from[5]};
     state.spin = from[6];
     state.axis = {from[7], from[8], from[9]};
+    state.tumble = {from[10], from[11], from[12]};
+    state.turns = to_turns(from[13]);
+    check_tumble(state.tumble, state.axis);
     state.string_state = static_cast<StringState>(*code);
-    from += 10;
+    from += 14;
     ++code;
   }
   return states;

@@ -8,6 +8,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "diabolo/text/shown.hpp"
 #include "fields.hpp"
 
 namespace diabolo::python {
@@ -17,6 +18,7 @@ namespace {
 using namespace py::literals;
 using S = State<double>;
 
+constexpr double kFastestTumble = 1e4;  // [rad/s]
 constexpr std::array<const char*, 3> kNames{"on_string", "loose", "flying"};
 
 Vector3<double> to_axis(const Array& array) {
@@ -28,30 +30,45 @@ Vector3<double> to_axis(const Array& array) {
 
 Vector3<double> to_tumble(const Array& array, const Vector3<double>& axis) {
   const Vector3<double> tumble = to_vector3(array, "tumble");
-  if (!(std::abs(tumble.dot(axis)) <= 1e-6 * (1.0 + tumble.norm())))
-    throw std::invalid_argument("tumble: " + std::to_string(tumble.dot(axis)) +
-                                " rad/s about the axis; expected an angular velocity square to it");
+  check_tumble(tumble, axis);
   return tumble;
+}
+
+double to_spin(double spin) {
+  if (!std::isfinite(spin))
+    throw std::invalid_argument("spin: " + shown(spin) + " rad/s; expected a finite number");
+  return spin;
 }
 
 S make_state(const Array& position, const Array& velocity, double spin, const py::object& string_state,
              const Array& axis, const Array& tumble, double turns) {
-  if (!std::isfinite(spin))
-    throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
-  if (!std::isfinite(turns))
-    throw std::invalid_argument("turns: " + std::to_string(turns) + "; expected a finite number");
   S state;
   state.position = to_vector3(position, "position");
   state.velocity = to_vector3(velocity, "velocity");
-  state.spin = spin;
+  state.spin = to_spin(spin);
   state.string_state = string_state_from_python(string_state);
   state.axis = to_axis(axis);
   state.tumble = to_tumble(tumble, state.axis);
-  state.turns = turns;
+  state.turns = to_turns(turns);
   return state;
 }
 
 }  // namespace
+
+double to_turns(double turns) {
+  if (!(std::abs(turns) <= kMostTurns))
+    throw std::invalid_argument("turns: " + shown(turns) + "; expected -10 to 10");
+  return turns;
+}
+
+void check_tumble(const Vector3<double>& tumble, const Vector3<double>& axis) {
+  if (!(tumble.norm() <= kFastestTumble))
+    throw std::invalid_argument("tumble: " + shown(tumble.norm()) + " rad/s; expected at most " +
+                                shown(kFastestTumble));
+  if (!(std::abs(tumble.dot(axis)) <= 1e-6 * (1.0 + tumble.norm())))
+    throw std::invalid_argument("tumble: " + shown(tumble.dot(axis)) +
+                                " rad/s about the axis; expected an angular velocity square to it");
+}
 
 Array state_array(const S& state) {
   Array array(7);
@@ -102,12 +119,7 @@ the strands show. Only `Parameters.follow_turns` looks at it and changes it.)")
           "velocity", [](const S& s) { return from_vector3(s.velocity); },
           [](S& s, const Array& value) { s.velocity = to_vector3(value, "velocity"); }, "[m/s], shape (3,).")
       .def_property(
-          "spin", [](const S& s) { return s.spin; },
-          [](S& s, double value) {
-            s = make_state(from_vector3(s.position), from_vector3(s.velocity), value,
-                           string_state_to_python(s.string_state), from_vector3(s.axis),
-                           from_vector3(s.tumble), s.turns);
-          },
+          "spin", [](const S& s) { return s.spin; }, [](S& s, double value) { s.spin = to_spin(value); },
           "[rad/s]")
       .def_property(
           "string_state", [](const S& s) { return string_state_to_python(s.string_state); },
@@ -125,12 +137,7 @@ the strands show. Only `Parameters.follow_turns` looks at it and changes it.)")
           [](S& s, const Array& value) { s.tumble = to_tumble(value, s.axis); },
           "Angular velocity of the axle itself, square to it [rad/s], shape (3,).")
       .def_property(
-          "turns", [](const S& s) { return s.turns; },
-          [](S& s, double value) {
-            if (!std::isfinite(value))
-              throw std::invalid_argument("turns: " + std::to_string(value) + "; expected a finite number");
-            s.turns = value;
-          },
+          "turns", [](const S& s) { return s.turns; }, [](S& s, double value) { s.turns = to_turns(value); },
           "Of the string around the axle beyond Parameters.wraps, the pass under it counted.")
       .def_property_readonly(
           "string_acceleration", [](const S& s) { return from_vector3(s.string_acceleration); },

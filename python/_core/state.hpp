@@ -18,4 +18,10 @@ StringState string_state_from_python(const pybind11::object& state);
 /// Position [m], velocity [m/s] and spin [rad/s], shape (7,).
 Array state_array(const State<double>& state);
 
+/// Throws std::invalid_argument where a tumble [rad/s] is too fast for play or not square to the axis.
+void check_tumble(const Vector3<double>& tumble, const Vector3<double>& axis);
+
+/// The given turns of the string; throws std::invalid_argument where they are more than those of play.
+double to_turns(double turns);
+
 }  // namespace diabolo::python

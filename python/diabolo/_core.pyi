@@ -1895,10 +1895,13 @@ class Camera:
   """
   How an agent sees the diabolo: with noise, late, and not in every frame. A frame is a period.
   
-  noise [m] of each coordinate and spin_noise [rad/s], standard deviations; dropouts: share of the frames in which
+  noise [m] of each coordinate, spin_noise [rad/s] and axle_noise of each coordinate of the axle's direction, where that
+  is seen: standard deviations; dropouts: share of the frames in which
   nothing is seen; least_delay to most_delay [frames]: each episode draws one.
   """
-  def __init__(self, noise: _Real = 0.001, spin_noise: _Real = 1.0, dropouts: _Real = 0.02, least_delay: _Whole = 1, most_delay: _Whole = 3) -> None: ...
+  def __init__(self, noise: _Real = 0.001, spin_noise: _Real = 1.0, dropouts: _Real = 0.02, least_delay: _Whole = 1, most_delay: _Whole = 3, axle_noise: _Real = 0.01) -> None: ...
+  @property
+  def axle_noise(self) -> float: ...
   @property
   def dropouts(self) -> float: ...
   @property
@@ -1914,11 +1917,11 @@ class EpisodeStart:
   def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[_Real] | None = None, stage: _Whole = 0, flights: _Whole = 0) -> None: ...
 class Arena:
   """Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites."""
-  def __init__(self, task: str, models: collections.abc.Sequence[Model], count: _Whole = 1, period: _Real = 0.01, steps: _Whole = 10, autoreset: str = 'next_step', threads: _Whole = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: _Real = 0.0) -> None: ...
+  def __init__(self, task: str, models: collections.abc.Sequence[Model], count: _Whole = 1, period: _Real = 0.01, steps: _Whole = 10, autoreset: str = 'next_step', threads: _Whole = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: _Real = 0.0, free_axis: bool = False) -> None: ...
   def model_of(self, environment: _Whole) -> int:
     """Number of the model that it plays with."""
   def outcome(self, environment: _Whole) -> dict:
-    """What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, goal, model."""
+    """What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, level (how long the axle has been level by now [s], in a task that levels it), goal, model."""
   def pose(self, environment: _Whole) -> tuple:
     """State of the diabolo, left tip and right tip."""
   def reset(self, environment: _Whole, state: State | None = None, goal: collections.abc.Sequence[_Real] | None = None, model: _Whole | None = None) -> None:
@@ -2417,8 +2420,8 @@ def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
   """The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's."""
 def model_for(model: Model, recording: Recording) -> Model:
   """See diabolo.model_for."""
-def observation_infos() -> list:
-  """What an agent sees: name, unit, size and meaning."""
+def observation_infos(task: str | None = None) -> list:
+  """What an agent sees: name, unit, size and meaning. Of a task, with what it adds to the usual ones."""
 def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: _Whole, seconds: _Real, random_seed: _Whole, dt: _Real) -> Plan:
   """See diabolo.plan."""
 def plan_action(action: str, models: collections.abc.Sequence[Model], start: State | None, cycles: _Whole, spin: _Real, size: _Real, pace: _Real, height: _Real | None, sideways: _Real | None, spin_gain: _Real | None, limits: TipLimits, solver: str, seconds: _Real, random_seed: _Whole, dt: _Real, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]) -> PlannedPlay:

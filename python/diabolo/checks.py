@@ -24,6 +24,7 @@ AnyRecording: TypeAlias = Recording | str | os.PathLike[str]
 """A recording, or the name of its file."""
 
 LARGEST_SEED = 2**63 - 1
+MOST_CYCLES = 1000  # of a figure in a row
 MOST_THREADS = 2**31 - 1
 LONGEST_SHOWN = 60
 LONGEST_PATH = 4096

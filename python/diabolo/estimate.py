@@ -158,7 +158,9 @@ class Estimator:
     def tensions(self, left: float, right: float, *, noise: float = 0.1, time: float | None = None) -> str:
         """Take the tensions of the strands alone [N]; `noise` and `time` as for `forces`."""
         return str(
-            self._own.take_tensions(number("left", left), number("right", right), number("noise", noise), time)
+            self._own.take_tensions(
+                number("left", left), number("right", right), number("noise", noise), time
+            )
         )
 
     def torques(
@@ -225,4 +227,3 @@ def _pair(name: str, given: Pair) -> tuple[ArrayLike, ArrayLike]:
     if len(given) != 2:
         raise ValueError(f"{name}: {shown(given)}; expected one of the left and one of the right side")
     return given[0], given[1]
-

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import TipMotion, TipPath, action, hanging_state, home_pose
+from .checks import MOST_CYCLES, number, whole_number
 
 HEIGHT, FORWARD, HALF_SPAN = 1.0, 0.5, 0.3  # where the hands rest [m]
 _RATE = 240.0  # samples of a motion per second
@@ -55,8 +56,8 @@ def one_turn_low(duration: float) -> TipMotion:
 def cycles_of(figure: str, cycles: int, string_length: float = 1.45) -> TipPath:
     """The seed motion of a figure of `diabolo.plan_action`, so many times in a row, from its home; nothing is
     planned. Raises ValueError where there is no such figure."""
-    if cycles < 1:
-        raise ValueError(f"cycles: {cycles}; expected at least one")
+    cycles = whole_number("cycles", cycles, 1, MOST_CYCLES)
+    string_length = number("string_length", string_length)
     left, right = home_pose(figure, string_length)
     start = hanging_state(left, right, string_length, 0.0)
     cycle = action(figure, left, right, start, string_length).seed.path()

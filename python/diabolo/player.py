@@ -27,6 +27,7 @@ from ._core import (
 )
 from .checks import (
     LARGEST_SEED,
+    MOST_CYCLES,
     AnyRecording,
     instance_of,
     is_several,
@@ -46,7 +47,6 @@ SOLVERS: tuple[str, ...] = get_args(Solver)
 
 ACTIONS: tuple[str, ...] = PLANNED_ACTIONS
 """What `plan_action` knows."""
-MOST_CYCLES = 1000
 WANTED: dict[str, tuple[str, ...]] = AIMS
 """What may be wanted of which action."""
 

@@ -92,6 +92,8 @@ def rollout(
     begin: float | None = None,
     string_state: AnyStringState | ArrayLike = StringState.LOOSE,
     axis: ArrayLike = (1.0, 0.0, 0.0),
+    tumble: ArrayLike = (0.0, 0.0, 0.0),
+    turns: ArrayLike = 0.0,
     record_every: int = 1,
     threads: int = 0,
     forces: bool = False,
@@ -106,6 +108,8 @@ def rollout(
     begin: time of the initial state within the tip motions [s]; by default where the first one begins.
     string_state: of the initial state; one for all or an array of the shape (N,).
     axis: the axle's direction, which matters to MagnusLift and GyroscopicTilt, shape (3,) or (N, 3).
+    tumble: the axle's angular velocity, square to it [rad/s], shape (3,) or (N, 3), as in State.
+    turns: of the string around the axle, as in State; one for all or an array of the shape (N,).
     record_every: a frame after each so many steps; `steps` must be a multiple of it.
     threads: 0 takes all cores. The result does not depend on it.
     forces: whether the forces of the string on the tips are wanted, too.
@@ -124,10 +128,16 @@ def rollout(
     axes = _vectors("axis", axis, 3)
     if not np.allclose(np.linalg.norm(axes, axis=-1), 1.0, rtol=0.0, atol=1e-6):
         raise ValueError("axis: expected unit vectors")
+    tumbles = _vectors("tumble", tumble, 3)
+    around = numbers("turns", turns)
+    if around.ndim > 1:
+        raise ValueError(f"turns: shape {around.shape}; expected a number or (N,)")
     size = _common_size(
         initial=states.size // 7,
         string_state=codes.size,
         axis=axes.size // 3,
+        tumble=tumbles.size // 3,
+        turns=around.size,
         model=len(models),
         tips=len(motions),
     )
@@ -141,7 +151,15 @@ def rollout(
 
     records, record_states, on_tips = _core.rollout(
         models,
-        np.concatenate([np.broadcast_to(states, (size, 7)), np.broadcast_to(axes, (size, 3))], axis=1),
+        np.concatenate(
+            [
+                np.broadcast_to(states, (size, 7)),
+                np.broadcast_to(axes, (size, 3)),
+                np.broadcast_to(tumbles, (size, 3)),
+                np.broadcast_to(around.reshape(-1, 1), (size, 1)),
+            ],
+            axis=1,
+        ),
         np.broadcast_to(codes, (size,)),
         motions,
         start,
@@ -152,7 +170,8 @@ def rollout(
         bool(forces),
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
-    batched = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or is_several(model) or is_several(tips)
+    several = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or tumbles.ndim == 2 or around.ndim == 1
+    batched = several or is_several(model) or is_several(tips)
     if batched:
         return Rollout(time, records, record_states, on_tips)
     return Rollout(time, records[0], record_states[0], None if on_tips is None else on_tips[0])
@@ -169,6 +188,8 @@ def rollout_gradient(
     begin: float | None = None,
     string_state: AnyStringState = StringState.LOOSE,
     axis: ArrayLike = (1.0, 0.0, 0.0),
+    tumble: ArrayLike = (0.0, 0.0, 0.0),
+    turns: float = 0.0,
     threads: int = 0,
 ) -> RolloutGradient:
     """Final state of a rollout, and its derivatives by forward-mode automatic differentiation.
@@ -194,7 +215,15 @@ def rollout_gradient(
     _warn_of_units(state, tips, chosen, dt)
     final, final_string_state, derivatives = _core.rollout_gradient(
         chosen,
-        _core.State(state[:3], state[3:6], float(state[6]), string_state, numbers("axis", axis)),
+        _core.State(
+            state[:3],
+            state[3:6],
+            float(state[6]),
+            string_state,
+            numbers("axis", axis),
+            numbers("tumble", tumble),
+            number("turns", turns),
+        ),
         tips,
         names_of("with_respect_to", with_respect_to, "position"),
         start,

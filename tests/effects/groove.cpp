@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/effects/groove.hpp"
 
+#include "diabolo/math/pack.hpp"
 #include "diabolo/string/hanging.hpp"
 #include "effects/scene.hpp"
 
@@ -102,6 +103,31 @@ TEST_CASE("beyond the edge the string brakes the spin, either way round, and nev
   CHECK(within.spin == 60.0);
   const State<double> slow = held_for(grooved(kProfile, kWidth, 50.0), leaning(tips, tilt, 3.0), tips, 2.0);
   CHECK(std::abs(slow.spin) < 1e-12);
+}
+
+TEST_CASE("a lane without a groove is as it is alone beside one that has it") {
+  using P = Pack<double, 4>;
+  const Tips<double> tips = level(0.6);
+  const State<double> start = leaning(tips, 0.8, 60.0);
+  const Full with = grooved(kProfile, kWidth, 5.0), without = grooved(kProfile, 0.0, 5.0);
+  State<P> state = state_in<P>(start);
+  FullPredictor<P>::Set set;
+  for (int lane = 0; lane < 4; ++lane) {
+    const auto& from = (lane % 2 ? with : without).effects().get<Groove>();
+    set.get<Groove>().profile_radius.set(lane, from.profile_radius);
+    set.get<Groove>().half_width.set(lane, from.half_width);
+    set.get<Groove>().flank_brake.set(lane, from.flank_brake);
+  }
+  const FullPredictor<P> packed(parameters_in<P>(with.parameters()), set, FullPredictor<P>::AlreadyValid{});
+  Tips<P> wide;
+  for (int k = 0; k < 3; ++k) {
+    wide.left[k] = P(tips.left[k]);
+    wide.right[k] = P(tips.right[k]);
+  }
+  for (int i = 0; i < 300; ++i) packed.step(state, wide, wide, P(1e-3));
+  const double alone[] = {held_for(without, start, tips, 0.3).spin, held_for(with, start, tips, 0.3).spin};
+  for (int lane = 0; lane < 4; ++lane) CHECK(state.spin[lane] == Approx(alone[lane % 2]).epsilon(1e-9));
+  CHECK(alone[0] - alone[1] > 1.0);
 }
 
 TEST_CASE("a groove is the same in a mirror, turned, and as the step goes to zero") {

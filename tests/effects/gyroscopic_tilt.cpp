@@ -176,6 +176,38 @@ TEST_CASE("strands that friction parts turn the axle each by its own tension") {
   CHECK((total - (equal - axle * axle.dot(equal))).norm() > 0.2 * total.norm());
 }
 
+TEST_CASE("strands that cross, and a string the other way round, turn the axle by where they leave it") {
+  const double radius = 0.0065, dt = 1e-5, spin = 200.0;
+  for (const bool crossed : {false, true})
+    for (const double turns : {0.0, 1.0, -1.0}) {
+      CAPTURE(crossed, turns);
+      Numbers parameters = tilting(kGain).parameters();
+      parameters.follow_turns = true;
+      Full::Set set;
+      set.get<GyroscopicTilt>().gain = kGain;
+      const Full model(parameters, set);
+      Tips<double> tips = held(0.06, 0.01);
+      if (crossed) std::swap(tips.left.y(), tips.right.y());
+      State<double> state = hanging(tips, spin);
+      state.turns = turns;
+      for (int i = 0; i < 200; ++i) model.step(state, tips, tips, 1e-3);
+      // Where FiniteAxle lets the strands of such a string leave the axle.
+      FiniteAxle<double> finite;
+      finite.radius = radius;
+      finite.follows_axis = 1.0;
+      const TipShift<double> shift = finite.tip_shift(state, tips, parameters);
+      const Vector axle = state.axis, left = (tips.left - state.position).normalized(),
+                   right = (tips.right - state.position).normalized();
+      const double pull = state.string_acceleration.norm() / (left + right).norm();
+      const Vector total =
+          (-shift.left / radius).cross(pull * left) + (-shift.right / radius).cross(pull * right);
+      const Vector expected = -kGain / spin * (total - axle * axle.dot(total));
+      model.step(state, tips, tips, dt);
+      CHECK(((state.axis - axle) / dt - expected).norm() < 0.03 * expected.norm());
+      CHECK(expected.norm() > 1e-4);
+    }
+}
+
 TEST_CASE("the slower the spin the faster the tilt, until the law fades") {
   const Tips<double> tips = held(0.04, -0.04);
   const double slow = axle_after(tips, 60.0, 0.2).z(), fast = axle_after(tips, 240.0, 0.2).z();

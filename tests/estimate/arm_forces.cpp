@@ -48,7 +48,9 @@ TEST_CASE("the noise of a force by torques is what the torques' noise makes of i
   Random random(seed);
   const StickArm arm = paper_arm(Side::kLeft);
   const Joints<double> joints = working_joints(random);
-  const auto found = [&](const Joints<double>& torque) { return force_by_torques(arm, {joints, torque, 0.2}); };
+  const auto found = [&](const Joints<double>& torque) {
+    return force_by_torques(arm, {joints, torque, 0.2});
+  };
   Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
   for (int i = 0; i < 6; ++i) {
     const Vector3<double> by_one = found(0.2 * Joints<double>::Unit(i)).force;
@@ -64,5 +66,6 @@ TEST_CASE("torques that are no numbers are refused") {
   CHECK_THROWS_WITH(force_by_torques(paper_arm(Side::kLeft), read), Contains("joint torques, torque"));
   read.torque[3] = 0.0;
   read.noise = 0.0;
-  CHECK_THROWS_WITH(force_by_torques(paper_arm(Side::kLeft), read), Contains("noise") && Contains("above zero"));
+  CHECK_THROWS_WITH(force_by_torques(paper_arm(Side::kLeft), read),
+                    Contains("noise") && Contains("above zero"));
 }

@@ -88,13 +88,15 @@ Play played(const Rubbing& predictor, int ticks, unsigned seed, double mirror = 
 
 Estimator<true, StringFriction> begun(const Rubbing& predictor, const State<double>& start,
                                       std::size_t history = 200) {
-  return {predictor, {}, start, {.position = 0.01, .velocity = 0.05, .spin = 5.0}, beating(0.0), 0.0, history};
+  return {predictor,    {},  start,  {.position = 0.01, .velocity = 0.05, .spin = 5.0},
+          beating(0.0), 0.0, history};
 }
 
 bool same(const Belief<true>& a, const Belief<true>& b) {
   return a.time == b.time && a.factor == b.factor && a.state.position == b.state.position &&
-         a.state.velocity == b.state.velocity && a.state.spin == b.state.spin && a.state.axis == b.state.axis &&
-         a.state.string_state == b.state.string_state && a.string_weights == b.string_weights;
+         a.state.velocity == b.state.velocity && a.state.spin == b.state.spin &&
+         a.state.axis == b.state.axis && a.state.string_state == b.state.string_state &&
+         a.string_weights == b.string_weights;
 }
 
 }  // namespace
@@ -142,7 +144,8 @@ TEST_CASE("measurements that come late, and in any order, give the bits of those
 
 TEST_CASE("an estimate is true as often as it says, by forces, by looks and by both") {
   const Rubbing predictor = rubbing();
-  for (const auto& [forces, looks] : {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
+  for (const auto& [forces, looks] :
+       {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
     double squares = 0.0;
     int covered = 0, counted = 0, plays = 0;
     for (unsigned seed = 10; seed < 34; ++seed) {
@@ -187,7 +190,9 @@ TEST_CASE("forces see what is not known at the beginning, and looks add to them"
     both.take(play.forces[i]);
     if (i % 15 == 0) both.take(play.looks[i]);
   }
-  const auto place = [](const auto& estimator) { return estimator.now().deviations().template head<3>().norm(); };
+  const auto place = [](const auto& estimator) {
+    return estimator.now().deviations().template head<3>().norm();
+  };
   CHECK(place(feeling) < 0.2 * place(blind));
   CHECK(place(both) < place(feeling));
   CHECK((feeling.now().state.position - play.states.back().position).norm() < 4.0 * place(feeling));
@@ -201,8 +206,8 @@ TEST_CASE("a mirrored play has the mirrored estimate") {
   other.position = mirrored(other.position);
   other.spin = -other.spin;
   auto estimator = begun(predictor, play.states[0]);
-  Estimator<true, StringFriction> mirror(predictor, {}, other, {.position = 0.01, .velocity = 0.05, .spin = 5.0},
-                                         beating(0.0, -1.0), 0.0, 10);
+  Estimator<true, StringFriction> mirror(
+      predictor, {}, other, {.position = 0.01, .velocity = 0.05, .spin = 5.0}, beating(0.0, -1.0), 0.0, 10);
   for (std::size_t i = 0; i < 200; ++i) {
     const double t = static_cast<double>(i + 1) * kTick;
     estimator.step(beating(t), kTick);
@@ -212,7 +217,8 @@ TEST_CASE("a mirrored play has the mirrored estimate") {
     reading.forces = {mirrored(play.forces[i].forces.right), mirrored(play.forces[i].forces.left)};
     mirror.take(reading);
   }
-  // Sigma points are not mirrored one by one, only all together: what is left is of fourth order in the spread.
+  // Sigma points are not mirrored one by one, only all together: what is left is of fourth order in the
+  // spread.
   CHECK((mirrored(mirror.now().state.position) - estimator.now().state.position).norm() < 1e-4);
   CHECK(mirror.now().state.spin == Approx(-estimator.now().state.spin).epsilon(1e-3));
   CHECK(mirror.now().deviations().head<3>().norm() ==
@@ -248,7 +254,8 @@ TEST_CASE("a step and a measurement allocate nothing, however late") {
   CHECK(allocations == before);
 }
 
-TEST_CASE("a measurement from before the history, after the last step, or once too often is told, not taken") {
+TEST_CASE(
+    "a measurement from before the history, after the last step, or once too often is told, not taken") {
   const Rubbing predictor = rubbing();
   const Play play = played(predictor, 40, 8);
   auto estimator = begun(predictor, play.states[0], 20);
@@ -272,7 +279,8 @@ TEST_CASE("what an estimator cannot use is refused with its name") {
   CHECK_THROWS_WITH(estimator.step(beating(0.0), 0.0), Contains("dt") && Contains("above zero"));
   CHECK_THROWS_WITH(estimator.take(CameraLook{.position = {0.0, nan, 0.0}}), Contains("look, position"));
   CHECK_THROWS_WITH(estimator.take(CameraLook{.noise = -1.0}), Contains("look, noise"));
-  CHECK_THROWS_WITH(estimator.take(CameraLook{.axle = Vector3<double>(1.0, 1.0, 0.0)}), Contains("look, axle"));
+  CHECK_THROWS_WITH(estimator.take(CameraLook{.axle = Vector3<double>(1.0, 1.0, 0.0)}),
+                    Contains("look, axle"));
   CHECK_THROWS_WITH(estimator.take(TensionReading{1.0, nan}), Contains("tensions, right"));
   ForceReading blunt;
   blunt.left_noise.setZero();

@@ -103,4 +103,11 @@ TEST_CASE("levelling is refused where nothing turns the axle or it is too slow")
                     Catch::Contains("gyroscopic_tilt gain"));
   CHECK_THROWS_WITH(axle_response(body(0.004), home(), 3.0), Catch::Contains("10 at least"));
   CHECK_THROWS_AS(axle_response(body(0.004), home(), std::nan("")), std::invalid_argument);
+  Tips<double> swapped = home();
+  std::swap(swapped.left, swapped.right);
+  CHECK_THROWS_WITH(axle_response(body(0.004), swapped, 60.0), Catch::Contains("side by side"));
+  LevelWeights weights;
+  weights.turn = 0.0;
+  CHECK_THROWS_WITH(level_gains(axle_response(body(0.004), home(), 60.0), weights),
+                    Catch::Contains("turn: 0"));
 }

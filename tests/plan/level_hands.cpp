@@ -90,3 +90,23 @@ TEST_CASE("the velocities of the hands are the rates of their places") {
   CHECK((right - at(1e-5).right_velocity).norm() < 1e-4);
   CHECK(right.norm() > 0.05);
 }
+
+TEST_CASE("hands follow an axle that yaws past half a turn") {
+  LevelHands hands(body(0.0), home(), 80.0);
+  double yaw = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    yaw += 1e-3;
+    if (i % 10 == 0) hands.see(axle_at({0.0, yaw}), 80.0);
+    hands.advance(1e-3);
+  }
+  CHECK(yaw > std::numbers::pi);
+  CHECK(hands.turned().heading == Approx(yaw).margin(0.3));
+  CHECK_THROWS_WITH(LevelHands(body(0.0), home(), 80.0, {}, {-0.1}), Catch::Contains("lead: -0.1 rad"));
+}
+
+TEST_CASE("hands keep their last gains where the diabolo is too slow to steer") {
+  LevelHands hands(body(0.0), home(), 40.0);
+  const auto before = hands.gains();
+  hands.see(axle_at({0.1, 0.0}), 4.0);
+  CHECK(hands.gains() == before);
+}

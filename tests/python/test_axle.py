@@ -64,16 +64,47 @@ def test_hands_level_an_axle() -> None:
     assert np.arctan2(state.axis[1], state.axis[0]) == pytest.approx(hands.heading, abs=0.05)
 
 
+def test_a_rollout_goes_on_from_a_state() -> None:
+    state = State([0, 0, 50], spin=90.0, string_state="flying", tumble=[0.0, 5.0, 0.0])
+    tips = diabolo.TipMotion([0.0], [LEFT], [RIGHT])
+    batched = diabolo.rollout(
+        RIGID, state.to_array(), tips, steps=300, string_state=state.string_state, tumble=[state.tumble]
+    )
+    assert batched.states.shape[0] == 1
+    with pytest.raises(ValueError, match=r"turns: .*; expected -10 to 10"):
+        diabolo.rollout(RIGID, state.to_array(), tips, steps=3, turns=30.0)
+    with pytest.raises(ValueError, match=r"tumble: .*about the axis"):
+        diabolo.rollout(RIGID, state.to_array(), tips, steps=3, tumble=[1.0, 0.0, 0.0])
+
+
+def test_a_spin_is_set_and_the_rest_stays() -> None:
+    state = State([0, 0, 1], axis=[1, 0, 0], tumble=[0.0, 0.5, 0.0], turns=1.0)
+    state.spin = 70.0
+    assert (state.spin, state.turns, state.tumble[1]) == (70.0, 1.0, 0.5)
+    with pytest.raises(ValueError, match=r"tumble: .*at most"):
+        State([0, 0, 1], tumble=[0.0, 1e200, 0.0])
+    with pytest.raises(ValueError, match=r"turns: 30; expected -10 to 10"):
+        state.turns = 30.0
+
+
 def test_what_cannot_be_levelled_is_refused() -> None:
     with pytest.raises(ValueError, match="gyroscopic_tilt gain: 0 1/m"):
         LevelHands(Model(), LEFT, RIGHT, 60.0)
     with pytest.raises(ValueError, match=r"spin: .*needs 10 at least"):
         LevelHands(RIGID, LEFT, RIGHT, 3.0)
-    with pytest.raises(ValueError, match=r"2\.000000 m apart; expected less than the string's length"):
+    with pytest.raises(ValueError, match=r"spin: inf"):
+        LevelHands(RIGID, LEFT, RIGHT, float("inf"))
+    with pytest.raises(ValueError, match=r"hands: 2 m apart; expected less than the string's"):
         LevelHands(RIGID, [0, 1, 1], [0, -1, 1], 60.0)
+    for left, right in ((RIGHT, LEFT), (LEFT, LEFT), ([0.8, 0, 1], [0.3, 0, 1])):
+        with pytest.raises(ValueError, match="expected them side by side"):
+            LevelHands(RIGID, left, right, 60.0)
+    with pytest.raises(ValueError, match=r"quickness: .*; must be above 0 and at most 100"):
+        LevelHands(RIGID, LEFT, RIGHT, 60.0, quickness=1e300)
     with pytest.raises(ValueError, match="lead: -1"):
         LevelHands(RIGID, LEFT, RIGHT, 60.0, lead=-1.0)
     hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
+    hands.see([1.0, 0.0, 0.0], 3.0)  # slower than it can be steered: as it was
     with pytest.raises(ValueError, match="axis: norm"):
         hands.see([1.0, 1.0, 0.0], 60.0)
     with pytest.raises(ValueError, match="spin"):

@@ -119,6 +119,44 @@ def test_observations_are_what_their_table_says() -> None:
     np.testing.assert_allclose(parts["goal"], [0.6, -0.1], atol=1e-6)
 
 
+def test_only_level_sees_the_axle() -> None:
+    usual = sum(info["size"] for info in observation_infos())
+    for task in TASKS:
+        own = [info["name"] for info in observation_infos(task)]
+        env = DiaboloEnv(task, free_axis=True)
+        assert env.observation_space.shape == (usual + (6 if task == "Level" else 0),)
+        assert ("axle" in own) == (task == "Level")
+        assert env.observation_space.contains(env.reset(seed=1)[0])
+    many = DiaboloVectorEnv(3, "Level")
+    seen, _ = many.reset(seed=1, options={"state": State([0.0, 0.0, 0.6], axis=[0.6, 0.0, 0.8])})
+    np.testing.assert_allclose(seen[:, usual : usual + 3], [[0.6, 0.0, 0.8]] * 3, atol=1e-6)
+    agent = Agent("Level", 0.01, 10, [(np.zeros((6, usual + 6)), np.zeros(6))])
+    assert not agent.act(seen).any()
+    with pytest.raises(ValueError, match=f"expected {usual + 6} inputs"):
+        Agent("Level", 0.01, 10, [(np.zeros((6, usual)), np.zeros(6))])
+    with pytest.raises(ValueError, match="observations"):
+        shipped_agent("SpinUp").act(seen)
+
+
+def test_a_level_axle_is_told_by_the_outcome() -> None:
+    env = DiaboloEnv("Level")
+    level = State(env.reset(seed=2) and env.pose()[0].position, spin=90.0, string_state="on_string")
+    env.reset(seed=2, options={"state": level})
+    for _ in range(30):
+        env.step(STILL)
+    assert env.outcome()["level"] == pytest.approx(0.3)
+
+
+def test_a_free_axis_leaves_the_usual_tasks_as_they_begin() -> None:
+    fixed, free = DiaboloEnv("Swing"), DiaboloEnv("Swing", free_axis=True)
+    np.testing.assert_array_equal(fixed.reset(seed=3)[0], free.reset(seed=3)[0])
+    for env in (fixed, free):
+        for _ in range(50):
+            env.step([0.3, 0.0, 0.0, -0.3, 0.0, 0.0])
+    turned = [np.abs(np.array(env.pose()[0].axis) - [1.0, 0.0, 0.0]).max() for env in (fixed, free)]
+    assert turned[0] == 0.0 and turned[1] > 1e-3
+
+
 def test_a_camera_sees_late_with_noise_and_not_in_every_frame() -> None:
     eyes = Camera(noise=2e-3, dropouts=0.1, least_delay=2, most_delay=2)
     seeing, exact = (DiaboloVectorEnv(64, "Hold", difficulty=one) for one in (eyes, "easy"))
@@ -263,6 +301,7 @@ def test_wild_actions_stay_finite_and_within_limits() -> None:
             "model: given, beside the difficulty 'sealed', which has its own; expected None",
         ),
         (lambda: Camera(noise=-1.0), "camera, noise: -1; expected 0 to 0.1"),
+        (lambda: Camera(axle_noise=2.0), "camera, axle_noise: 2; expected 0 to 1"),
         (
             lambda: Camera(least_delay=3, most_delay=2),
             "camera, delay: 3 to 2 frames; expected a range within 0",
@@ -344,7 +383,7 @@ def test_nothing_is_played_before_its_reset_and_what_is_far_off_stays_within_bou
 
 def test_what_an_environment_is_made_of_can_be_copied() -> None:
     start = EpisodeStart(State([0, 0, 0.6]), [0, 0.3, 1.25], [0, -0.3, 1.25], goal=[0.1, 0.2], stage=2)
-    for one in (Camera(noise=2e-3), HandLimits(speed=1.0), start):
+    for one in (Camera(noise=2e-3, axle_noise=3e-3), HandLimits(speed=1.0), start):
         copied = pickle.loads(pickle.dumps(one))
         assert pickle.dumps(copied) == pickle.dumps(one)
     assert gymnasium.make("Diabolo/Hold-v0", difficulty=Camera(), starts=[start]).spec is not None

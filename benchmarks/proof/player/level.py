@@ -178,7 +178,7 @@ class Playing:
 
 def scenario(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[str, Any]:
     hold = [{"type": "hold", "duration": WARM_UP}]
-    asked = plant._scenario(
+    asked = plant.scenario(
         (home[:3].tolist(), home[3:].tolist()), hold, axle.spin, {}, plant.seed, wander=False
     )
     asked["diabolo"] |= {
@@ -213,7 +213,8 @@ def play_level(plant: Plant, axle: FreeAxle, what: str, *, levels: bool) -> Leve
                 break
             tilt, yaw = angles(moment.axis)
             heading = np.degrees(level.heading)
-            rows.append((step * PERIOD, tilt, yaw - heading, heading, moment.spin))
+            off = (yaw - heading + 180.0) % 360.0 - 180.0
+            rows.append((step * PERIOD, tilt, off, heading, moment.spin))
             look = moment.axis + NOISE * rng.standard_normal(3)
             looks.append(look / np.linalg.norm(look))
             if levels:
@@ -225,7 +226,7 @@ def play_level(plant: Plant, axle: FreeAxle, what: str, *, levels: bool) -> Leve
             live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), np.concatenate(tips[2:])))
         else:
             lost = False
-    return Levelled(*np.array(rows).T, motion.caught, lost)
+    return Levelled(*np.array(rows or [(0.0,) * 5]).T, motion.caught, lost)
 
 
 def as_the_hands_see(moment: driver.Moment, heading: float, home: NDArray[np.float64]) -> State:

@@ -118,13 +118,13 @@ class Plant:
         }
         elements = [{"type": "hold", "duration": LEAD}, follow, {"type": "hold", "duration": tail}]
         home = tips[0, :3].tolist(), tips[0, 3:].tolist()
-        return self._run(self._scenario(home, elements, spin, {"steers": steers}, self.seed, wander=False))
+        return self._run(self.scenario(home, elements, spin, {"steers": steers}, self.seed, wander=False))
 
     def live(self, left: ArrayLike, right: ArrayLike, spin: float) -> plant.LivePlay:
         """A play whose hands are moved from outside; they begin at `left` and `right` [m]."""
         home = [[float(x) for x in np.asarray(hand)] for hand in (left, right)]
         hold = [{"type": "hold", "duration": LEAD}]
-        return plant.LivePlay(self.program, self._scenario(home, hold, spin, {}, self.seed, wander=False))
+        return plant.LivePlay(self.program, self.scenario(home, hold, spin, {}, self.seed, wander=False))
 
     def practice(self) -> list[Recording]:
         """PRACTICE seconds of the plant's own player, filmed: figures of play, throws among them, as they
@@ -137,14 +137,15 @@ class Plant:
             )
             player = {"steers": True, "catches": True}
             seed = 20 * self.seed + number
-            takes.append(self._run(self._scenario(home, elements, spin, player, seed, wander=True)).recording)
+            takes.append(self._run(self.scenario(home, elements, spin, player, seed, wander=True)).recording)
             if sum(float(take.time[-1] - take.time[0]) for take in takes) >= PRACTICE:
                 break
         return takes
 
-    def _scenario(
+    def scenario(
         self, home: Any, elements: Any, spin: float, player: dict[str, bool], seed: int, *, wander: bool
     ) -> dict[str, Any]:
+        """The plant and a play of it: where the hands are at home [m], what they do, and the spin [rad/s]."""
         stick = {"yaw_deg": 0, "pitch_deg": PITCH}
         return {
             "schema": "diabolo.scenario/1",

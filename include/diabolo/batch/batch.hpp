@@ -43,10 +43,12 @@ struct Batch {
     steps.validate();
     for (const TipMotion<double>* motion : motions)
       if (!motion) throw std::invalid_argument("batch: a tip motion is a null pointer");
-    for (const State<double>& s : initial)
-      if (!s.position.allFinite() || !s.velocity.allFinite() || !s.axis.allFinite() ||
-          !s.string_acceleration.allFinite() || !std::isfinite(s.spin) || !std::isfinite(s.turns))
-        throw std::invalid_argument("batch: an initial state is not finite");
+    for (const State<double>& s : initial) {
+      if (!is_finite(s)) throw std::invalid_argument("batch: an initial state is not finite");
+      if (std::abs(s.turns) > kMostTurns)
+        throw std::invalid_argument("batch: an initial state has " + std::to_string(s.turns) +
+                                    " turns of the string; expected -10 to 10");
+    }
     const std::size_t models = initial.empty() ? 0 : std::max(parameters.size(), effects.size());
     for (std::size_t i = 0; i < models; ++i) {
       parameters_of(i).validate();

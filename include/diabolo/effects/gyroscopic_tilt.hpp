@@ -5,6 +5,7 @@
 
 #include "diabolo/effects/effect.hpp"
 #include "diabolo/string/string_path.hpp"
+#include "diabolo/string/winding.hpp"
 
 namespace diabolo {
 
@@ -36,7 +37,7 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
 
   Vector3<Scalar> axle_torque(const State<Scalar>& state, const Tips<Scalar>& tips,
                               const StringStepResult<Scalar>& result, const Scalar& pull_difference,
-                              const Parameters<Scalar>&) const {
+                              const Parameters<Scalar>& parameters) const {
     const StringPath<Scalar> path(result.position, tips);
     const Vector3<Scalar> left = path.from_left * Scalar(Scalar(-1) / path.left_length),
                           right = path.from_right * Scalar(Scalar(-1) / path.right_length);
@@ -46,8 +47,11 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
         result.taut, Scalar(norm(result.string_acceleration) / maximum(norm(both), Scalar(0.02))), Scalar(0));
     const Vector3<Scalar> torque = lever(state.axis, left) * Scalar(pull - Scalar(0.5) * pull_difference) -
                                    lever(state.axis, right) * Scalar(pull + Scalar(0.5) * pull_difference);
-    // The left strand leaves the axle on the side of the left tip.
-    const Scalar side = dot<Scalar>(cross<Scalar>(state.axis, both), tips.left - tips.right);
+    // The left strand leaves the axle on the side of the left tip, but where the string's turns are followed:
+    // strands that cross leave it on the other side of each other.
+    const Scalar side = parameters.follow_turns
+                            ? Scalar(-side_of_axle(state, parameters))
+                            : dot<Scalar>(cross<Scalar>(state.axis, both), tips.left - tips.right);
     return select<Scalar>(side > Scalar(0), torque, Vector3<Scalar>(-torque));
   }
 

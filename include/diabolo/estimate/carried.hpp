@@ -53,6 +53,13 @@ void carry_by_tensions(const Predictor<double, Effects...>& predictor, State<dou
       predictor.effects().acceleration(state, begin, dt, parameters) + state.string_acceleration;
   state.position = state.position + state.velocity * dt + acceleration * (0.5 * dt * dt);
   state.velocity = state.velocity + acceleration * dt;
+  if constexpr (EffectSet<double, Effects...>::kTurnsAxle) {
+    StringStepResult<double> pull;
+    pull.position = state.position;
+    pull.string_acceleration = state.string_acceleration;
+    pull.taut = true;
+    predictor.effects().turn_axle(state, begin, pull, (right - left) / parameters.mass, dt, parameters);
+  }
 }
 
 }  // namespace diabolo

@@ -40,11 +40,14 @@ class Estimator {
   Estimator(const Predictor<double, Effects...>& predictor, const ProcessNoise& noise,
             const State<double>& start, const Spread& spread, const Tips<double>& tips, double time,
             std::size_t history)
-      : filter_(predictor, noise), ticks_(history + 1) {
+      : filter_(predictor, noise), ticks_(checked(history) + 1) {
     spread.validate();
     estimate_detail::expect_finite("start, time", std::isfinite(time));
-    estimate_detail::expect_finite("start", start.position.allFinite() && start.velocity.allFinite() &&
-                                                std::isfinite(start.spin) && start.axis.allFinite());
+    estimate_detail::expect_finite("start", is_finite(start));
+    if (!(std::abs(start.axis.norm() - 1.0) < 1e-6))
+      throw std::invalid_argument("start, axis: norm " + shown(start.axis.norm()) +
+                                  "; expected a unit vector");
+    expect_tips("start", tips);
     refuse_spring(predictor, start, tips);
     Tick<kAxle>& first = ticks_.front();
     first.before = first.after = Belief<kAxle>::begin(time, start, spread);
@@ -64,12 +67,11 @@ class Estimator {
   }
   std::size_t history() const { return std::min(count_, ticks_.size()) - 1; }
 
-  /// The tips have moved on to `tips` in `dt` > 0 [s]. Throws std::invalid_argument where that is not so.
+  /// The tips have moved on to `tips` in `dt` > 0 [s], a second at most. Throws std::invalid_argument where
+  /// that is not so.
   void step(const Tips<double>& tips, double dt) {
-    estimate_detail::expect_positive("step, dt", dt);
-    estimate_detail::expect_finite("step, tips", tips.left.allFinite() && tips.right.allFinite() &&
-                                                     tips.left_velocity.allFinite() &&
-                                                     tips.right_velocity.allFinite());
+    estimate_detail::expect_positive("step, dt", dt, kLongestStep);
+    expect_tips("step", tips);
     const Belief<kAxle> before = now();
     const Tips<double> begin = tick(0).end;
     ++count_;
@@ -103,6 +105,22 @@ class Estimator {
   }
 
  private:
+  static constexpr std::size_t kLongestHistory = 100'000;  // steps
+  static constexpr double kLongestStep = 1.0;              // [s]
+
+  static std::size_t checked(std::size_t history) {
+    if (history <= kLongestHistory) return history;
+    throw std::invalid_argument("estimator, history: " + std::to_string(history) +
+                                " steps; expected at most " + std::to_string(kLongestHistory));
+  }
+
+  static void expect_tips(const char* what, const Tips<double>& tips) {
+    estimate_detail::expect_within(what, "tips", tips.left, 1e4);
+    estimate_detail::expect_within(what, "tips", tips.right, 1e4);
+    estimate_detail::expect_within(what, "tips' velocities", tips.left_velocity, 1e4);
+    estimate_detail::expect_within(what, "tips' velocities", tips.right_velocity, 1e4);
+  }
+
   Tick<kAxle>& tick(std::size_t ago) { return ticks_[(count_ - 1 - ago) % ticks_.size()]; }
   const Tick<kAxle>& tick(std::size_t ago) const { return ticks_[(count_ - 1 - ago) % ticks_.size()]; }
 
@@ -147,6 +165,9 @@ class Estimator {
     if (compliance != 0.0)
       throw std::invalid_argument("estimator, string: compliance " + shown(compliance / parameters.mass) +
                                   " m/N; expected a model without string_elasticity and stick_flex");
+    if (parameters.follow_turns)
+      throw std::invalid_argument(
+          "estimator, follow_turns: true; expected a string whose turns do not change");
     if (parameters.string_law != StringLaw::kInextensible)
       throw std::invalid_argument("estimator, string_law: pull_velocity; expected inextensible");
   }

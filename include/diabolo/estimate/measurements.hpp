@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "diabolo/estimate/square_root.hpp"
@@ -18,10 +19,11 @@ struct CameraLook {
   double time = 0.0;                                   ///< when it was seen, not when that is known [s]
   Vector3<double> position = Vector3<double>::Zero();  ///< [m], world frame
   double noise = 5e-3;                                 ///< of each coordinate [m]
-  std::optional<Vector3<double>> axle = std::nullopt;  ///< a unit vector; only estimates with an axle take it
-  double axle_noise = 0.02;                            ///< [rad]
-  std::optional<double> spin = std::nullopt;           ///< [rad/s], where the camera sees marks turn
-  double spin_noise = 1.0;                             ///< [rad/s]
+  /// A unit vector, which end of the axle it points to does not count; only estimates with an axle take it.
+  std::optional<Vector3<double>> axle = std::nullopt;
+  double axle_noise = 0.02;                   ///< [rad]
+  std::optional<double> spin = std::nullopt;  ///< [rad/s], where the camera sees marks turn
+  double spin_noise = 1.0;                    ///< [rad/s]
 };
 
 /// Forces of the string on both tips at the end of a step, world frame, less what sticks and arms weigh.
@@ -45,10 +47,15 @@ namespace estimate_detail {
 inline void expect_finite(const char* what, bool finite) {
   if (!finite) throw std::invalid_argument(std::string(what) + ": not finite; expected numbers");
 }
-inline void expect_positive(const char* what, double value) {
-  if (!(value > 0.0) || !std::isfinite(value))
+inline void expect_positive(const char* what, double value, double most = 1e6) {
+  if (!(value > 0.0) || !(value <= most))
     throw std::invalid_argument(std::string(what) + ": " + shown(value) +
-                                "; expected a finite number above zero");
+                                "; expected above zero and at most " + shown(most));
+}
+inline void expect_within(const char* what, const char* field, const Vector3<double>& vector, double most) {
+  if (!(vector.norm() <= most))
+    throw std::invalid_argument(std::string(what) + ", " + field + ": of size " + shown(vector.norm()) +
+                                "; expected at most " + shown(most));
 }
 
 }  // namespace estimate_detail
@@ -57,18 +64,19 @@ inline void expect_positive(const char* what, double value) {
 inline void validate(const CameraLook& look) {
   using namespace estimate_detail;
   expect_finite("look, time", std::isfinite(look.time));
-  expect_finite("look, position", look.position.allFinite());
+  expect_within("look", "position", look.position, 1e4);
   expect_positive("look, noise", look.noise);
   expect_positive("look, axle_noise", look.axle_noise);
   expect_positive("look, spin_noise", look.spin_noise);
   if (look.axle && !(std::abs(look.axle->norm() - 1.0) < 1e-6))
     throw std::invalid_argument("look, axle: norm " + shown(look.axle->norm()) + "; expected a unit vector");
-  if (look.spin) expect_finite("look, spin", std::isfinite(*look.spin));
+  if (look.spin && !(std::abs(*look.spin) <= 1e5))
+    throw std::invalid_argument("look, spin: " + shown(*look.spin) + " rad/s; expected at most 100000");
 }
 inline void validate(const ForceReading& reading) {
   using namespace estimate_detail;
-  expect_finite("forces, left", reading.forces.left.allFinite());
-  expect_finite("forces, right", reading.forces.right.allFinite());
+  expect_within("forces", "left", reading.forces.left, 1e5);
+  expect_within("forces", "right", reading.forces.right, 1e5);
   for (const MatrixOf<3>& noise : {reading.left_noise, reading.right_noise})
     for (int i = 0; i < 3; ++i) {
       expect_positive("forces, noise", noise(i, i));
@@ -77,8 +85,10 @@ inline void validate(const ForceReading& reading) {
 }
 inline void validate(const TensionReading& reading) {
   using namespace estimate_detail;
-  expect_finite("tensions, left", std::isfinite(reading.left));
-  expect_finite("tensions, right", std::isfinite(reading.right));
+  for (const auto& [name, tension] : {std::pair("left", reading.left), {"right", reading.right}})
+    if (!(std::abs(tension) <= 1e5))
+      throw std::invalid_argument(std::string("tensions, ") + name + ": " + shown(tension) +
+                                  " N; expected at most 100000");
   expect_positive("tensions, noise", reading.noise);
 }
 

@@ -127,8 +127,7 @@ class TickFilter {
   void see(const CameraLook& look, const Tips<double>& tips, Belief<kAxle>& now) const {
     State<double> seen = now.state;
     seen.position = look.position;
-    if (TightString::around(predictor_, seen, tips).excess() > 2.0 * kBeyond * look.noise)
-      now.state.string_state = StringState::kFlying;
+    if (TightString::around(predictor_, seen, tips).excess() > 2.0 * kBeyond * look.noise) fly(now);
     const double later = look.time - now.time;
     MatrixOf<3, kSize> place = now.factor.template middleRows<3>(Chart::kPosition);
     place += later * now.factor.template middleRows<3>(Chart::kVelocity);
@@ -142,11 +141,16 @@ class TickFilter {
     if constexpr (kAxle)
       if (look.axle) {
         seen = now.state;
-        seen.axis = *look.axle;
+        seen.axis = look.axle->dot(now.state.axis) < 0.0 ? Vector3<double>(-*look.axle) : *look.axle;
         const ColumnOf<2> off = Chart::from(now.state, seen).template tail<2>();
         now.take(condition<kSize, 2, kSize>(now.factor, now.factor.template bottomRows<2>(),
                                             look.axle_noise * MatrixOf<2>::Identity(), off));
       }
+  }
+
+  static void fly(Belief<kAxle>& now) {
+    now.state.string_state = StringState::kFlying;
+    now.string_weights = {0.0, 0.0, 1.0};
   }
 
   Predictor<double, Effects...> predictor_;

@@ -88,7 +88,7 @@ class Arena {
                                   std::to_string(models_.size()) + ", the number of models");
     for (const double number : given.goal.value_or(Goal{}))
       if (!std::isfinite(number)) throw std::invalid_argument("goal: not finite; expected numbers");
-    if (given.state && !is_finite_state(*given.state))
+    if (given.state && !is_finite(*given.state))
       throw std::invalid_argument("state: not finite; expected numbers");
     begin(i, given.model);
     if (given.goal) episode.goal = *given.goal;
@@ -127,8 +127,7 @@ class Arena {
     const std::string here = "starts, " + std::to_string(number) + ": ";
     for (const double one : start.goal.value_or(Goal{}))
       if (!std::isfinite(one)) throw std::invalid_argument(here + "goal: not finite; expected numbers");
-    if (!is_finite_state(start.state))
-      throw std::invalid_argument(here + "state: not finite; expected numbers");
+    if (!is_finite(start.state)) throw std::invalid_argument(here + "state: not finite; expected numbers");
     const auto& [left, right] = start.hands.position;
     double longest = INFINITY;
     for (const Model& model : models_)
@@ -237,7 +236,7 @@ class Arena {
     }
     const Parameters<double>& parameters = models_[episode.model].parameters;
     const State<double> before = std::exchange(episode.state, after);
-    const bool failed = !is_finite_state(after);
+    const bool failed = !is_finite(after);
     if (failed) episode.state = before;
     ++episode.periods;
     episode.pull = mean_pull(episode, before, parameters.gravity, options_.period);

@@ -42,12 +42,6 @@ struct EpisodeStart {
   int stage = 0, flights = 0;  ///< see Memory
 };
 
-/// Whether every number of it is.
-inline bool is_finite_state(const State<double>& s) {
-  return s.position.allFinite() && s.velocity.allFinite() && std::isfinite(s.spin) && s.axis.allFinite() &&
-         s.tumble.allFinite() && s.string_acceleration.allFinite();
-}
-
 /// What the string does to the diabolo where an episode begins: it carries what hangs on it [m/s^2].
 inline Vector3<double> first_pull(const State<double>& state, double gravity) {
   const bool held = state.string_state == StringState::kOnString;

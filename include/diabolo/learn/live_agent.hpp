@@ -48,7 +48,7 @@ class LiveAgent {
   /// their accelerations are constant (tips_between). Throws std::invalid_argument where a number is not
   /// finite.
   const Hands& act(const State<double>& state) {
-    if (!is_finite_state(state)) throw std::invalid_argument("state: not finite; expected numbers");
+    if (!is_finite(state)) throw std::invalid_argument("state: not finite; expected numbers");
     const State<double> before = episode_.periods > 0 ? episode_.state : state;
     episode_.state = state;
     if (episode_.periods++ > 0) {

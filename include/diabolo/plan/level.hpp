@@ -5,9 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "diabolo/full_predictor.hpp"
 #include "diabolo/string/hanging.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
@@ -51,7 +53,29 @@ struct AxleResponse {
   Eigen::Matrix<double, 3, 2> drive;
 };
 
+/// A slower diabolo is not steered: its law fades [rad/s].
+inline constexpr double kSlowestToSteer = 2.0 * GyroscopicTilt<double>::kSlowSpin;
+
 namespace level_detail {
+
+inline void check_size(const char* name, double value, double most, const char* unit) {
+  if (value > 0.0 && value <= most) return;
+  throw std::invalid_argument(std::string(name) + ": " + shown(value) + " " + unit +
+                              "; must be above 0 and at most " + shown(most));
+}
+
+/// Throws std::invalid_argument where these are no hands side by side.
+inline void check_home(const Tips<double>& home, double string_length) {
+  const Eigen::Vector3d apart = home.left - home.right;
+  if (!apart.allFinite() || !(home.left.cwiseAbs().maxCoeff() < 1e3))
+    throw std::invalid_argument("hands: a place is not finite, or more than 1000 m away");
+  if (!(apart.norm() < string_length))
+    throw std::invalid_argument("hands: " + shown(apart.norm()) +
+                                " m apart; expected less than the string's " + shown(string_length) + " m");
+  if (!(apart.y() > 0.5 * apart.norm()))
+    throw std::invalid_argument("hands: the left one is " + shown(apart.y()) +
+                                " m to the left of the right one; expected them side by side");
+}
 
 /// Rate of the axle's angles under a string that carries the resting diabolo.
 inline Eigen::Vector2d angle_rates(const AllEffects<double>& effects, const Parameters<double>& parameters,
@@ -82,8 +106,9 @@ inline AxleResponse axle_response(const FullPredictor<double>& model, const Tips
   effects.get<GyroscopicTilt>().inertia_ratio = 0.0;
   if (!(effects.get<GyroscopicTilt>().gain > 0.0))
     throw std::invalid_argument("gyroscopic_tilt gain: 0 1/m; levelling needs a model that turns its axle");
-  if (!(std::abs(spin) >= 2.0 * GyroscopicTilt<double>::kSlowSpin))
-    throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; levelling needs 10 at least");
+  if (!(std::abs(spin) >= kSlowestToSteer) || !std::isfinite(spin))
+    throw std::invalid_argument("spin: " + shown(spin) + " rad/s; levelling needs 10 at least");
+  level_detail::check_home(home, model.parameters().string_length);
   const Eigen::Vector3d pivot = 0.5 * (home.left + home.right);
   const auto rates = [&](double tilt, double yaw, double heading, double lead) {
     return level_detail::angle_rates(effects, model.parameters(), {tilt, yaw}, spin,
@@ -109,14 +134,26 @@ struct LevelWeights {
   double lead = 0.3;      ///< [rad]
   double turn = 0.5;      ///< [rad/s]
   double horizon = 20.0;  ///< [s]
+
+  /// Throws std::invalid_argument where one is out of its range.
+  void validate() const {
+    for (const auto& [name, value, unit] : {std::tuple("tilt", tilt, "rad"),
+                                            {"yaw", yaw, "rad"},
+                                            {"heading", heading, "rad"},
+                                            {"lead", lead, "rad"},
+                                            {"turn", turn, "rad/s"},
+                                            {"horizon", horizon, "s"}})
+      level_detail::check_size(name, value, 1e3, unit);
+  }
 };
 
 /// Gains K of the linear-quadratic regulator, (lead, turn) = -K (tilt, yaw, heading), which minimises the
-/// weighed squares over the horizon: Riccati's recursion backwards. (What no hand can move, such as the yaw
-/// of an axle in a groove without flanks, costs and stays.)
+/// weighed squares over the horizon: Riccati's recursion backwards. What no hand can move costs and stays,
+/// such as the yaw of an axle without a groove.
 inline Eigen::Matrix<double, 2, 3> level_gains(const AxleResponse& response,
                                                const LevelWeights& weights = {}) {
   constexpr double kStep = 0.02;  // [s]
+  weights.validate();
   const auto one_over_square = [](double size) { return 1.0 / (size * size); };
   const double yaw = one_over_square(weights.yaw);
   Eigen::Matrix3d cost = Eigen::Matrix3d::Zero();

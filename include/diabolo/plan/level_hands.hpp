@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numbers>
 
 #include "diabolo/plan/level.hpp"
 
@@ -12,6 +13,13 @@ struct LevelHandLimits {
   double lead = 0.9;        ///< of the hands before the heading [rad]
   double turn = 1.0;        ///< rate of the heading [rad/s]
   double quickness = 10.0;  ///< of the hands: they follow what is wanted with this rate [1/s]
+
+  /// Throws std::invalid_argument where one is out of its range.
+  void validate() const {
+    level_detail::check_size("lead", lead, 1.5, "rad");
+    level_detail::check_size("turn", turn, 10.0, "rad/s");
+    level_detail::check_size("quickness", quickness, 100.0, "1/s");
+  }
 };
 
 /// Hands that keep the axle of a diabolo level while they play any motion: the motion turned towards the
@@ -23,15 +31,20 @@ class LevelHands {
   LevelHands(const FullPredictor<double>& model, const Tips<double>& home, double spin,
              const LevelWeights& weights = {}, const LevelHandLimits& limits = {})
       : model_(model), home_(home), weights_(weights), limits_(limits) {
+    limits.validate();
     turned_.pivot = 0.5 * (home.left + home.right);
     learn(spin);
   }
 
-  /// Takes in what is seen of the diabolo: the hands will answer it from now on.
+  /// Takes in what is seen of the diabolo: the hands will answer it from now on; with the last gains where it
+  /// is too slow to steer.
   void see(const Vector3<double>& axis, double spin) {
-    if (std::abs(spin - learnt_spin_) > kRelearn * std::abs(learnt_spin_)) learn(spin);
+    const bool steers = std::abs(spin) >= kSlowestToSteer;
+    if (steers && std::abs(spin - learnt_spin_) > kRelearn * std::abs(learnt_spin_)) learn(spin);
     const AxleAngles angles = axle_angles(axis);
-    const Eigen::Vector2d wanted = -gains_ * Eigen::Vector3d(angles.tilt, angles.yaw, turned_.heading);
+    const double yaw = std::remainder(angles.yaw - turned_.heading, 2.0 * std::numbers::pi);
+    const Eigen::Vector2d wanted =
+        -gains_ * Eigen::Vector3d(angles.tilt, turned_.heading + yaw, turned_.heading);
     wanted_lead_ = std::clamp(wanted[0], -limits_.lead, limits_.lead);
     wanted_turn_ = std::clamp(wanted[1], -limits_.turn, limits_.turn);
   }

@@ -35,7 +35,7 @@ OPTIONS = ("state", "goal", "model")
 DIFFICULTIES = ("easy", "real", "sealed")
 
 
-def observation_space(task: str) -> Box:
+def observation_space(task: str) -> Box[np.float32]:
     """What an agent sees of a task: see diabolo.envs.observation_infos()."""
     return Box(-1e3, 1e3, (sum(info["size"] for info in observation_infos(task)),), np.float32)
 
