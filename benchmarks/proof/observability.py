@@ -120,8 +120,8 @@ class Seen(NamedTuple):
     deviations: Array
     """Of what is varied, in the units of the prior's deviations."""
     rank: int
-    condition: float
-    """Of the information, of the root of it; infinite where nothing is seen."""
+    condition: float | None
+    """Of the root of the information in the directions of the rank; None where it is zero."""
 
 
 def seen(start: Start, seconds: float, tensions: bool) -> Seen:
@@ -136,9 +136,10 @@ def seen(start: Start, seconds: float, tensions: bool) -> Seen:
     )
     information = slopes.T @ slopes / NOISE**2
     eigenvalues = np.maximum(np.linalg.eigvalsh(information), 0.0)
-    condition = float(np.sqrt(eigenvalues[-1] / eigenvalues[0])) if eigenvalues[0] > 0.0 else float("inf")
+    told = eigenvalues[eigenvalues >= 3.0]  # of what leaves half a deviation
+    condition = float(np.sqrt(told[-1] / told[0])) if len(told) else None
     left = np.linalg.inv(information + np.eye(len(rows)))
-    return Seen(np.sqrt(np.diag(left)), int(np.sum(eigenvalues >= 3.0)), condition)
+    return Seen(np.sqrt(np.diag(left)), len(told), condition)
 
 
 def act(arguments: argparse.Namespace) -> int:
@@ -155,7 +156,7 @@ def act(arguments: argparse.Namespace) -> int:
             position, velocity = found.deviations[:places] * 100.0, found.deviations[places:-1] * 1000.0
             print(
                 f"| {motion} | {seconds:g} | {sensor} | {found.rank} of {len(found.deviations)} "
-                f"| {found.condition:.0f} | {', '.join(f'{x:.1f}' for x in position)} "
+                f"| {'' if found.condition is None else f'{found.condition:.0f}'} | {', '.join(f'{x:.1f}' for x in position)} "
                 f"| {', '.join(f'{x:.0f}' for x in velocity)} | {50.0 * found.deviations[-1]:.1f} |"
             )
     return 0

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import diabolo
 import numpy as np
-from diabolo.estimate import Estimator, Spread
+from diabolo.estimate import Estimator, ProcessNoise, Spread
 
 RECORDINGS = Path(__file__).resolve().parents[2] / "data" / "recordings"
 EVERY, LATE, NOISE = 4, 0.05, 2e-3  # rows, [s], [m]
@@ -31,14 +31,17 @@ first = next(row for row in seen if row >= 12 and not np.isnan(recording.diabolo
 start = diabolo.start_state(recording, first, "fair")
 start.string_state = "on_string"
 
-begin = recording.time[first]
-steps = int((recording.time[-1] - begin) / DT)
-left, right, *velocities = tips.at(begin)[:4]
-estimator = Estimator(model, start, (left, right), time=begin, spread=Spread(0.01, 0.2, 20.0, 0.1))
-looks = [(recording.time[row], recording.diabolo[row]) for row in seen if row > first and row % EVERY == 0]
+clock = recording.time - recording.time[0]
+begin = clock[first]
+steps = int((clock[-1] - begin) / DT)
+left, right, *velocities = tips.at(begin)
+spread = Spread(0.01, 0.2, 20.0, 0.1)
+noise = ProcessNoise(acceleration=0.3, string_length=0.01)  # the sticks bend, which the model does not know
+estimator = Estimator(model, start, (left, right), time=begin, spread=spread, noise=noise)
+looks = [(clock[row], recording.diabolo[row]) for row in seen if row > first and row % EVERY == 0]
 time, place, deviation = [], [], []
 for i in range(1, steps + 1):
-    left, right, *velocities = tips.at(begin + i * DT)[:4]
+    left, right, *velocities = tips.at(begin + i * DT)
     estimator.step(left, right, dt=DT, velocities=velocities)
     while looks and looks[0][0] + LATE <= estimator.now.time:
         estimator.look(*looks.pop(0), noise=NOISE)
@@ -47,8 +50,8 @@ for i in range(1, steps + 1):
     place.append(now.state.position)
     deviation.append(now.deviations[:3])
 
-unseen = [row for row in seen if row > first and row % EVERY and recording.time[row] <= time[-1]]
-at = np.clip(np.searchsorted(time, recording.time[unseen]), 0, len(time) - 1)
+unseen = [row for row in seen if row > first and row % EVERY and clock[row] <= time[-1]]
+at = np.clip(np.searchsorted(time, clock[unseen]), 0, len(time) - 1)
 error = np.array(place)[at] - recording.diabolo[unseen]
 inside = np.abs(error) < 1.645 * np.array(deviation)[at]
 print(f"{recording.name}: {len(unseen)} frames that the camera did not tell of")
@@ -65,7 +68,7 @@ else:
         middle, half = np.array(place)[:, axis], 1.645 * np.array(deviation)[:, axis]
         panel.fill_between(time, middle - half, middle + half, color="tab:blue", alpha=0.3, label="90 %")
         panel.plot(time, middle, color="tab:blue", label="estimated")
-        panel.plot(recording.time, recording.diabolo[:, axis], color="black", lw=0.8, label="measured")
+        panel.plot(clock, recording.diabolo[:, axis], color="black", lw=0.8, label="measured")
         panel.set_ylabel(name)
     axes[0].legend(loc="upper left", ncols=3)
     axes[1].set_xlabel("time [s]")
