@@ -212,9 +212,9 @@ def play_level(plant: Plant, axle: FreeAxle, what: str, *, levels: bool) -> Leve
                 lost = False
                 break
             tilt, yaw = angles(moment.axis)
-            heading = np.degrees(level.heading)
-            off = (yaw - heading + 180.0) % 360.0 - 180.0
-            rows.append((step * PERIOD, tilt, off, heading, moment.spin))
+            heading = float(np.degrees(level.heading))
+            beside = (yaw - heading + 180.0) % 360.0 - 180.0
+            rows.append((step * PERIOD, tilt, beside, heading, moment.spin))
             look = moment.axis + NOISE * rng.standard_normal(3)
             looks.append(look / np.linalg.norm(look))
             if levels:
@@ -226,7 +226,8 @@ def play_level(plant: Plant, axle: FreeAxle, what: str, *, levels: bool) -> Leve
             live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), np.concatenate(tips[2:])))
         else:
             lost = False
-    return Levelled(*np.array(rows or [(0.0,) * 5]).T, motion.caught, lost)
+    times, tilts, yaws, headings, spins = np.array(rows or [(0.0,) * 5]).T
+    return Levelled(times, tilts, yaws, headings, spins, motion.caught, lost)
 
 
 def as_the_hands_see(moment: driver.Moment, heading: float, home: NDArray[np.float64]) -> State:
