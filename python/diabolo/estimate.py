@@ -178,7 +178,7 @@ class Estimator:
 
         Less what arms, sticks and their motion need. `noise` [N m] is of each joint; `time` as for `forces`.
         """
-        two = list_of("arms", list(arms), (StickArm,), least=2)
+        two = list_of("arms", arms, (StickArm,), least=2)
         return str(self._own.take_torques(two, joints, torques, number("noise", noise), time))
 
     def look(
