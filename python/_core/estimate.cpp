@@ -94,6 +94,9 @@ void bind_estimate(py::module_& module) {
       .def_property_readonly("strange", [](const FullBelief& belief) { return belief.strange > 0; });
 
   py::class_<FullEstimator>(module, "Estimator", "See diabolo.estimate.Estimator.")
+      .def("__copy__", [](const FullEstimator& own) { return own; })
+      .def(
+          "__deepcopy__", [](const FullEstimator& own, const py::dict&) { return own; }, "memo"_a)
       .def(py::init(&make), "model"_a, "start"_a, "left"_a, "right"_a, "spread"_a, "noise"_a, "time"_a,
            "history"_a)
       .def(

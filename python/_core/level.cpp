@@ -60,7 +60,11 @@ the model, learnt anew where the spin has changed by a tenth. The model needs a 
           "lead"_a = LevelHandLimits{}.lead, "turn"_a = LevelHandLimits{}.turn,
           "quickness"_a = LevelHandLimits{}.quickness,
           R"(left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
-[rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the rate `quickness` [1/s].)")
+[rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the
+rate `quickness` [1/s].)")
+      .def("__copy__", [](const LevelHands& own) { return own; })
+      .def(
+          "__deepcopy__", [](const LevelHands& own, const py::dict&) { return own; }, "memo"_a)
       .def("see", &see, "axis"_a, "spin"_a,
            "Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s].")
       .def(

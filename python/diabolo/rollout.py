@@ -132,6 +132,8 @@ def rollout(
     around = numbers("turns", turns)
     if around.ndim > 1:
         raise ValueError(f"turns: shape {around.shape}; expected a number or (N,)")
+    if not isinstance(forces, bool):
+        raise ValueError(f"forces: {shown(forces)}; expected True or False")
     size = _common_size(
         initial=states.size // 7,
         string_state=codes.size,
@@ -167,7 +169,7 @@ def rollout(
         steps,
         record_every,
         whole_number("threads", threads, 0, MOST_THREADS),
-        bool(forces),
+        forces,
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     several = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or tumbles.ndim == 2 or around.ndim == 1

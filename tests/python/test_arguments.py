@@ -36,7 +36,7 @@ MASKED = np.ma.masked_greater(np.arange(7.0), 5.5)
             lambda: State([0.0, 0.0, 0.0], speed=1.0),
             "State: speed: no argument of this name; expected position, velocity, spin, string_state, axis",
         ),
-        (lambda: State(*range(9)), "State: one argument too many, 5; expected position, velocity, spin,"),
+        (lambda: State(*range(9)), "State: one argument too many, 7; expected position, velocity, spin,"),
         (
             lambda: State([0.0, 0.0, 0.0], position=[0.0, 0.0, 0.0]),
             "State: position: given twice, at last [0.0, 0.0, 0.0]; expected once",
