@@ -1990,7 +1990,8 @@ class LevelHands:
   def __init__(self, model: Model, left: _Reals, right: _Reals, spin: _Real, *, lead: _Real = 0.9, turn: _Real = 1.0, quickness: _Real = 10.0) -> None:
     """
     left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
-    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the rate `quickness` [1/s].
+    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the
+    rate `quickness` [1/s].
     """
   def advance(self, dt: _Real) -> None:
     """Let the hands follow for `dt` [s]."""
