@@ -2,9 +2,10 @@
 """How near an estimate comes to plays of the plant, and how often its intervals hold the truth.
 
 Each play has a body, a string and air of its own; the estimator's model is off in each constant by a drawn
-amount, and knows neither the string's stretch nor the axle's tilt. Tips are known, as two arms know them. Forces
-on the tips are read at 500 Hz with a noise of 0.1 N. The camera sees a position 30 times a second, 50 ms late, with
-a noise of 5 mm, and misses one in twenty. Every estimate begins from a look: 10 mm, 0.05 m/s, 2 % of the spin.
+amount, and knows neither the string's stretch nor the axle's tilt. Tips are known, as two arms know them.
+Forces on the tips are read at 500 Hz with a noise of 0.1 N. The camera sees a position 30 times a second,
+50 ms late, with a noise of 5 mm, and misses one in twenty. Every estimate begins from a look: 10 mm, 0.05
+m/s, 2 % of the spin.
 """
 
 from __future__ import annotations
@@ -20,8 +21,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-
 from diabolo import (
     Air,
     FiniteAxle,
@@ -34,6 +33,7 @@ from diabolo import (
     StringFriction,
 )
 from diabolo.estimate import Estimator, Spread
+from numpy.typing import NDArray
 
 from .. import command
 from . import plant
@@ -240,7 +240,8 @@ def held_looks(truth: Truth, seed: int) -> Array:
     known = np.array([look.known for look in looks])
     last = np.searchsorted(known, truth.time, side="right") - 1
     seen = np.array([look.position for look in looks])
-    return np.linalg.norm(seen[last] - truth.position, axis=1)[last >= 0]
+    distance: Array = np.linalg.norm(seen[last] - truth.position, axis=1)
+    return distance[last >= 0]
 
 
 class Figures(NamedTuple):
@@ -290,8 +291,8 @@ def play(program: Path, motion: str, number: int, first: int, folder: Path) -> t
 def act(arguments: argparse.Namespace) -> int:
     plant.check(arguments.plant)
     print(
-        "| motion | sensors | position, median [mm] | 95 % [mm] | velocity [m/s] | spin at the end [%] | worst [%] "
-        "| intervals [%] | taut or not [%] |\n|" + "---|" * 9
+        "| motion | sensors | position, median [mm] | 95 % [mm] | velocity [m/s] | spin at the end [%] "
+        "| worst [%] | intervals [%] | taut or not [%] |\n|" + "---|" * 9
     )
     everything: dict[str, Any] = {}
     all_runs: dict[str, list[tuple[Truth, Run]]] = {sensors: [] for sensors in SENSORS}
@@ -302,9 +303,8 @@ def act(arguments: argparse.Namespace) -> int:
                 for number in range(arguments.plays)
             ]
             looks = 1e3 * np.concatenate([held_looks(truth, seed) for truth, _, seed in plays])
-            print(
-                f"| {motion} | last look | {np.median(looks):.1f} | {np.percentile(looks, 95):.1f} | | | | | |"
-            )
+            middle, most = np.percentile(looks, [50, 95])
+            print(f"| {motion} | last look | {middle:.1f} | {most:.1f} | | | | | |")
             for sensors in SENSORS:
                 runs = [(truth, run(truth, model, sensors, seed)) for truth, model, seed in plays]
                 all_runs[sensors] += runs

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """What forces on the tips say of where a play began, by the linearised information over some seconds.
 
-Five numbers of a taut start: two along the string's surface of position and of velocity, and the spin. Two more of
-a flying one. The predictor's forces are differentiated by each, and their squares over the sensor's variance summed.
-A standard deviation is what all forces together leave of a number, the others unknown, too. Nothing known
-counts as much as the prior's deviation. Numbers are scaled by the prior's deviations before rank and condition
-are taken; a direction counts for the rank where forces at least halve its deviation.
+Five numbers of a taut start: two along the string's surface of position and of velocity, and the spin. Two
+more of a flying one. The predictor's forces are differentiated by each, and their squares over the sensor's
+variance summed. A standard deviation is what all forces together leave of a number, the others unknown,
+too. Nothing known counts as much as the prior's deviation. Numbers are scaled by the prior's deviations
+before rank and condition are taken; a direction counts for the rank where forces at least halve its
+deviation.
 """
 
 from __future__ import annotations
@@ -15,9 +16,8 @@ import sys
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-
 from diabolo import Model, Parameters, State, StringFriction, TipMotion, hang_at_rest, rollout
+from numpy.typing import NDArray
 
 from .. import command
 
@@ -126,9 +126,16 @@ class Seen(NamedTuple):
 
 def seen(start: Start, seconds: float, tensions: bool) -> Seen:
     rows = directions(start)
+
+    def at(away: Array) -> Array:
+        return readings(start, away, seconds, tensions)
+
     slopes = np.stack(
         [
-            (readings(start, SMALL * row, seconds, tensions) - readings(start, -SMALL * row, seconds, tensions))
+            (
+                readings(start, SMALL * row, seconds, tensions)
+                - readings(start, -SMALL * row, seconds, tensions)
+            )
             / (2 * SMALL)
             for row in rows
         ],
@@ -144,8 +151,8 @@ def seen(start: Start, seconds: float, tensions: bool) -> Seen:
 
 def act(arguments: argparse.Namespace) -> int:
     print(
-        "| motion | seconds | sensor | rank | condition | position [mm] | velocity [mm/s] | spin [rad/s] |\n|"
-        + "---|" * 8
+        "| motion | seconds | sensor | rank | condition | position [mm] | velocity [mm/s] "
+        "| spin [rad/s] |\n|" + "---|" * 8
     )
     cases = [(motion, arguments.seconds) for motion in ("hold", "swing", "beat", "circle")]
     for motion, seconds in [*cases, ("flight", 0.5), ("flight", 1.5)]:
@@ -154,9 +161,10 @@ def act(arguments: argparse.Namespace) -> int:
             found = seen(start, seconds, sensor == "tensions")
             places = len(found.deviations) // 2
             position, velocity = found.deviations[:places] * 100.0, found.deviations[places:-1] * 1000.0
+            condition = "" if found.condition is None else f"{found.condition:.0f}"
             print(
                 f"| {motion} | {seconds:g} | {sensor} | {found.rank} of {len(found.deviations)} "
-                f"| {'' if found.condition is None else f'{found.condition:.0f}'} | {', '.join(f'{x:.1f}' for x in position)} "
+                f"| {condition} | {', '.join(f'{x:.1f}' for x in position)} "
                 f"| {', '.join(f'{x:.0f}' for x in velocity)} | {50.0 * found.deviations[-1]:.1f} |"
             )
     return 0

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._core import LandingRestitution, Model, State, StickFlex, StringElasticity
+from ._core import LandingRestitution, Model, State, StickArm, StickFlex, StringElasticity
 from .checks import instance_of, model_of, number, shown, whole_number
 from .enums import StringState
 
@@ -76,9 +76,9 @@ class Estimate(NamedTuple):
         return np.sqrt(np.diag(self.covariance))
 
     def interval(self, share: float = 0.9) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Ends of the central intervals that hold position, velocity and spin with this probability, (7,) each.
+        """Ends of the central intervals that hold position, velocity and spin, each with this probability.
 
-        Each of the seven for itself.
+        Two arrays of the shape (7,).
         """
         if not 0.0 < (share := number("share", share)) < 1.0:
             raise ValueError(f"share: {share:g}; expected a number between 0 and 1")
@@ -91,8 +91,8 @@ class Estimator:
     """Estimates position, velocity, spin and axle from the tips' motion and from any of: forces on the tips,
     tensions, joint torques of two arms, looks of a camera.
 
-    A square-root unscented Kalman filter whose process is the predictor. Measurements may come late, and in any
-    order: it goes back, and the estimate is as if they had come in time.
+    A square-root unscented Kalman filter whose process is the predictor. Measurements may come late, and in
+    any order: it goes back, and the estimate is as if they had come in time.
 
         estimator = Estimator(model, start, (left, right), history=100)
         estimator.step(left, right, dt=0.002, velocities=(left_velocity, right_velocity))
@@ -100,8 +100,10 @@ class Estimator:
         estimator.look(seen_at, position, noise=0.005)
         estimator.now.interval(0.9)
 
-    Each measurement tells what became of it: "yes", it was taken; "too_old", from before the history; "too_new",
-    from after the last step; "occupied", its step has one of that kind. Raises ValueError about bad input.
+    Each measurement tells what became of it: "yes", it was taken; "too_old", from before the history;
+    "too_new", from after the last step; "occupied", its step has one of that kind.
+
+    Raises ValueError about bad input.
     """
 
     def __init__(
@@ -142,7 +144,7 @@ class Estimator:
         return _estimate(self._own.past(whole_number("ago", ago, 0, LONGEST_HISTORY)))
 
     def step(self, left: ArrayLike, right: ArrayLike, *, dt: float, velocities: Pair) -> None:
-        """Move on by `dt` [s], at whose end the tips are at `left` and `right` [m], with `velocities` [m/s]."""
+        """Move on by `dt` [s] to where the tips are at `left` and `right` [m], with `velocities` [m/s]."""
         self._own.step(left, right, *_pair("velocities", velocities), number("dt", dt))
 
     def forces(
@@ -164,7 +166,13 @@ class Estimator:
         )
 
     def torques(
-        self, arms: Pair, joints: Pair, torques: Pair, *, noise: float = 0.2, time: float | None = None
+        self,
+        arms: Sequence[StickArm],
+        joints: Pair,
+        torques: Pair,
+        *,
+        noise: float = 0.2,
+        time: float | None = None,
     ) -> str:
         """Take the torques [N m] that the string puts on the joints [rad] of two `StickArm`, left and right.
 
@@ -202,8 +210,8 @@ class Estimator:
 def with_rigid_string(model: Model | str) -> Model:
     """A model for an `Estimator`: its string does not stretch, and its sticks do not bend.
 
-    A bounce of the string becomes what a catch gives back of it: exp(-pi z / sqrt(1 - z^2)) of its speed, z the
-    share of the critical damping. Where the sticks bend, positions are off by as much.
+    A bounce of the string becomes what a catch gives back of it: exp(-pi z / sqrt(1 - z^2)) of its speed, z
+    the share of the critical damping. Where the sticks bend, positions are off by as much.
     """
     rigid = copy.copy(model_of("model", model))
     elasticity = rigid.string_elasticity

@@ -37,7 +37,9 @@ def held(one: Estimator, steps: int) -> Estimator:
 
 def hanging_forces() -> np.ndarray:
     tips = TipMotion([0.0], [LEFT], [RIGHT])
-    found = rollout(MODEL, HANGING.to_array()[:7], tips, dt=1e-3, steps=2, string_state="on_string", forces=True)
+    found = rollout(
+        MODEL, HANGING.to_array()[:7], tips, dt=1e-3, steps=2, string_state="on_string", forces=True
+    )
     assert found.forces is not None
     return found.forces[-1]
 
@@ -89,9 +91,7 @@ def test_forces_tensions_and_looks_make_it_surer_and_late_ones_count():
 
 def test_what_cannot_be_used_is_refused_in_a_sentence():
     with pytest.raises(ValueError, match="string_elasticity"):
-        Estimator(
-            Model(string_elasticity=StringElasticity.of_stiffness(600.0)), HANGING, (LEFT, RIGHT)
-        )
+        Estimator(Model(string_elasticity=StringElasticity.of_stiffness(600.0)), HANGING, (LEFT, RIGHT))
     with pytest.raises(ValueError, match="process noise, spin"):
         estimator(noise=ProcessNoise(spin=0.0))
     with pytest.raises(ValueError, match="start spread, position"):
