@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "diabolo/effects/finite_axle.hpp"
 #include "diabolo/effects/string_friction.hpp"
 #include "diabolo/string/hanging.hpp"
 #include "smooth_tips.hpp"
@@ -97,6 +98,31 @@ TEST_CASE("a string that slips has tensions as exp(c b)") {
       CHECK(std::abs(std::log(right / left)) == Approx(0.2 * around).epsilon(0.01));
       CHECK((spin > 0.0) == (right < left));
     }
+  }
+}
+
+TEST_CASE("the tips are pulled along their strands, and carry what the diabolo does not fall by") {
+  Parameters<double> parameters = Parameters<double>::consistent();
+  EffectSet<double, FiniteAxle> effects;
+  effects.get<FiniteAxle>().radius = GENERATE(0.0, 0.01);
+  const Predictor<double, FiniteAxle> predictor(parameters, effects);
+  const unsigned seed = 2612;
+  CAPTURE(seed, effects.get<FiniteAxle>().radius);
+  Random random(seed);
+  const SmoothTips tips = SmoothTips::random(random, 0.5, 0.05, 4.0);
+  State<double> state = hanging_state(tips.at(0.0).left, tips.at(0.0).right, parameters.string_length);
+  for (int i = 0; i < 300; ++i) {
+    const State<double> before = state;
+    const Tips<double> begin = tips.at(i * kMillisecond), end = tips.at((i + 1) * kMillisecond);
+    predictor.step(state, begin, end, kMillisecond);
+    if (state.string_state != StringState::kOnString || i < 10) continue;
+    const TipForces<double> forces = tip_forces(predictor, before, state, begin, end, kMillisecond);
+    const auto [left, right] = strand_tensions(predictor, before, state, begin, end, kMillisecond);
+    CHECK(forces.left.norm() == Approx(left));
+    CHECK(forces.right.norm() == Approx(right));
+    const Vector3<double> pull = parameters.mass * string_pull(predictor, before, state, begin, kMillisecond);
+    // A pull lies between the strands but for the turn of a step.
+    CHECK((forces.left + forces.right + pull).norm() < 0.01 * pull.norm());
   }
 }
 

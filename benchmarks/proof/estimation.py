@@ -240,8 +240,8 @@ def held_looks(truth: Truth, seed: int) -> Array:
     known = np.array([look.known for look in looks])
     last = np.searchsorted(known, truth.time, side="right") - 1
     seen = np.array([look.position for look in looks])
-    off: Array = np.linalg.norm(seen[last] - truth.position, axis=1)[last >= 0]
-    return off
+    distance: Array = np.linalg.norm(seen[last] - truth.position, axis=1)
+    return distance[last >= 0]
 
 
 class Figures(NamedTuple):
@@ -291,9 +291,8 @@ def play(program: Path, motion: str, number: int, first: int, folder: Path) -> t
 def act(arguments: argparse.Namespace) -> int:
     plant.check(arguments.plant)
     print(
-        "| motion | sensors | position, median [mm] | 95 % [mm] | velocity [m/s] "
-        "| spin at the end [%] | worst [%] "
-        "| intervals [%] | taut or not [%] |\n|" + "---|" * 9
+        "| motion | sensors | position, median [mm] | 95 % [mm] | velocity [m/s] | spin at the end [%] "
+        "| worst [%] | intervals [%] | taut or not [%] |\n|" + "---|" * 9
     )
     everything: dict[str, Any] = {}
     all_runs: dict[str, list[tuple[Truth, Run]]] = {sensors: [] for sensors in SENSORS}
@@ -304,10 +303,8 @@ def act(arguments: argparse.Namespace) -> int:
                 for number in range(arguments.plays)
             ]
             looks = 1e3 * np.concatenate([held_looks(truth, seed) for truth, _, seed in plays])
-            print(
-                f"| {motion} | last look | {np.median(looks):.1f} "
-                f"| {np.percentile(looks, 95):.1f} | | | | | |"
-            )
+            middle, most = np.percentile(looks, [50, 95])
+            print(f"| {motion} | last look | {middle:.1f} | {most:.1f} | | | | | |")
             for sensors in SENSORS:
                 runs = [(truth, run(truth, model, sensors, seed)) for truth, model, seed in plays]
                 all_runs[sensors] += runs

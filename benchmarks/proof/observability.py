@@ -126,6 +126,10 @@ class Seen(NamedTuple):
 
 def seen(start: Start, seconds: float, tensions: bool) -> Seen:
     rows = directions(start)
+
+    def at(away: Array) -> Array:
+        return readings(start, away, seconds, tensions)
+
     slopes = np.stack(
         [
             (
@@ -147,8 +151,8 @@ def seen(start: Start, seconds: float, tensions: bool) -> Seen:
 
 def act(arguments: argparse.Namespace) -> int:
     print(
-        "| motion | seconds | sensor | rank | condition | position [mm] | velocity [mm/s] | spin [rad/s] |\n|"
-        + "---|" * 8
+        "| motion | seconds | sensor | rank | condition | position [mm] | velocity [mm/s] "
+        "| spin [rad/s] |\n|" + "---|" * 8
     )
     cases = [(motion, arguments.seconds) for motion in ("hold", "swing", "beat", "circle")]
     for motion, seconds in [*cases, ("flight", 0.5), ("flight", 1.5)]:
@@ -157,10 +161,10 @@ def act(arguments: argparse.Namespace) -> int:
             found = seen(start, seconds, sensor == "tensions")
             places = len(found.deviations) // 2
             position, velocity = found.deviations[:places] * 100.0, found.deviations[places:-1] * 1000.0
+            condition = "" if found.condition is None else f"{found.condition:.0f}"
             print(
                 f"| {motion} | {seconds:g} | {sensor} | {found.rank} of {len(found.deviations)} "
-                f"| {'' if found.condition is None else f'{found.condition:.0f}'} "
-                f"| {', '.join(f'{x:.1f}' for x in position)} "
+                f"| {condition} | {', '.join(f'{x:.1f}' for x in position)} "
                 f"| {', '.join(f'{x:.0f}' for x in velocity)} | {50.0 * found.deviations[-1]:.1f} |"
             )
     return 0

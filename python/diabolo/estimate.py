@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import LandingRestitution, Model, State, StickArm, StickFlex, StringElasticity
-from .checks import instance_of, list_of, model_of, number, shown, whole_number
+from .checks import instance_of, model_of, number, shown, whole_number
 from .enums import StringState
 
 Pair = Sequence[ArrayLike]
@@ -76,10 +76,9 @@ class Estimate(NamedTuple):
         return np.sqrt(np.diag(self.covariance))
 
     def interval(self, share: float = 0.9) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Ends of the central intervals that hold position, velocity and spin with this probability, (7,)
-        each.
+        """Ends of the central intervals that hold position, velocity and spin, each with this probability.
 
-        Each of the seven for itself.
+        Two arrays of the shape (7,).
         """
         if not 0.0 < (share := number("share", share)) < 1.0:
             raise ValueError(f"share: {share:g}; expected a number between 0 and 1")
@@ -102,8 +101,9 @@ class Estimator:
         estimator.now.interval(0.9)
 
     Each measurement tells what became of it: "yes", it was taken; "too_old", from before the history;
-    "too_new", from after the last step; "occupied", its step has one of that kind. Raises ValueError about
-    bad input.
+    "too_new", from after the last step; "occupied", its step has one of that kind.
+
+    Raises ValueError about bad input.
     """
 
     def __init__(
@@ -144,7 +144,7 @@ class Estimator:
         return _estimate(self._own.past(whole_number("ago", ago, 0, LONGEST_HISTORY)))
 
     def step(self, left: ArrayLike, right: ArrayLike, *, dt: float, velocities: Pair) -> None:
-        """Move on by `dt` [s]: the tips are then at `left` and `right` [m], with `velocities` [m/s]."""
+        """Move on by `dt` [s] to where the tips are at `left` and `right` [m], with `velocities` [m/s]."""
         self._own.step(left, right, *_pair("velocities", velocities), number("dt", dt))
 
     def forces(
@@ -178,8 +178,7 @@ class Estimator:
 
         Less what arms, sticks and their motion need. `noise` [N m] is of each joint; `time` as for `forces`.
         """
-        two = list_of("arms", arms, (StickArm,), least=2)
-        return str(self._own.take_torques(two, joints, torques, number("noise", noise), time))
+        return str(self._own.take_torques(arms, joints, torques, number("noise", noise), time))
 
     def look(
         self,

@@ -125,13 +125,9 @@ def rollout(
     motions = list_of("tips", tips, (TipMotion,), least=1)
     states = _vectors("initial", initial, 7)
     codes = _codes(string_state)
-    axes = _vectors("axis", axis, 3)
-    if not np.allclose(np.linalg.norm(axes, axis=-1), 1.0, rtol=0.0, atol=1e-6):
-        raise ValueError("axis: expected unit vectors")
+    axes = _axes(axis)
     tumbles = _vectors("tumble", tumble, 3)
-    around = numbers("turns", turns)
-    if around.ndim > 1:
-        raise ValueError(f"turns: shape {around.shape}; expected a number or (N,)")
+    around = _turns(turns)
     if not isinstance(forces, bool):
         raise ValueError(f"forces: {shown(forces)}; expected True or False")
     size = _common_size(
@@ -153,15 +149,7 @@ def rollout(
 
     records, record_states, on_tips = _core.rollout(
         models,
-        np.concatenate(
-            [
-                np.broadcast_to(states, (size, 7)),
-                np.broadcast_to(axes, (size, 3)),
-                np.broadcast_to(tumbles, (size, 3)),
-                np.broadcast_to(around.reshape(-1, 1), (size, 1)),
-            ],
-            axis=1,
-        ),
+        _side_by_side(size, states, axes, tumbles, around.reshape(-1, 1)),
         np.broadcast_to(codes, (size,)),
         motions,
         start,
@@ -173,8 +161,7 @@ def rollout(
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     several = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or tumbles.ndim == 2 or around.ndim == 1
-    batched = several or is_several(model) or is_several(tips)
-    if batched:
+    if several or is_several(model) or is_several(tips):
         return Rollout(time, records, record_states, on_tips)
     return Rollout(time, records[0], record_states[0], None if on_tips is None else on_tips[0])
 
@@ -238,6 +225,25 @@ def rollout_gradient(
 
 def _model(given: AnyModel) -> Model:
     return Model(given) if isinstance(given, Parameters) else instance_of("model", given, Model)
+
+
+def _axes(axis: ArrayLike) -> NDArray[np.float64]:
+    axes = _vectors("axis", axis, 3)
+    if not np.allclose(np.linalg.norm(axes, axis=-1), 1.0, rtol=0.0, atol=1e-6):
+        raise ValueError("axis: expected unit vectors")
+    return axes
+
+
+def _turns(turns: ArrayLike) -> NDArray[np.float64]:
+    around = numbers("turns", turns)
+    if around.ndim > 1:
+        raise ValueError(f"turns: shape {around.shape}; expected a number or (N,)")
+    return around
+
+
+def _side_by_side(size: int, *parts: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Columns of several parts, each with one row or `size` rows."""
+    return np.concatenate([np.broadcast_to(part, (size, part.shape[-1])) for part in parts], axis=1)
 
 
 def _vectors(name: str, given: ArrayLike, length: int) -> NDArray[np.float64]:

@@ -112,14 +112,26 @@ TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbo
   std::vector<BatchKernel> kernels = batch_kernels();
   kernels.push_back(portable_batch_kernel());
   for (const bool own_motions : {false, true}) {
-    const Case test(19, own_motions);
+    Case test(19, own_motions);
+    test.batch.forces = true;
     std::vector<std::vector<State<double>>> expected;
+    std::vector<std::vector<TipForces<double>>> pulls;
     for (std::size_t i = 0; i < test.batch.initial.size(); ++i) {
       const FullPredictor<double> predictor(test.batch.parameters[i], test.batch.effects[i]);
+      const TipMotion<double>& motion = *test.batch.motions[own_motions ? i : 0];
+      const Steps& steps = test.batch.steps;
       std::vector<State<double>> states;
-      rollout(predictor, test.batch.initial[i], *test.batch.motions[own_motions ? i : 0], test.batch.steps,
-              [&](std::size_t, double, const State<double>& s, const auto&) { states.push_back(s); });
+      std::vector<TipForces<double>> forces;
+      State<double> before = test.batch.initial[i];
+      rollout(predictor, before, motion, steps,
+              [&](std::size_t step, double time, const State<double>& s, const auto&) {
+                forces.push_back(tip_forces(predictor, before, s, motion.at(steps.time(step - 1)),
+                                            motion.at(time), steps.dt));
+                states.push_back(s);
+                before = s;
+              });
       expected.push_back(states);
+      pulls.push_back(forces);
     }
     for (const BatchKernel& kernel : kernels)
       for (const int threads : {0, 1, 3}) {
@@ -136,6 +148,10 @@ TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbo
             REQUIRE(V(record[3], record[4], record[5]) == s.velocity);
             REQUIRE(record[6] == s.spin);
             REQUIRE(result.record_states[i * test.batch.records() + k] == s.string_state);
+            const TipForces<double>& f = pulls[i][7 * (k + 1) - 1];
+            const double* force = &result.forces[6 * (i * test.batch.records() + k)];
+            REQUIRE((V(force[0], force[1], force[2]) - f.left).norm() <= 1e-9 * (1.0 + f.left.norm()));
+            REQUIRE((V(force[3], force[4], force[5]) - f.right).norm() <= 1e-9 * (1.0 + f.right.norm()));
           }
         }
       }

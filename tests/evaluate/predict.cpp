@@ -26,6 +26,12 @@ TEST_CASE("a play is predicted row by row from the row that is asked for") {
     REQUIRE(
         (all.states[i].position - recording.diabolo.position.col(all.first + static_cast<Eigen::Index>(i)))
             .norm() < 0.05);
+  REQUIRE(all.forces.size() == all.states.size());
+  double carried = 0.0;  // over some swings the tips carry the weight
+  for (const TipForces<double>& forces : all.forces) carried -= forces.left.z() + forces.right.z();
+  CHECK(carried / static_cast<double>(all.forces.size()) ==
+        Approx(recording.properties.mass * kStandardGravity).epsilon(0.2));
+  CHECK(all.forces[0].left.norm() > 0.1);  // of the first step
   const Prediction late = predict(recording, consistent_model(), Start::kFair, Eigen::Index{40});
   CHECK(late.first == 40);
   CHECK(late.states.size() == 110);

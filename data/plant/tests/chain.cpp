@@ -49,6 +49,11 @@ TEST_CASE("a diabolo on a chain hangs at rest by its weight") {
   // The arc spans the angle between the strands, so that its ends pull up by half the weight each.
   const double expected = parameters.diabolo.mass * 9.80665 / (2.0 * std::sin(0.5 * reading.wrap));
   CHECK(reading.tensions.left == Approx(expected).epsilon(1e-6));
+  // The tips carry the string, too: a few grams.
+  const Vec3 carried = reading.on_tips[0] + reading.on_tips[1];
+  const double most = parameters.diabolo.mass + parameters.string.linear_density * parameters.string.length;
+  CHECK(-carried.z() >= parameters.diabolo.mass * 9.80665 * (1.0 - 1e-6));
+  CHECK(-carried.z() <= most * 9.80665);
   // The strands sag by their own weight, which shortens the way from tip to tip by some micrometres.
   const double stretch = expected * parameters.string.length / parameters.string.stiffness;
   CHECK(reading.stretch == Approx(stretch).epsilon(0.01).margin(1e-5));

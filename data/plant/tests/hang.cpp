@@ -19,6 +19,8 @@ TEST_CASE("a diabolo at rest hangs by m g / (2 cos eta) per strand") {
     CHECK(reading.stretch ==
           Approx(expected * parameters.string.length / parameters.string.stiffness).epsilon(1e-7));
     CHECK(moment.state.col(kVelocity).norm() < 1e-7);
+    const Vec3 carried = reading.on_tips[0] + reading.on_tips[1];
+    CHECK((carried + parameters.diabolo.mass * 9.80665 * Vec3::UnitZ()).norm() < 1e-6);  // by the tips
   }
 }
 
