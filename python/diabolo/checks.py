@@ -80,6 +80,13 @@ def numbers(name: str, given: Any) -> NDArray[np.float64]:
         raise ValueError(f"{name}: {shown(given)}; expected an array of numbers") from None
 
 
+def true_or_false(name: str, given: Any) -> bool:
+    """`given`, True or False; else raises ValueError."""
+    if not isinstance(given, bool):
+        raise ValueError(f"{name}: {shown(given)}; expected True or False")
+    return given
+
+
 def whole_number(name: str, given: Any, least: int, most: int) -> int:
     """`given`, a whole number from `least` to `most`; else raises ValueError."""
     with suppress(TypeError, ValueError):

@@ -21,6 +21,7 @@ from .checks import (
     number,
     numbers,
     shown,
+    true_or_false,
     whole_number,
 )
 from .enums import StringState
@@ -128,8 +129,6 @@ def rollout(
     axes = _axes(axis)
     tumbles = _vectors("tumble", tumble, 3)
     around = _turns(turns)
-    if not isinstance(forces, bool):
-        raise ValueError(f"forces: {shown(forces)}; expected True or False")
     size = _common_size(
         initial=states.size // 7,
         string_state=codes.size,
@@ -157,7 +156,7 @@ def rollout(
         steps,
         record_every,
         whole_number("threads", threads, 0, MOST_THREADS),
-        forces,
+        true_or_false("forces", forces),
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     several = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or tumbles.ndim == 2 or around.ndim == 1
