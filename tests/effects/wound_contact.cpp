@@ -88,8 +88,8 @@ TEST_CASE("down an upright string with a turn a diabolo rolls at g / (1 + I / (m
     state.position = Vector(0.0, 0.0, 1.3);
     state.string_state = StringState::kOnString;
     const auto at_rest = [&](double) { return tips; };
-    const State<double> early = run(model, state, at_rest, 0.1, std::lround(0.1 / dt)),
-                        late = run(model, early, at_rest, 0.4, std::lround(0.4 / dt));
+    const State<double> early = run(model, state, at_rest, 0.1, static_cast<int>(std::lround(0.1 / dt))),
+                        late = run(model, early, at_rest, 0.4, static_cast<int>(std::lround(0.4 / dt)));
     CAPTURE(dt);
     CHECK((early.velocity.z() - late.velocity.z()) / 0.4 == Approx(expected).epsilon(2e-3));
   }

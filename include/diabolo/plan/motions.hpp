@@ -190,6 +190,7 @@ inline Action action_named(std::string_view name, const TipColumn<double>& tips,
     spin_up();
   } else if (name == "one_turn_low") {
     action.seed = plan_detail::one_turn_low_seed(tips, options.size * string_length / 1.45, options.pace);
+    action.goals.tolerances.taut = 0.6;  // the diabolo hops
     spin_up();
   } else if (name == "circular_acceleration") {
     action.seed =
