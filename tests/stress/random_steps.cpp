@@ -182,7 +182,7 @@ AllEffects<Scalar> random_effects(Random& random) {
 template <class Scalar>
 bool keeps_length(const AllEffects<Scalar>& effects) {
   return effects.template get<StringElasticity>().neutral() && effects.template get<StickFlex>().neutral() &&
-         effects.template get<FiniteAxle>().neutral();
+         effects.template get<FiniteAxle>().neutral() && effects.template get<Groove>().neutral();
 }
 
 /// The energy per mass [J/kg] of one lane.
