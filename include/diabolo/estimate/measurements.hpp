@@ -62,34 +62,31 @@ inline void expect_within(const char* what, const char* field, const Vector3<dou
 
 /// Throws std::invalid_argument naming the field, what was found and what was expected.
 inline void validate(const CameraLook& look) {
-  using namespace estimate_detail;
-  expect_finite("look, time", std::isfinite(look.time));
-  expect_within("look", "position", look.position, 1e4);
-  expect_positive("look, noise", look.noise);
-  expect_positive("look, axle_noise", look.axle_noise);
-  expect_positive("look, spin_noise", look.spin_noise);
+  estimate_detail::expect_finite("look, time", std::isfinite(look.time));
+  estimate_detail::expect_within("look", "position", look.position, 1e4);
+  estimate_detail::expect_positive("look, noise", look.noise);
+  estimate_detail::expect_positive("look, axle_noise", look.axle_noise);
+  estimate_detail::expect_positive("look, spin_noise", look.spin_noise);
   if (look.axle && !(std::abs(look.axle->norm() - 1.0) < 1e-6))
     throw std::invalid_argument("look, axle: norm " + shown(look.axle->norm()) + "; expected a unit vector");
   if (look.spin && !(std::abs(*look.spin) <= 1e5))
     throw std::invalid_argument("look, spin: " + shown(*look.spin) + " rad/s; expected at most 100000");
 }
 inline void validate(const ForceReading& reading) {
-  using namespace estimate_detail;
-  expect_within("forces", "left", reading.forces.left, 1e5);
-  expect_within("forces", "right", reading.forces.right, 1e5);
+  estimate_detail::expect_within("forces", "left", reading.forces.left, 1e5);
+  estimate_detail::expect_within("forces", "right", reading.forces.right, 1e5);
   for (const MatrixOf<3>& noise : {reading.left_noise, reading.right_noise})
     for (int i = 0; i < 3; ++i) {
-      expect_positive("forces, noise", noise(i, i));
-      expect_finite("forces, noise", noise.allFinite());
+      estimate_detail::expect_positive("forces, noise", noise(i, i));
+      estimate_detail::expect_finite("forces, noise", noise.allFinite());
     }
 }
 inline void validate(const TensionReading& reading) {
-  using namespace estimate_detail;
   for (const auto& [name, tension] : {std::pair("left", reading.left), {"right", reading.right}})
     if (!(std::abs(tension) <= 1e5))
       throw std::invalid_argument(std::string("tensions, ") + name + ": " + shown(tension) +
                                   " N; expected at most 100000");
-  expect_positive("tensions, noise", reading.noise);
+  estimate_detail::expect_positive("tensions, noise", reading.noise);
 }
 
 }  // namespace diabolo
