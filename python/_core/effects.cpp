@@ -76,6 +76,12 @@ its plane, off it against the velocity, up, and along omega x v. It stops growin
 1 and above 1000 rad/s.)";
 }
 
+const char* doc_of(const Unbalance<double>&) {
+  return R"(Cups of unlike weight: the centre of mass lies `offset` beside the groove, along the axle.
+
+It yaws the axle, where a GyroscopicTilt has its gain.)";
+}
+
 const char* doc_of(const Groove<double>&) {
   return R"(A round groove whose flanks the string climbs, towards the tips.
 

@@ -71,6 +71,15 @@ struct ErrorsByHorizon {
   std::vector<std::vector<std::optional<Interval>>> worsening_ci95;
 };
 
+/// How far the axle's direction is off a while after it was seen, on stretches that were not fitted: angles
+/// [rad], means, of the base and with what was found.
+struct AxleAhead {
+  double seconds = 0.0;  ///< that while, a mean
+  double base_error = 0.0, augmented_error = 0.0;
+  std::optional<Interval> improvement_ci95;  ///< of base less augmented
+  std::size_t stretches = 0;
+};
+
 /// Errors on data that the model was not fitted to.
 struct HeldOut {
   bool whole_recordings = false;                      ///< left out one by one; else blocks of rows
@@ -78,6 +87,7 @@ struct HeldOut {
   ErrorsByHorizon position, spin;
   std::vector<std::optional<double>> augmented_median;  ///< of the distances [m]
   std::vector<ResidualAndNoise> ahead;                  ///< at each horizon of kAhead and more
+  std::optional<AxleAhead> axle;                        ///< nothing where it was not seen
   std::size_t windows = 0;
 };
 
@@ -112,7 +122,8 @@ struct Finding {
   std::vector<std::size_t> windows;  ///< in which it matters
   /// By how much what was left out is predicted worse without it, horizon by horizon [m], [rad/s]; of claims.
   std::vector<std::optional<Interval>> worsening_ci95, spin_worsening_ci95;
-  std::string reason;  ///< why it is claimed, or not
+  std::optional<Interval> axle_worsening_ci95;  ///< the same of the axle's direction [rad], of what turns it
+  std::string reason;                           ///< why it is claimed, or not
 };
 
 /// A force that is left over, without a name.

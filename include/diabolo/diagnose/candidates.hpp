@@ -172,7 +172,7 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
   const bool asks_gravity = !earth && wanted(candidate_of("gravity_magnitude"));
   for (const Candidate& candidate : candidates()) {
     if (candidate.unknowns.empty() || !alternative_to(candidate.name).empty() || !wanted(candidate)) continue;
-    if (first_of(candidate) == Unknown::kGyroscopicGain) continue;  // see find_axle_motion()
+    if (candidate.direction == "axle") continue;  // see axle_bank()
     if (candidate.name == "spin_coupling" && base.spin_coupling > 0.0) continue;
     if (candidate.name == "gravity_magnitude" && earth) continue;
     if (candidate.name == "length_scale" && asks_gravity) continue;
@@ -192,6 +192,15 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
   return bank;
 }
 
+/// The laws of the axle, all or those of some names.
+inline Bank axle_bank(const std::vector<std::string>& names) {
+  Bank bank;
+  for (const Candidate& candidate : candidates())
+    if (candidate.direction == "axle" && (names.empty() || std::ranges::count(names, candidate.name) > 0))
+      bank.push_back(&candidate);
+  return bank;
+}
+
 /// `set` with, or without, a candidate's unknowns and those that count only beside them.
 inline ActiveSet with(ActiveSet set, const Candidate& candidate, bool included = true) {
   for (const Unknown u : candidate.unknowns) set[index_of(u)] = included;
@@ -206,6 +215,9 @@ inline bool is_in(const ActiveSet& set, const Candidate& candidate) {
 inline bool is_of_spin(const Candidate& candidate) {
   return candidate.law != nullptr ? candidate.law->acts == Acts::kSpin : candidate.direction == "spin";
 }
+
+/// Seen in the axle's direction alone, see AxleInquiry.
+inline bool is_of_axle(const Candidate& candidate) { return candidate.direction == "axle"; }
 
 /// How far unknowns like these move the diabolo within half a second in the most affected tenth of the
 /// windows [m]; of spin effects the share of the spin that goes within kSpinTime.

@@ -113,6 +113,14 @@ inline bool is_possible(const Candidate& candidate, const Estimates& standing) {
 /// Whether a force without a name is told.
 inline bool stands_out(double z, double size) { return std::abs(z) > 5.0 && size > 2.0 * kSmallestReach; }
 
+/// Claims first.
+inline void surest_first(std::vector<Finding>& findings) {
+  std::ranges::stable_sort(findings, [](const Finding& a, const Finding& b) {
+    if (a.claimed != b.claimed) return a.claimed;
+    return std::abs(a.z) > std::abs(b.z);
+  });
+}
+
 /// Judges every candidate at the final fit.
 inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, const Bank& bank,
                  const ActiveSet& set) {
@@ -165,10 +173,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
       result.unexplained_forces.push_back({static_cast<Unknown>(u), own.estimate[u], deviation, z, size,
                                            open_law(fit, static_cast<Unknown>(u))});
   }
-  std::ranges::stable_sort(result.findings, [](const Finding& a, const Finding& b) {
-    if (a.claimed != b.claimed) return a.claimed;
-    return std::abs(a.z) > std::abs(b.z);
-  });
+  surest_first(result.findings);
 }
 
 /// Residual of the positions in the middle window [m].

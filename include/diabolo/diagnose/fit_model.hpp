@@ -76,7 +76,7 @@ inline bool dynamic_spring(const UnknownVector& at) { return compliance_of(at) >
 inline constexpr double kBouncyString = 0.012;
 inline bool is_bouncy(const UnknownVector& at) { return compliance_of(at) > kBouncyString; }
 
-/// (GyroscopicTilt turns the axle alone, see find_axle_motion(); LatentForce stands in its place.)
+/// (What turns the axle alone is fitted apart, see AxleInquiry; LatentForce stands in its place.)
 template <class D>
 using FitPredictor = typename face_detail::PredictorWith<MotionEffects<D, LatentForce>>::Type;
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/diagnose/axle_motion.hpp"
+#include "diabolo/diagnose/axle_laws.hpp"
 #include "diabolo/diagnose/claim_search.hpp"
 #include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/differing.hpp"
@@ -52,6 +52,7 @@ class Inquiry : public ClaimSearch<D> {
       }
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       compare_takes();
+      ask_axle();
       finish();
       result_.final_fit =
           std::make_shared<FinalFit>(FinalFit{physics_, std::move(fit_), set_, possible(), !withdrawn});
@@ -107,8 +108,6 @@ class Inquiry : public ClaimSearch<D> {
     find(result_, fit_, evidence, bank_, set_);
     if (!physics_.effects.template get<UnnamedForce>().neutral())
       result_.unexplained_forces.clear();  // they are told in units of the law that is there
-    if (options_.bank.empty() || std::ranges::count(options_.bank, "gyroscopic_tilt") > 0)
-      result_.findings.push_back(find_axle_motion(fit_, result_.model));
     withdraw_what_cannot_be(result_);
     withdraw_what_may_be_physics(result_, evidence, possible(), set_);
     for (Finding& f : result_.findings) {
@@ -203,6 +202,20 @@ class Inquiry : public ClaimSearch<D> {
     const FitWatch looking = step(comparing, 0.96, 0.965, kRulesShare);
     result_.differing = differing_takes<D>(fit_, physics_, bank_, set_, options_.threads, looking);
     if (looking.is_enough()) budget_.leave(comparing);
+  }
+
+  /// Asks what turns the axle; place and spin are as they were found.
+  void ask_axle() {
+    const char* const asking = "asking what turns the axle";
+    if (!budget_.allows(asking, kRulesShare)) return;
+    AxleAnswer axle = AxleInquiry(fit_, result_.model, axle_bank(options_.bank), options_.threads,
+                                  step(asking, 0.965, 0.967, kRulesShare))
+                          .answer(options_.seed);
+    std::ranges::move(axle.findings, std::back_inserter(result_.findings));
+    surest_first(result_.findings);
+    result_.model = with_axle(result_.model, axle.at);
+    physics_ = with_axle(physics_, axle.at);
+    result_.heldout.axle = axle.ahead;
   }
 
   /// Where it was before and after, the numerical rules' share, the noise, and what to record next.

@@ -56,7 +56,7 @@ struct EffectSize {
   static constexpr const char* kName = "EffectSize";
   static constexpr const char* kDoc = "What an effect does to a free diabolo; null where it does not act so.";
 
-  std::optional<double> acceleration_mps2, position_1s_m, position_05s_m, spin_share_1s;
+  std::optional<double> acceleration_mps2, position_1s_m, position_05s_m, spin_share_1s, axle_1s_rad;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
@@ -64,6 +64,7 @@ struct EffectSize {
     visit("position_1s_m", &EffectSize::position_1s_m, "How far it moves the diabolo in 1 s.");
     visit("position_05s_m", &EffectSize::position_05s_m, "How far it moves the diabolo in 0.5 s.");
     visit("spin_share_1s", &EffectSize::spin_share_1s, "Which share of the spin it changes in 1 s.");
+    visit("axle_1s_rad", &EffectSize::axle_1s_rad, "How far it turns the axle in 1 s.");
   }
 };
 
@@ -78,6 +79,7 @@ struct ClaimedEffect {
   std::vector<Estimate> parameters;
   EffectPlace where;
   IntervalByHorizon worse_without_ci95_m, spin_worse_without_ci95_radps;
+  std::optional<Interval> axle_worse_without_ci95_rad;
   EffectSize size;
 
   template <class Visit>
@@ -94,6 +96,8 @@ struct ClaimedEffect {
           "By how much held-out data is predicted worse without it, 95 % interval of each horizon.");
     visit("spin_worse_without_ci95_radps", &ClaimedEffect::spin_worse_without_ci95_radps,
           "The same of the spin; null where it was not seen.");
+    visit("axle_worse_without_ci95_rad", &ClaimedEffect::axle_worse_without_ci95_rad,
+          "The same of the axle's direction, some second ahead; null of what does not turn it.");
     visit("size", &ClaimedEffect::size, "How much it does to a free diabolo.");
   }
 };
@@ -203,6 +207,8 @@ struct HeldOutErrors {
   NumberByHorizon base_spin_error_radps, augmented_spin_error_radps;
   IntervalByHorizon spin_improvement_ci95_radps;
   NumberByHorizon start_spin_error_radps;
+  std::optional<double> axle_ahead_s, base_axle_error_rad, augmented_axle_error_rad;
+  std::optional<Interval> axle_improvement_ci95_rad;
   std::size_t windows = 0;
   std::vector<std::string> holdout_unused;
   std::size_t fitted_windows = 0, of_windows = 0;
@@ -223,6 +229,14 @@ struct HeldOutErrors {
           "95 % interval of base less augmented.");
     visit("start_spin_error_radps", &HeldOutErrors::start_spin_error_radps,
           "By how much the spins of the starts are off those around them.");
+    visit("axle_ahead_s", &HeldOutErrors::axle_ahead_s,
+          "How long after the axle was seen its direction is compared, a mean; null where it was not seen.");
+    visit("base_axle_error_rad", &HeldOutErrors::base_axle_error_rad,
+          "Mean angle that the base is off then.");
+    visit("augmented_axle_error_rad", &HeldOutErrors::augmented_axle_error_rad,
+          "The same with what was found.");
+    visit("axle_improvement_ci95_rad", &HeldOutErrors::axle_improvement_ci95_rad,
+          "95 % interval of base less augmented.");
     visit("windows", &HeldOutErrors::windows, "Predictions that were compared.");
     visit("holdout_unused", &HeldOutErrors::holdout_unused,
           "Held-out recordings without a start to compare.");
@@ -272,7 +286,7 @@ struct LadderRow {
     visit("z", &LadderRow::z, "Standard deviations from zero.");
     visit("p_value", &LadderRow::p_value, "Over all candidates.");
     visit("size_m", &LadderRow::size_m,
-          "How far it moves a free diabolo in 0.5 s; null where it acts on spin.");
+          "How far it moves a free diabolo in 0.5 s; null where it acts on spin or axle.");
     visit("claimed", &LadderRow::claimed, "");
     visit("reason", &LadderRow::reason, "Why it is claimed, or not.");
   }

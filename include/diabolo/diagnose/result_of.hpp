@@ -85,10 +85,13 @@ inline ClaimedEffect effect_of(const Finding& f, const Diagnosis& d) {
   effect.where = place_of(f, d.windows);
   effect.worse_without_ci95_m = f.worsening_ci95;
   effect.spin_worse_without_ci95_radps = f.spin_worsening_ci95;
-  if (is_of_spin(*f.candidate))
+  effect.axle_worse_without_ci95_rad = f.axle_worsening_ci95;
+  if (is_of_axle(*f.candidate))
+    effect.size.axle_1s_rad = f.size;
+  else if (is_of_spin(*f.candidate))
     effect.size.spin_share_1s = f.size / kSpinTime;
   else  // as a constant acceleration would: x = a t^2 / 2 at half a second, four times that at one
-    effect.size = {8.0 * f.size, 4.0 * f.size, f.size, std::nullopt};
+    effect.size = {8.0 * f.size, 4.0 * f.size, f.size, std::nullopt, std::nullopt};
   return effect;
 }
 
@@ -142,7 +145,7 @@ inline LadderRow row_of(const Finding& f) {
   }
   row.z = f.z;
   row.p_value = f.p_value;
-  if (!is_of_spin(*f.candidate)) row.size_m = f.size;
+  if (!is_of_spin(*f.candidate) && !is_of_axle(*f.candidate)) row.size_m = f.size;
   row.claimed = f.claimed;
   row.reason = f.reason;
   return row;
@@ -230,10 +233,20 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
                 d.heldout.spin.augmented_error,
                 d.heldout.spin.improvement_ci95,
                 d.heldout.spin.start_error,
+                {},
+                {},
+                {},
+                {},
                 d.heldout.windows,
                 std::move(unused),
                 d.windows.size(),
                 d.windows_seen};
+  if (d.heldout.axle) {
+    result.fit.axle_ahead_s = d.heldout.axle->seconds;
+    result.fit.base_axle_error_rad = d.heldout.axle->base_error;
+    result.fit.augmented_axle_error_rad = d.heldout.axle->augmented_error;
+    result.fit.axle_improvement_ci95_rad = d.heldout.axle->improvement_ci95;
+  }
   for (const Proposal& p : d.proposals)
     result.next_experiment.push_back({std::string(p.experiment->motion), std::string(p.experiment->plain),
                                       p.parts, p.odds, p.experiment->seconds});

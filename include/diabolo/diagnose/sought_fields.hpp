@@ -28,7 +28,7 @@ namespace diagnose_detail {
 
 /// All effects that a diagnosis knows.
 using SoughtEffects =
-    std::type_identity<decltype(MotionEffects<double, LatentForce, GyroscopicTilt>::members)>;
+    std::type_identity<decltype(MotionEffects<double, LatentForce, GyroscopicTilt, Unbalance>::members)>;
 
 /// Calls `visit(info)` for every field that is looked for, in their order.
 template <class Effect, class Visit>

@@ -15,11 +15,12 @@
 #include "diabolo/effects/string_elasticity.hpp"
 #include "diabolo/effects/string_friction.hpp"
 #include "diabolo/effects/string_mass.hpp"
+#include "diabolo/effects/unbalance.hpp"
 #include "diabolo/effects/unnamed_force.hpp"
 
 namespace diabolo {
 
-/// Every effect on place and spin, and others.
+/// Every effect on place and spin, and others. (A Groove acts on the axle, too.)
 template <class Scalar, template <class> class... Others>
 using MotionEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, MagnusLift, SpinLoss,
                                 GravityTilt, FiniteAxle, Groove, StickFlex, StringMass, LandingRestitution,
@@ -27,7 +28,7 @@ using MotionEffects = EffectSet<Scalar, StringElasticity, StringFriction, Air, M
 
 /// Every effect of the library.
 template <class Scalar>
-using AllEffects = MotionEffects<Scalar, GyroscopicTilt>;
+using AllEffects = MotionEffects<Scalar, GyroscopicTilt, Unbalance>;
 
 /// Whether two sets have the same laws by formulas and the same residual, whatever their numbers, as rollouts
 /// side by side must.

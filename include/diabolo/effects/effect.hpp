@@ -10,6 +10,7 @@
 #include "diabolo/parameters.hpp"
 #include "diabolo/state.hpp"
 #include "diabolo/sticks.hpp"
+#include "diabolo/string/string_path.hpp"
 #include "diabolo/string/string_step.hpp"
 
 namespace diabolo {
@@ -50,6 +51,16 @@ struct Contact {
   Scalar spin{0};                                                  ///< change of spin [rad/s]
   Scalar pull_difference{0};  ///< right strand's tension less the left one's, over mass [m/s^2]
 };
+
+/// Of the string on the diabolo, over its mass [m/s^2]: along the bisector, and what the strands differ by.
+template <class Scalar>
+Vector3<Scalar> force_of_string(const Tips<Scalar>& tips, const StringStepResult<Scalar>& result,
+                                const Scalar& pull_difference) {
+  const StringPath<Scalar> path(result.position, tips);
+  const Vector3<Scalar> apart = path.from_left * Scalar(Scalar(1) / path.left_length) -
+                                path.from_right * Scalar(Scalar(1) / path.right_length);
+  return result.string_acceleration + apart * Scalar(Scalar(0.5) * pull_difference);
+}
 
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
 /// from this, holds its parameters (amplitude zero by default: then it changes no bit of the result) and

@@ -17,6 +17,12 @@ namespace diabolo {
 template <class Scalar>
 struct Groove : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "groove";
+  static constexpr std::array kLaws{NamedLaw{"groove",
+                                             "a string that climbs the groove's flanks",
+                                             "axle",
+                                             {"groove_profile"},
+                                             {},
+                                             "profile_radius"}};
   Scalar profile_radius{0};  ///< of the groove's bottom, in a cut along the axle [m]
   Scalar half_width{0};      ///< how far the string may climb [m]
   Scalar flank_brake{0};     ///< friction times radius of the rubbing times mass over axial inertia [1/m]
@@ -53,18 +59,20 @@ struct Groove : NeutralEffect<Scalar> {
   Vector3<Scalar> axle_torque(const State<Scalar>& state, const Tips<Scalar>& tips,
                               const StringStepResult<Scalar>& result, const Scalar& pull_difference,
                               const Parameters<Scalar>& parameters) const {
-    const StringPath<Scalar> path(result.position, tips);
-    const Vector3<Scalar> apart = path.from_left * Scalar(Scalar(1) / path.left_length) -
-                                  path.from_right * Scalar(Scalar(1) / path.right_length);
-    const Vector3<Scalar> pull = result.string_acceleration + apart * Scalar(Scalar(0.5) * pull_difference);
     const Scalar z = climb(state.axis, result.string_acceleration);
-    return cross<Scalar>(state.axis, pull) * Scalar(z / parameters.axle_radius);
+    return cross<Scalar>(state.axis, force_of_string(tips, result, pull_difference)) *
+           Scalar(z / parameters.axle_radius);
   }
 
   /// Calls `visit(info, field)` for every field.
   template <class Self, class Visitor>
   static constexpr void for_each(Self& self, Visitor&& visit) {
-    visit(ParameterInfo{"profile_radius", "m", 0.0, 1.0, "of the groove's bottom, in a cut along the axle"},
+    visit(ParameterInfo{"profile_radius",
+                        "m",
+                        0.0,
+                        1.0,
+                        "of the groove's bottom, in a cut along the axle",
+                        {"groove_profile", 1e-3, 0.0, 0.0, 0.05}},
           self.profile_radius);
     visit(ParameterInfo{"half_width", "m", 0.0, 0.1, "how far the string may climb from its middle"},
           self.half_width);

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "diabolo/diagnose/axle_stretches.hpp"
+#include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/math/solve_symmetric.hpp"
+
+namespace diabolo {
+
+/// Half the width of a groove whose string nobody has seen at its edge [m].
+inline constexpr double kRoomyGroove = 0.01;
+
+/// The model with what unknowns of the axle add to its fields.
+inline Model with_axle(const Model& model, const UnknownVector& at) {
+  Model result = model;
+  for_each_unknown(result.effects, [&](Unknown u, double& field) { field += at[index_of(u)]; });
+  auto& groove = result.effects.get<Groove>();
+  if (groove.profile_radius > 0.0 && groove.half_width == 0.0) groove.half_width = kRoomyGroove;
+  return result;
+}
+
+/// Laws of the axle as they fit best, and what each stretch says around that: numbers in usual sizes.
+struct AxleFit {
+  std::vector<int> free;                         ///< unknowns
+  UnknownVector at = UnknownVector::Zero();      ///< SI units, the others zero
+  UnknownVector around = UnknownVector::Zero();  ///< where the stretches were asked
+  std::vector<Eigen::MatrixXd> information;
+  std::vector<Eigen::VectorXd> slope;
+
+  /// What those stretches say for which `counts` is true, of `asked` alone; the others are nothing.
+  template <class Counts>
+  UnknownVector estimate(const std::vector<int>& asked, const Counts& counts) const {
+    std::vector<int> places;
+    for (const int u : asked) places.push_back(static_cast<int>(std::ranges::find(free, u) - free.begin()));
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(asked), std::ssize(asked));
+    Eigen::VectorXd product = Eigen::VectorXd::Zero(std::ssize(asked));
+    Eigen::VectorXd given(std::ssize(free));  // where the stretches were asked
+    for (Eigen::Index k = 0; k < given.size(); ++k) {
+      const int u = free[static_cast<std::size_t>(k)];
+      given[k] = around[u] / kUnknownInfos[static_cast<std::size_t>(u)].scale;
+    }
+    for (std::size_t i = 0; i < information.size(); ++i) {
+      if (!counts(i)) continue;
+      sum += information[i](places, places);
+      product += (slope[i] + information[i] * given)(places);
+    }
+    const Eigen::VectorXd solution = solve_symmetric(sum, product);
+    UnknownVector result = UnknownVector::Zero();
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(asked[k])];
+      result[asked[k]] =
+          std::clamp(info.scale * solution[static_cast<Eigen::Index>(k)], info.minimum, info.maximum);
+    }
+    return result;
+  }
+
+  /// Standard deviations by the jackknife over the stretches.
+  UnknownVector deviation() const {
+    UnknownVector square = UnknownVector::Zero();
+    const UnknownVector whole = estimate(free, [](std::size_t) { return true; });
+    for (std::size_t left_out = 0; left_out < information.size(); ++left_out)
+      square += (estimate(free, [&](std::size_t i) { return i != left_out; }) - whole).cwiseAbs2();
+    return square.cwiseSqrt();
+  }
+};
+
+namespace diagnose_detail {
+
+/// Less the mean of its columns: where the axle was in the first row is not known either.
+inline Eigen::Matrix3Xd about_mean(const Eigen::Matrix3Xd& axle) {
+  return axle.colwise() - axle.rowwise().mean();
+}
+
+/// What a stretch leaves counts in proportion, from about a camera's noise on [rad]: where the axle tumbles,
+/// little is to be learnt.
+inline constexpr double kAxleNoise = 0.2 * kDegree;
+
+/// What stretches leave between what was seen and what is predicted [rad].
+class AxleRests {
+ public:
+  AxleRests(const std::vector<Eigen::Matrix3Xd>& seen, const std::vector<Eigen::Matrix3Xd>& predicted) {
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      rests_.push_back(about_mean(seen[i] - predicted[i]));
+      const double square = rests_.back().squaredNorm() / std::max(1.0, static_cast<double>(seen[i].cols()));
+      sizes_.push_back(std::sqrt(square + kAxleNoise * kAxleNoise));
+    }
+  }
+  const Eigen::Matrix3Xd& of(std::size_t i) const { return rests_[i]; }
+  double weight(std::size_t i) const { return kAxleNoise / sizes_[i]; }
+  double cost() const {
+    const double sum = std::accumulate(sizes_.begin(), sizes_.end(), 0.0);
+    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  std::vector<Eigen::Matrix3Xd> rests_;
+  std::vector<double> sizes_;  ///< root mean squares
+};
+
+/// Asks the stretches around `fit.at`. Derivatives are differences over a thousandth of what is usual.
+inline void ask_stretches(AxleFit& fit, const AxleStretches& stretches, const Model& model,
+                          const std::vector<Eigen::Matrix3Xd>& here, const AxleRests& rests, int threads,
+                          const Watch& watch) {
+  constexpr double kShare = 1e-3;
+  std::vector<std::vector<Eigen::Matrix3Xd>> beside;
+  for (const int u : fit.free) {
+    UnknownVector shifted = fit.at;
+    shifted[u] += kShare * kUnknownInfos[static_cast<std::size_t>(u)].scale;
+    beside.push_back(stretches.predicted(with_axle(model, shifted), threads, watch));
+  }
+  fit.around = fit.at;
+  fit.information.clear();
+  fit.slope.clear();
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    Eigen::MatrixXd columns(here[i].size(), std::ssize(fit.free));
+    for (std::size_t k = 0; k < beside.size(); ++k) {
+      const Eigen::Matrix3Xd change = about_mean(beside[k][i] - here[i]) / kShare;
+      columns.col(static_cast<Eigen::Index>(k)) = change.reshaped();
+    }
+    fit.information.emplace_back(rests.weight(i) * columns.transpose() * columns);
+    fit.slope.emplace_back(rests.weight(i) * columns.transpose() * rests.of(i).reshaped());
+  }
+}
+
+}  // namespace diagnose_detail
+
+/// Fits such unknowns of the axle to its recorded direction, from `at` on, by Gauss and Newton with halved
+/// steps; a stretch counts by the root of what it leaves.
+inline AxleFit fit_axle(const AxleStretches& stretches, const Model& model, std::vector<int> free,
+                        const UnknownVector& at, int threads, const Watch& watch) {
+  constexpr int kMost = 12, kMostHalves = 4;
+  constexpr double kSettled = 1e-3;  // of the cost
+  const std::vector<Eigen::Matrix3Xd> seen = stretches.seen();
+  const auto predicted = [&](const UnknownVector& x) {
+    return stretches.predicted(with_axle(model, x), threads, watch);
+  };
+  AxleFit fit{std::move(free), at, at, {}, {}};
+  std::vector<Eigen::Matrix3Xd> here = predicted(at);
+  for (int iteration = 0; iteration < kMost; ++iteration) {
+    const diagnose_detail::AxleRests rests(seen, here);
+    diagnose_detail::ask_stretches(fit, stretches, model, here, rests, threads, watch);
+    const UnknownVector step = fit.estimate(fit.free, [](std::size_t) { return true; }) - fit.at;
+    double gained = -1.0;
+    for (int halves = 0; halves <= kMostHalves && !(gained > 0.0); ++halves) {
+      const UnknownVector there = fit.at + std::ldexp(1.0, -halves) * step;
+      std::vector<Eigen::Matrix3Xd> trial = predicted(there);
+      gained = rests.cost() - diagnose_detail::AxleRests(seen, trial).cost();
+      if (gained > 0.0) {
+        fit.at = there;
+        here = std::move(trial);
+      }
+    }
+    if (!(gained > kSettled * rests.cost())) break;
+  }
+  return fit;
+}
+
+}  // namespace diabolo

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "diabolo/diagnose/axle_fit.hpp"
+#include "diabolo/diagnose/findings.hpp"
+#include "diabolo/math/bootstrap.hpp"
+
+namespace diabolo {
+
+/// A law of the axle is claimed only where it turns it by so much in a second, in the most affected tenth of
+/// the stretches [rad].
+inline constexpr double kSmallestTurn = 3.0 * kDegree;
+
+/// What the axle's recorded direction says of the laws that turn it.
+struct AxleAnswer {
+  std::vector<Finding> findings;
+  UnknownVector at = UnknownVector::Zero();  ///< of the laws that are claimed
+  std::optional<AxleAhead> ahead;            ///< nothing where the axle was not seen for long enough
+};
+
+namespace diagnose_detail {
+
+inline double angle_between(const Vector3<double>& a, const Vector3<double>& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Asks for the laws of the axle, keeps those that are sure, and judges them on stretches that were left out.
+class AxleInquiry {
+ public:
+  AxleInquiry(const Fit& fit, const Model& model, const Bank& laws, int threads, const Watch& watch)
+      : fit_(&fit), stretches_(fit), model_(model), laws_(laws), threads_(threads), watch_(watch) {}
+
+  AxleAnswer answer(std::uint64_t seed) {
+    AxleAnswer result;
+    if (stretches_.all().empty() || laws_.empty()) return result;
+    const AxleFit everything = keep_what_is_sure();
+    const std::vector<double> base = errors(UnknownVector::Zero()), found = errors_left_out(kept_.free);
+    std::mt19937_64 generator(seed);
+    for (const Candidate* law : laws_)
+      result.findings.push_back(finding_of(*law, everything, found, generator));
+    for (const Finding& f : result.findings)
+      if (f.claimed) result.at[index_of(first_of(*f.candidate))] = kept_.at[index_of(first_of(*f.candidate))];
+    result.ahead = compared(base, found, generator);
+    return result;
+  }
+
+ private:
+  static bool any_stretch(std::size_t) { return true; }
+  static int number_of(const Candidate& law) { return index_of(first_of(law)); }
+  bool is_kept(const Candidate& law) const { return std::ranges::count(kept_.free, number_of(law)) > 0; }
+
+  /// Fits all laws together, and takes out the least sure until all that are left speak for themselves.
+  /// Returns the first fit.
+  AxleFit keep_what_is_sure() {
+    std::vector<int> free;
+    UnknownVector at = UnknownVector::Zero();
+    for (const Candidate* law : laws_) free.push_back(number_of(*law));
+    // Without its gain no other law turns the axle, nor would anything be seen of them.
+    const int gain = index_of(Unknown::kGyroscopicGain);
+    if (model_.effects.get<GyroscopicTilt>().gain == 0.0) at[gain] = kUnknownInfos[gain].scale;
+    kept_ = fit_axle(stretches_, model_, free, at, threads_, watch_);
+    const AxleFit everything = kept_;
+    for (;;) {
+      const UnknownVector deviation = kept_.deviation();
+      const Candidate* weakest = nullptr;
+      double least = 0.0;
+      for (const Candidate* law : laws_) {
+        const double z = is_kept(*law) ? significance(*law, kept_.at, deviation) : 0.0;
+        if (!is_kept(*law) || speaks_for(*law, z)) continue;
+        if (weakest == nullptr || std::abs(z) < least) weakest = law, least = std::abs(z);
+      }
+      if (weakest == nullptr) return everything;
+      std::vector<int> rest = kept_.free;
+      std::erase(rest, number_of(*weakest));
+      if (number_of(*weakest) == gain || rest.empty()) {
+        kept_ = AxleFit{};
+        return everything;
+      }
+      UnknownVector from = kept_.at;
+      from[number_of(*weakest)] = 0.0;
+      kept_ = fit_axle(stretches_, model_, rest, from, threads_, watch_);
+    }
+  }
+
+  static double significance(const Candidate& law, const UnknownVector& at, const UnknownVector& deviation) {
+    const int u = number_of(law);
+    return deviation[u] > 0.0 ? at[u] / deviation[u] : 0.0;
+  }
+
+  bool far_enough(std::size_t i) const { return stretches_.all()[i].seconds >= kFarEnoughAhead; }
+
+  /// Angles at the stretches' ends between what such unknowns predict and what was seen, of those that are
+  /// far enough [rad].
+  std::vector<double> errors(const UnknownVector& at) const {
+    return errors(at, [](std::size_t) { return true; });
+  }
+  template <class Counts>
+  std::vector<double> errors(const UnknownVector& at, const Counts& counts) const {
+    const std::vector<Eigen::Matrix3Xd> seen = stretches_.seen(),
+                                        here = stretches_.predicted(with_axle(model_, at), threads_, watch_);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (far_enough(i) && counts(i))
+        result.push_back(angle_between(here[i].rightCols<1>(), seen[i].rightCols<1>()));
+    return result;
+  }
+
+  /// The same for each part of the stretches by unknowns that the others say.
+  std::vector<double> errors_left_out(const std::vector<int>& free) const {
+    if (free.empty()) return errors(UnknownVector::Zero());
+    std::vector<double> result;
+    const std::size_t parts = std::max<std::size_t>(kParts, fit_->fit_takes.size());
+    for (std::size_t part = 0; part < parts; ++part) {
+      const auto left_out = [&](std::size_t i) { return part_of(i) == part; };
+      const std::vector<double> own =
+          errors(kept_.estimate(free, [&](std::size_t i) { return !left_out(i); }), left_out);
+      result.insert(result.end(), own.begin(), own.end());
+    }
+    return result;
+  }
+
+  /// Whole recordings where there are several; else thirds of the only one.
+  std::size_t part_of(std::size_t i) const {
+    if (fit_->fit_takes.size() > 1) return stretches_.all()[i].fit_take;
+    return i * kParts / stretches_.all().size();
+  }
+
+  Finding finding_of(const Candidate& law, const AxleFit& everything, const std::vector<double>& found,
+                     std::mt19937_64& generator) const {
+    const AxleFit& fit = is_kept(law) ? kept_ : everything;
+    Finding f;
+    f.candidate = &law;
+    f.estimate = fit.at;
+    f.deviation = fit.deviation();
+    f.z = significance(law, f.estimate, f.deviation);
+    f.p_value = family_wise(f.z);
+    f.sure = is_kept(law);
+    if (!f.sure) {
+      f.reason = "too small to be told from nothing";
+      return f;
+    }
+    measure(f);
+    std::vector<int> others = kept_.free;
+    std::erase(others, number_of(law));
+    if (number_of(law) == index_of(Unknown::kGyroscopicGain)) others.clear();
+    f.axle_worsening_ci95 = interval_of(errors_left_out(others), found, generator);
+    const bool helps = f.axle_worsening_ci95 && f.axle_worsening_ci95->low > 0.0;
+    f.claimed = f.material && helps;
+    f.confidence = f.claimed ? confidence_of(std::abs(f.z)) : 0.0;
+    f.reason = !f.material ? "there, but too small to matter"
+               : !helps    ? "does not help on data that were left out"
+                           : "sure, and large enough to matter";
+    return f;
+  }
+
+  /// How far a law turns the axle, and where that matters.
+  void measure(Finding& f) const {
+    UnknownVector without = kept_.at;
+    without[number_of(*f.candidate)] = 0.0;
+    if (number_of(*f.candidate) == index_of(Unknown::kGyroscopicGain)) without.setZero();
+    const std::vector<Eigen::Matrix3Xd> with = stretches_.predicted(with_axle(model_, kept_.at), threads_,
+                                                                    watch_),
+                                        rest = stretches_.predicted(with_axle(model_, without), threads_,
+                                                                    watch_);
+    std::vector<double> turns;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      const AxleStretch& stretch = stretches_.all()[i];
+      const double turn =
+          angle_between(with[i].rightCols<1>(), rest[i].rightCols<1>()) / std::max(stretch.seconds, 0.1);
+      if (far_enough(i)) turns.push_back(turn);
+      if (turn > kSmallestTurn)
+        for (std::size_t w = stretch.first; w <= stretch.last; ++w) f.windows.push_back(stretch.windows + w);
+    }
+    std::ranges::sort(turns);
+    f.size = turns.empty() ? 0.0 : quantile(turns, 0.9);
+    f.material = f.size > kSmallestTurn;
+  }
+
+  static std::optional<Interval> interval_of(const std::vector<double>& more, const std::vector<double>& less,
+                                             std::mt19937_64& generator) {
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < more.size(); ++i) differences.push_back(more[i] - less[i]);
+    const std::optional<ErrorSummary> summary = summarize(differences, 1, generator);
+    return summary ? summary->mean_ci95 : std::nullopt;
+  }
+
+  std::optional<AxleAhead> compared(const std::vector<double>& base, const std::vector<double>& found,
+                                    std::mt19937_64& generator) const {
+    if (base.empty()) return {};
+    std::vector<double> seconds;
+    for (const AxleStretch& stretch : stretches_.all())
+      if (stretch.seconds >= kFarEnoughAhead) seconds.push_back(stretch.seconds);
+    return AxleAhead{mean_of(seconds), mean_of(base), mean_of(found), interval_of(base, found, generator),
+                     base.size()};
+  }
+
+  static constexpr std::size_t kParts = 3;
+  const Fit* fit_;
+  AxleStretches stretches_;
+  Model model_;
+  Bank laws_;
+  int threads_;
+  Watch watch_;
+  AxleFit kept_;
+};
+
+}  // namespace diagnose_detail
+
+}  // namespace diabolo
