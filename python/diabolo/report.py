@@ -225,10 +225,27 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         "sentence": sentence + left,
         "rows": _error_table(rows, _millimetres),
         "spin": _error_table(_held_out(fit, SPIN_ERRORS), _radians_per_second),
+        "axle": _axle(fit),
         "tile": tile,
         "tile_label": tile_label,
         "figure": figures.error_figure(rows),
     }
+
+
+def _axle(fit: dict[str, Any]) -> list[list[str]]:
+    """Of the axle's direction: a row as of an error table, less the noise of starts."""
+    ahead, base, augmented = (
+        fit.get(name) for name in ("axle_ahead_s", "base_axle_error_rad", "augmented_axle_error_rad")
+    )
+    if ahead is None or base is None or augmented is None:
+        return []
+    gain = _degrees(base - augmented, fit.get("axle_improvement_ci95_rad"))
+    return [[quantity(ahead, "s"), _degrees(base), _degrees(augmented), gain]]
+
+
+def _degrees(angle: float, interval: Any = None) -> str:
+    ends = [np.degrees(end) for end in interval] if interval and None not in interval else None
+    return quantity(float(np.degrees(angle)), "deg", ends)
 
 
 SPIN_ERRORS = (
@@ -446,8 +463,9 @@ def _sizes(row: dict[str, Any]) -> list[str]:
         )
         if row.get(key) is not None
     ]
-    share = row.get("spin_share_1s")
-    return sizes if share is None else [*sizes, f"{percent(share)} of the spin in 1 s"]
+    share, turn = row.get("spin_share_1s"), row.get("axle_1s_rad")
+    sizes += [] if share is None else [f"{percent(share)} of the spin in 1 s"]
+    return sizes + ([] if turn is None else [f"turns the axle by {_degrees(turn)} in 1 s"])
 
 
 def _where(where: dict[str, Any], windows: Iterable[dict[str, Any]] = ()) -> list[str]:

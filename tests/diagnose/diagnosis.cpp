@@ -118,7 +118,7 @@ TEST_CASE("a string that is wrapped around the axle is no shorter one that rubs 
   CHECK(d.model.parameters.wraps == 1.0);
 }
 
-TEST_CASE("the turning of the axle is measured, and too small to claim") {
+TEST_CASE("what turns the axle is named, and the model turns it") {
   for (const double gain : {0.0, 3.8}) {
     AllEffects<double> effects;
     effects.get<StringFriction>().coefficient = 0.2;
@@ -131,7 +131,10 @@ TEST_CASE("the turning of the axle is measured, and too small to claim") {
     CAPTURE(gain, f->estimate[u], f->deviation[u]);
     CHECK(std::abs(f->estimate[u] - gain) < 4.0 * f->deviation[u]);
     CHECK(f->sure == (gain > 0.0));
-    CHECK_FALSE(f->claimed);
+    CHECK(f->claimed == (gain > 0.0));
+    CHECK(d.model.effects.get<GyroscopicTilt>().gain == (gain > 0.0 ? f->estimate[u] : 0.0));
+    REQUIRE(d.heldout.axle);
+    CHECK((d.heldout.axle->augmented_error < 0.5 * d.heldout.axle->base_error) == (gain > 0.0));
   }
 }
 

@@ -17,7 +17,7 @@ using Vector = Vector3<double>;
 
 namespace {
 
-constexpr int kFields = 33;
+constexpr int kFields = 34;
 constexpr int kOutputs = 10;  // position, velocity, axle, spin
 using D = Dual<double, kFields>;
 using Outputs = Eigen::Matrix<double, kOutputs, 1>;
@@ -77,6 +77,7 @@ std::array<double, kFields> at_work() {
   set("gyroscopic_tilt.gain", 1.0);
   set("gyroscopic_tilt.inertia_ratio", 1.2);
   set("gyroscopic_tilt.decay", 5.0);
+  set("unbalance.offset", 8e-4);
   set("groove.profile_radius", 0.006);
   set("groove.half_width", 0.005);
   set("groove.flank_brake", 0.5);
@@ -170,7 +171,8 @@ double change_of(int k) {
 
 /// The least that a field moves the outcome by; an axle turns by some milliradians.
 double least_of(int k, double usual) {
-  return field_names()[static_cast<std::size_t>(k)].starts_with("gyroscopic") ? 1e-4 : usual;
+  const std::string& name = field_names()[static_cast<std::size_t>(k)];
+  return name.starts_with("gyroscopic") || name.starts_with("unbalance") ? 1e-4 : usual;
 }
 
 /// Acts while the string is loose, or as it comes taut, only: a millimetre's fall does not show it. See
@@ -252,7 +254,7 @@ TEST_CASE("derivatives by every field, all effects at work, in flight") {
       const bool of_string = name.starts_with("string_") || name.starts_with("finite_axle") ||
                              name.starts_with("stick_flex") || name.starts_with("landing_restitution") ||
                              name.starts_with("gyroscopic_tilt") || name.starts_with("groove") ||
-                             name.starts_with("unnamed_force.string");
+                             name.starts_with("unbalance") || name.starts_with("unnamed_force.string");
       CHECK((jacobian.col(k).norm() == 0.0) == of_string);
     }
   }
@@ -281,7 +283,8 @@ TEST_CASE("derivatives by every field where all amplitudes are zero") {
       if (of_loose_string(k) || of_edge(k)) continue;
       if (name.ends_with(".damping") || name.ends_with(".tip_mass") || name.starts_with("air.wind") ||
           name.ends_with(".spin_gain") || name.ends_with("_exponent") || name.starts_with("groove.") ||
-          name == "gyroscopic_tilt.inertia_ratio" || name == "gyroscopic_tilt.decay") {
+          name.starts_with("unbalance.") || name == "gyroscopic_tilt.inertia_ratio" ||
+          name == "gyroscopic_tilt.decay") {
         CHECK(jacobian.col(k).norm() == 0.0);  // of no spring, no drag, no friction, no force: nothing
         continue;
       }

@@ -204,6 +204,10 @@ INVENTED: dict[str, Any] = {
         "augmented_spin_error_radps": [0.2, 0.3, None, 0.5],
         "spin_improvement_ci95_radps": [[-0.05, 0.05], [0.04, 0.16], None, [0.9, 1.3]],
         "start_spin_error_radps": [0.1, 0.1, None, 0.1],
+        "axle_ahead_s": 1.0,
+        "base_axle_error_rad": 0.1,
+        "augmented_axle_error_rad": 0.01,
+        "axle_improvement_ci95_rad": [0.07, 0.11],
         "windows": 412,
     },
     "next_experiment": [
@@ -580,6 +584,13 @@ def test_the_size_of_a_spin_effect_is_a_share() -> None:
     size = {"acceleration_mps2": None, "position_1s_m": None, "spin_share_1s": 0.12}
     text = Page(report_html(invented(effects=[{"name": "axle_drag", "size": size}]))).text
     assert "Bearing slows the spin axle_drag" in text and "12 % of the spin in 1 s" in text
+
+
+def test_the_size_of_what_turns_the_axle_is_an_angle() -> None:
+    size = {"acceleration_mps2": None, "position_1s_m": None, "axle_1s_rad": 0.1}
+    text = Page(report_html(invented(effects=[{"name": "groove", "size": size}]))).text
+    assert "String climbs the groove's flanks groove" in text and "turns the axle by 5.7° in 1 s" in text
+    assert "1 s 5.7° 0.57° 5.2 [4.0, 6.3]°" in text
 
 
 def test_says_what_a_claim_is_worth_on_data_that_was_not_fitted() -> None:

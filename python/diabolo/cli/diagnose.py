@@ -10,6 +10,8 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .. import files
 from .._core import Estimate, FormulaLaws, InputFile, Recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
@@ -247,6 +249,12 @@ def text_of(diagnosis: Diagnosis) -> str:
         ]
         if shown:
             lines.append(f"  mean {what} on held-out {fit.heldout}, after " + "; ".join(shown))
+    if fit.axle_ahead_s is not None:
+        before, after = np.degrees([fit.base_axle_error_rad, fit.augmented_axle_error_rad])
+        lines.append(
+            f"  mean error of the axle's direction on held-out {fit.heldout},"
+            f" after {fit.axle_ahead_s:.2g} s: {before:.1f} -> {after:.1f} deg"
+        )
     if fit.holdout_unused:
         names = ", ".join(fit.holdout_unused)
         lines.append(f"  held out, but without a start that could be compared: {names}")

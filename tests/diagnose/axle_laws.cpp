@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/axle_laws.hpp"
+
+#include <string_view>
+
+#include "catch.hpp"
+#include "diabolo/diagnose/compiled.hpp"
+#include "diabolo/diagnose/first_fit.hpp"
+
+#include "played.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+constexpr double kGain = 3.8;
+
+/// What a play's recorded axle says, where place and spin are explained.
+AxleAnswer answer_on(const AllEffects<double>& turning, const std::vector<std::string>& names = {},
+                     double seconds = 14.0, const Model& base = {}) {
+  AllEffects<double> effects = turning;
+  effects.get<StringFriction>().coefficient = 0.2;
+  Model model = base;
+  model.effects.get<StringFriction>().coefficient = 0.2;
+  Fit fit = diagnose_detail::prepared({played(effects, seconds, 4)}, model);
+  // What a diagnosis would find; sizes along the axle count in its radius.
+  fit.at[index_of(Unknown::kAxleRadius)] = Recording{}.properties.axle_radius + 7e-4;
+  approach<diagnose_detail::CompiledDual<0>>(fit, model, ActiveSet::Constant(false), 3, 2);
+  model = augmented_model(model, fit.at, "found");
+  return diagnose_detail::AxleInquiry(fit, model, axle_bank(names), 2, {}).answer(1);
+}
+
+AllEffects<double> turning(double gain, double profile = 0.0, double offset = 0.0) {
+  AllEffects<double> effects;
+  effects.get<GyroscopicTilt>().gain = gain;
+  effects.get<Groove>().profile_radius = profile;
+  effects.get<Groove>().half_width = 0.005;
+  effects.get<Unbalance>().offset = offset;
+  return effects;
+}
+
+const Finding& finding(const AxleAnswer& answer, std::string_view name) {
+  for (const Finding& f : answer.findings)
+    if (f.candidate->name == name) return f;
+  throw std::logic_error("was not asked about");
+}
+
+/// Whether a law came out as it is.
+void check_size(const Finding& f, double truth) {
+  const int u = index_of(first_of(*f.candidate));
+  CAPTURE(f.candidate->name, f.estimate[u], f.deviation[u], truth);
+  CHECK(f.sure);
+  CHECK(f.estimate[u] == Approx(truth).epsilon(0.03));
+}
+
+}  // namespace
+
+TEST_CASE("an axle that keeps its direction has no law") {
+  const AxleAnswer answer = answer_on(turning(0.0));
+  REQUIRE(answer.findings.size() == 3);
+  for (const Finding& f : answer.findings) {
+    CAPTURE(f.candidate->name, f.z);
+    CHECK_FALSE(f.sure);
+    CHECK_FALSE(f.claimed);
+  }
+  CHECK(answer.at == UnknownVector::Zero());
+  REQUIRE(answer.ahead);
+  CHECK(answer.ahead->base_error < 0.5 * kDegree);
+}
+
+TEST_CASE("tilt, flank and unbalance are told apart and sized, and predict what was left out") {
+  const double profile = 0.006, offset = 1e-3;
+  for (const bool climbs : {false, true})
+    for (const bool leans : {false, true}) {
+      CAPTURE(climbs, leans);
+      const AxleAnswer answer = answer_on(turning(kGain, climbs ? profile : 0.0, leans ? offset : 0.0));
+      const Finding &tilt = finding(answer, "gyroscopic_tilt"), &groove = finding(answer, "groove"),
+                    &unbalance = finding(answer, "unbalance");
+      check_size(tilt, kGain);
+      CHECK(tilt.claimed);
+      CHECK(tilt.size > kSmallestTurn);
+      CHECK(groove.sure == climbs);
+      CHECK(unbalance.sure == leans);
+      if (climbs) check_size(groove, profile);
+      if (leans) check_size(unbalance, offset);
+      REQUIRE(answer.ahead);
+      CHECK(answer.ahead->augmented_error < 0.5 * kDegree);
+      REQUIRE(answer.ahead->improvement_ci95);
+      CHECK(answer.ahead->improvement_ci95->low > 0.3 * kDegree);
+      for (const Finding& f : answer.findings)
+        if (f.claimed) CHECK(f.axle_worsening_ci95->low > 0.0);
+    }
+}
+
+TEST_CASE("an axle that falls over and tumbles still shows its laws") {
+  const AxleAnswer answer = answer_on(turning(kGain, 0.006, -7e-4), {}, 30.0);
+  REQUIRE(answer.ahead);
+  CHECK(answer.ahead->base_error > 20.0 * kDegree);
+  CHECK(answer.ahead->augmented_error < 0.5 * answer.ahead->base_error);
+  const Finding& tilt = finding(answer, "gyroscopic_tilt");
+  CHECK(tilt.claimed);
+  CHECK(tilt.estimate[index_of(Unknown::kGyroscopicGain)] == Approx(kGain).epsilon(0.1));
+}
+
+TEST_CASE("what the base says of the axle is not asked again") {
+  Model base;
+  base.effects.get<GyroscopicTilt>().gain = kGain;
+  const AxleAnswer answer = answer_on(turning(kGain), {}, 14.0, base);
+  for (const Finding& f : answer.findings) {
+    CAPTURE(f.candidate->name, f.z);
+    CHECK_FALSE(f.claimed);
+  }
+  REQUIRE(answer.ahead);
+  CHECK(answer.ahead->base_error < 0.5 * kDegree);
+}
+
+TEST_CASE("laws of the axle are asked about by name") {
+  const AxleAnswer answer = answer_on(turning(kGain), {"gyroscopic_tilt"});
+  REQUIRE(answer.findings.size() == 1);
+  CHECK(answer.findings.front().claimed);
+  CHECK(answer_on(turning(kGain), {"wind"}).findings.empty());
+}
