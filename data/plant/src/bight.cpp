@@ -14,9 +14,9 @@ constexpr double kNearest = 1e-4;  // shortest straight piece, in contact radii 
 double shift_along_axis(const Axle& axle, const Groove& groove, const Pair<Vec3>& nodes) {
   const Vec3 pull = (nodes[0] - axle.centre).normalized() + (nodes[1] - axle.centre).normalized();
   const double strength = pull.norm();
-  if (!(strength > 0.0)) return 0.0;
-  return std::clamp(groove.profile_radius * pull.dot(axle.axis) / strength, -groove.half_width,
-                    groove.half_width);
+  if (!(strength > 0.0)) return groove.offset;
+  return groove.offset + std::clamp(groove.profile_radius * pull.dot(axle.axis) / strength,
+                                    -groove.half_width, groove.half_width);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ DiaboloParameters read_diabolo(Fields fields, DiaboloParameters diabolo, Structu
   fields.read("axle_radius", diabolo.groove.radius, {0.0, 0.05});
   fields.read("groove_radius", diabolo.groove.profile_radius, {0.0, 0.05});
   fields.read("groove_half_width", diabolo.groove.half_width, {0.0, 0.05});
+  fields.read("groove_offset", diabolo.groove.offset, {-0.02, 0.02});
   fields.read("bearing_torque", diabolo.bearing_torque, {0.0, 1.0});
   fields.read("axle_drag", diabolo.axle_drag, {0.0, 1000.0});
   fields.read("tension_drag", diabolo.tension_drag, {0.0, 100.0});

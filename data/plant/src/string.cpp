@@ -25,7 +25,7 @@ StringShape string_shape(const StringParameters& string, const Groove& groove, c
   const Vec3 bisector = (ends.tips[0] - ends.centre).normalized() + (ends.tips[1] - ends.centre).normalized();
   const double norm = bisector.norm();
   const double free_shift = norm > 0.0 ? groove.profile_radius * bisector.dot(axis) / norm : 0.0;
-  const double shift = std::clamp(free_shift, -groove.half_width, groove.half_width);
+  const double shift = groove.offset + std::clamp(free_shift, -groove.half_width, groove.half_width);
 
   StringShape shape;
   shape.at_flank = std::abs(free_shift) > groove.half_width;

@@ -78,6 +78,7 @@ struct Groove {
   double radius = 0.0065;         ///< axle radius [m]
   double profile_radius = 0.005;  ///< radius of the groove's cross-section [m]
   double half_width = 0.005;      ///< furthest that the contact moves along the axis [m]
+  double offset = 0.0;            ///< of its middle from the centre of mass, along the axis [m]
 };
 
 /// Shape of the taut string. Throws std::domain_error when a tip has come within the axle.

@@ -94,3 +94,25 @@ TEST_CASE("shifted tips tilt the axis at the rate of their torque over the spin"
     slower = slope;
   }
 }
+
+TEST_CASE("a groove beside the centre of mass yaws the axis as a heavy top, at m g d / (I w)") {
+  PlantParameters parameters = lossless();
+  parameters.diabolo.groove.profile_radius = 0.0;
+  for (const double offset : {0.001, -0.002}) {
+    parameters.diabolo.groove.offset = offset;
+    const StrandsPlant plant(parameters, still_hands({0.0, 0.3, 1.25}, {0.0, -0.3, 1.25}));
+    Start start;
+    start.spin = 200.0;
+    const std::vector<Moment> moments = simulate(plant, start, times_until(0.5, 500));
+    const DiaboloParameters& diabolo = parameters.diabolo;
+    // The spin about the axis is -w: momentum -I w s, torque of the weight about the groove -d s x (-m g z).
+    const double expected = offset * diabolo.mass * 9.80665 / (diabolo.axial_inertia * start.spin);
+    double slope = 0.0;
+    double weight = 0.0;
+    for (const Moment& moment : moments) {  // a straight line through the nutation
+      slope += (moment.time - 0.25) * std::asin(moment.state(1, kAxis));
+      weight += (moment.time - 0.25) * (moment.time - 0.25);
+    }
+    CHECK(slope / weight == Approx(expected).epsilon(0.02));
+  }
+}

@@ -49,14 +49,14 @@ class AxleInquiry {
     for (const Candidate* law : laws_)
       result.findings.push_back(finding_of(*law, everything, found, generator));
     for (const Finding& f : result.findings)
-      if (f.claimed) result.at[index_of(first_of(*f.candidate))] = kept_.at[index_of(first_of(*f.candidate))];
+      if (f.claimed) result.at[number_of(*f.candidate)] = kept_.at[number_of(*f.candidate)];
     result.ahead = compared(base, found, generator);
     return result;
   }
 
  private:
   static bool any_stretch(std::size_t) { return true; }
-  static int number_of(const Candidate& law) { return index_of(first_of(law)); }
+  static int number_of(const Candidate& law) { return index_of(law.unknowns.front()); }
   bool is_kept(const Candidate& law) const { return std::ranges::count(kept_.free, number_of(law)) > 0; }
 
   /// Fits all laws together, and takes out the least sure until all that are left speak for themselves.
