@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "diabolo/learn/task.hpp"
-#include "diabolo/plan/level.hpp"
+#include "diabolo/plan/axle_response.hpp"
 
 namespace diabolo {
 

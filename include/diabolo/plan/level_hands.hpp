@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "diabolo/plan/level.hpp"
+#include "diabolo/plan/level_gains.hpp"
 
 namespace diabolo {
 

@@ -4,10 +4,9 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <stdexcept>
-#include <string>
-#include <tuple>
 
 #include "diabolo/full_predictor.hpp"
+#include "diabolo/plan/turned.hpp"
 #include "diabolo/string/hanging.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -25,25 +24,6 @@ inline Vector3<double> axle_at(const AxleAngles& angles) {
   return {level * std::cos(angles.yaw), level * std::sin(angles.yaw), std::sin(angles.tilt)};
 }
 
-/// A motion of the hands that is turned to the left by `heading` and `lead` [rad] about the vertical through
-/// `pivot`. The player faces along the heading; the lead sets the right hand forward and the left one back,
-/// as a player does who tilts the axle, and leaves the string's shape as it is.
-struct Turned {
-  double heading = 0.0, lead = 0.0;
-  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
-
-  Eigen::Vector3d operator()(const Eigen::Vector3d& v) const {
-    const double c = std::cos(heading + lead), s = std::sin(heading + lead);
-    return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()};
-  }
-  /// Places alone.
-  Tips<double> operator()(Tips<double> tips) const {
-    tips.left = pivot + (*this)(Eigen::Vector3d(tips.left - pivot));
-    tips.right = pivot + (*this)(Eigen::Vector3d(tips.right - pivot));
-    return tips;
-  }
-};
-
 /// How the axle of a diabolo that hangs between level hands answers them, to first order: d/dt (tilt, yaw,
 /// heading) = drift (tilt, yaw, heading) + drive (lead, turn), angles in rad as in Turned, and `turn`
 /// the rate of the heading [rad/s]. The axle follows its torque without nutation, so that both
@@ -57,12 +37,6 @@ struct AxleResponse {
 inline constexpr double kSlowestToSteer = 2.0 * GyroscopicTilt<double>::kSlowSpin;
 
 namespace level_detail {
-
-inline void check_size(const char* name, double value, double most, const char* unit) {
-  if (value > 0.0 && value <= most) return;
-  throw std::invalid_argument(std::string(name) + ": " + shown(value) + " " + unit +
-                              "; must be above 0 and at most " + shown(most));
-}
 
 /// Throws std::invalid_argument where these are no hands side by side.
 inline void check_home(const Tips<double>& home, double string_length) {
@@ -124,57 +98,6 @@ inline AxleResponse axle_response(const FullPredictor<double>& model, const Tips
   response.drive.topLeftCorner<2, 1>() = slope(0, 0, 0, 1);
   response.drive(2, 1) = 1.0;
   return response;
-}
-
-/// What levelling weighs: each quantity by the size at which it costs one.
-struct LevelWeights {
-  double tilt = 0.05;     ///< [rad]
-  double yaw = 0.05;      ///< of the axle against the heading [rad]
-  double heading = 1.0;   ///< of the player [rad]
-  double lead = 0.3;      ///< [rad]
-  double turn = 0.5;      ///< [rad/s]
-  double horizon = 20.0;  ///< [s]
-
-  /// Throws std::invalid_argument where one is out of its range.
-  void validate() const {
-    for (const auto& [name, value, unit] : {std::tuple("tilt", tilt, "rad"),
-                                            {"yaw", yaw, "rad"},
-                                            {"heading", heading, "rad"},
-                                            {"lead", lead, "rad"},
-                                            {"turn", turn, "rad/s"},
-                                            {"horizon", horizon, "s"}})
-      level_detail::check_size(name, value, 1e3, unit);
-  }
-};
-
-/// Gains K of the linear-quadratic regulator, (lead, turn) = -K (tilt, yaw, heading), which minimises the
-/// weighed squares over the horizon: Riccati's recursion backwards. What no hand can move costs and stays,
-/// such as the yaw of an axle without a groove.
-inline Eigen::Matrix<double, 2, 3> level_gains(const AxleResponse& response,
-                                               const LevelWeights& weights = {}) {
-  constexpr double kStep = 0.02;  // [s]
-  weights.validate();
-  const auto one_over_square = [](double size) { return 1.0 / (size * size); };
-  const double yaw = one_over_square(weights.yaw);
-  Eigen::Matrix3d cost = Eigen::Matrix3d::Zero();
-  cost(0, 0) = one_over_square(weights.tilt);
-  cost.bottomRightCorner<2, 2>() << yaw, -yaw, -yaw, yaw + one_over_square(weights.heading);
-  const Eigen::Matrix2d effort =
-      Eigen::Vector2d(one_over_square(weights.lead), one_over_square(weights.turn)).asDiagonal();
-  const Eigen::Matrix3d next = Eigen::Matrix3d::Identity() + kStep * response.drift;
-  const Eigen::Matrix<double, 3, 2> push = kStep * response.drive;
-  Eigen::Matrix3d to_go = cost;
-  Eigen::Matrix<double, 2, 3> gains;
-  for (int i = 0; i < static_cast<int>(weights.horizon / kStep); ++i) {
-    const Eigen::Matrix2d weight = effort + push.transpose() * to_go * push;
-    const Eigen::Matrix<double, 2, 3> wanted = push.transpose() * to_go * next;
-    const double determinant = weight(0, 0) * weight(1, 1) - weight(0, 1) * weight(1, 0);
-    Eigen::Matrix2d inverse;
-    inverse << weight(1, 1), -weight(0, 1), -weight(1, 0), weight(0, 0);
-    gains = inverse * wanted / determinant;
-    to_go = cost + next.transpose() * to_go * (next - push * gains);
-  }
-  return gains;
 }
 
 }  // namespace diabolo
