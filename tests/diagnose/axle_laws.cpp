@@ -13,7 +13,7 @@ using namespace diabolo;
 
 namespace {
 
-constexpr double kGain = 3.8;
+constexpr double kGain = 3.8, kRadiusShare = 0.05;
 
 /// What a play's recorded axle says, where place and spin are explained.
 AxleAnswer answer_on(const AllEffects<double>& turning, const std::vector<std::string>& names = {},
@@ -27,7 +27,7 @@ AxleAnswer answer_on(const AllEffects<double>& turning, const std::vector<std::s
   fit.at[index_of(Unknown::kAxleRadius)] = Recording{}.properties.axle_radius + 7e-4;
   approach<diagnose_detail::CompiledDual<0>>(fit, model, ActiveSet::Constant(false), 3, 2);
   model = augmented_model(model, fit.at, "found");
-  return diagnose_detail::AxleInquiry(fit, model, axle_bank(names), 2, {}).answer(1);
+  return diagnose_detail::AxleInquiry(fit, model, axle_bank(names), kRadiusShare, 2, {}).answer(1);
 }
 
 AllEffects<double> turning(double gain, double profile = 0.0, double offset = 0.0) {
@@ -81,7 +81,10 @@ TEST_CASE("tilt, flank and unbalance are told apart and sized, and predict what 
       CHECK(tilt.size > kSmallestTurn);
       CHECK(groove.sure == climbs);
       CHECK(unbalance.sure == leans);
-      if (climbs) check_size(groove, profile);
+      if (climbs) {
+        check_size(groove, profile);
+        CHECK(groove.deviation[index_of(first_of(*groove.candidate))] > 0.9 * kRadiusShare * profile);
+      }
       if (leans) check_size(unbalance, offset);
       REQUIRE(answer.ahead);
       CHECK(answer.ahead->augmented_error < 0.5 * kDegree);

@@ -24,7 +24,7 @@ inline constexpr double kSmallestTurn = 3.0 * kDegree;
 /// What the axle's recorded direction says of the laws that turn it.
 struct AxleAnswer {
   std::vector<Finding> findings;
-  UnknownVector at = UnknownVector::Zero();  ///< of the laws that are claimed
+  UnknownVector at = UnknownVector::Zero();  ///< of the laws that are sure, if they help on left-out data
   std::optional<AxleAhead> ahead;            ///< nothing where the axle was not seen for long enough
 };
 
@@ -37,8 +37,17 @@ inline double angle_between(const Vector3<double>& a, const Vector3<double>& b) 
 /// Asks for the laws of the axle, keeps those that are sure, and judges them on stretches that were left out.
 class AxleInquiry {
  public:
-  AxleInquiry(const Fit& fit, const Model& model, const Bank& laws, int threads, const Watch& watch)
-      : fit_(&fit), stretches_(fit), model_(model), laws_(laws), threads_(threads), watch_(watch) {}
+  /// `radius_share` is how well the axle's radius is known, a standard deviation over its size: what lies
+  /// along the axle is seen as a share of it.
+  AxleInquiry(const Fit& fit, const Model& model, const Bank& laws, double radius_share, int threads,
+              const Watch& watch)
+      : fit_(&fit),
+        stretches_(fit),
+        model_(model),
+        laws_(laws),
+        radius_share_(radius_share),
+        threads_(threads),
+        watch_(watch) {}
 
   AxleAnswer answer(std::uint64_t seed) {
     AxleAnswer result;
@@ -48,9 +57,9 @@ class AxleInquiry {
     std::mt19937_64 generator(seed);
     for (const Candidate* law : laws_)
       result.findings.push_back(finding_of(*law, everything, found, generator));
-    for (const Finding& f : result.findings)
-      if (f.claimed) result.at[number_of(*f.candidate)] = kept_.at[number_of(*f.candidate)];
     result.ahead = compared(base, found, generator);
+    if (result.ahead && result.ahead->improvement_ci95 && result.ahead->improvement_ci95->low > 0.0)
+      result.at = kept_.at;
     return result;
   }
 
@@ -143,6 +152,8 @@ class AxleInquiry {
     f.estimate = fit.at;
     f.deviation = fit.deviation();
     f.z = significance(law, f.estimate, f.deviation);
+    if (number_of(law) != index_of(Unknown::kGyroscopicGain))
+      f.deviation = (f.deviation.cwiseAbs2() + (radius_share_ * f.estimate).cwiseAbs2()).cwiseSqrt();
     f.p_value = family_wise(f.z);
     f.sure = is_kept(law);
     if (!f.sure) {
@@ -186,12 +197,14 @@ class AxleInquiry {
     f.material = f.size > kSmallestTurn;
   }
 
+  /// Of the mean difference. Stretches share no data; how long they depend on each other is asked as far as
+  /// enough blocks are left.
   static std::optional<Interval> interval_of(const std::vector<double>& more, const std::vector<double>& less,
                                              std::mt19937_64& generator) {
     std::vector<double> differences;
     for (std::size_t i = 0; i < more.size(); ++i) differences.push_back(more[i] - less[i]);
-    const std::optional<ErrorSummary> summary = summarize(differences, 1, generator);
-    return summary ? summary->mean_ci95 : std::nullopt;
+    const std::size_t most = std::max<std::size_t>(1, differences.size() / kFewestBlocks);
+    return mean_interval(differences, std::min(most, dependence_length(differences)), generator);
   }
 
   std::optional<AxleAhead> compared(const std::vector<double>& base, const std::vector<double>& found,
@@ -209,6 +222,7 @@ class AxleInquiry {
   AxleStretches stretches_;
   Model model_;
   Bank laws_;
+  double radius_share_;
   int threads_;
   Watch watch_;
   AxleFit kept_;

@@ -208,8 +208,10 @@ class Inquiry : public ClaimSearch<D> {
   void ask_axle() {
     const char* const asking = "asking what turns the axle";
     if (!budget_.allows(asking, kRulesShare)) return;
-    AxleAnswer axle = AxleInquiry(fit_, result_.model, axle_bank(options_.bank), options_.threads,
-                                  step(asking, 0.965, 0.967, kRulesShare))
+    const int radius = index_of(Unknown::kAxleRadius);
+    AxleAnswer axle = AxleInquiry(fit_, result_.model, axle_bank(options_.bank),
+                                  result_.deviation[radius] / std::max(fit_.at[radius], 1e-3),
+                                  options_.threads, step(asking, 0.965, 0.967, kRulesShare))
                           .answer(options_.seed);
     std::ranges::move(axle.findings, std::back_inserter(result_.findings));
     surest_first(result_.findings);
