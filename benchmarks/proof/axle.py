@@ -30,6 +30,7 @@ from .diagnosis.sizes import either_sign, log_uniform, merged
 EXAMPLE = "  make plant && python -m benchmarks.proof.axle --cases 24"
 LAWS = ("gyroscopic_tilt", "groove", "unbalance")
 HALF_WIDTH = 0.008  # of every groove [m]
+SPINS = (90.0, 250.0)  # that plays begin with [rad/s]
 LEAST_SHARE = 0.8  # of the laws that are there shall be found
 MOST_FALSE = 0.1  # of those that are not there may be
 
@@ -72,6 +73,7 @@ def draw(number: int, seed: int) -> Case:
         "player": {"catches": True, "steers": False},
     }
     scenario = merged(merged(body, own), base.play(rng, "lively", throws=False))
+    scenario["start"]["spin"] = either_sign(rng) * log_uniform(rng, *SPINS)
     diabolo_, string = scenario["diabolo"], scenario["string"]
     lever = diabolo_["axle_radius"] + string["radius"]
     gain = diabolo_["mass"] * lever / diabolo_["axial_inertia"]
@@ -88,12 +90,12 @@ def told_of(result: diabolo.DiagnosisResult, law: str, truth: float) -> Told:
 
 
 def ask(case: Case, program: Path) -> Answer | None:
-    """None where the plant's diabolo falls off its string."""
+    """None where the plant cannot play it: the diabolo falls over, or off its string."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "play.csv"
         try:
             plant.play(program, case.scenario, file)
-        except plant.FailedError:
+        except (plant.FailedError, plant.RefusedError):
             return None
         result = diabolo.diagnose([diabolo.load_recording(file)], threads=1).result
     fit = result.fit
@@ -120,7 +122,7 @@ def run(given: argparse.Namespace) -> int:
     errors = []
     for number, answer in answers(given):
         if answer is None:
-            print(f"{number}: the diabolo fell off its string")
+            print(f"{number}: cannot be played to its end")
             continue
         print(
             f"{number}: {'; '.join(map(line_of, answer.laws))}; "

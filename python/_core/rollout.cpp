@@ -71,7 +71,7 @@ void expect_finite_end(const std::vector<double>& records, std::size_t frames) {
 
 py::tuple rollout(const std::vector<Model>& models, const Array& initial, const Codes& string_states,
                   const std::vector<std::shared_ptr<TipMotion<double>>>& tips, double begin, double dt,
-                  std::size_t steps, std::size_t record_every, int threads, bool forces) {
+                  std::size_t steps, std::size_t record_every, int threads, bool forces, bool axles) {
   Batch batch;
   batch.initial = to_states(initial, string_states);
   batch.effects.clear();
@@ -83,6 +83,7 @@ py::tuple rollout(const std::vector<Model>& models, const Array& initial, const 
   batch.steps = {begin, dt, steps};
   batch.record_every = record_every;
   batch.forces = forces;
+  batch.axles = axles;
   BatchResult result;
   run_interruptibly([&](const std::atomic<bool>& cancel) { result = run_batch(batch, threads, cancel); });
   expect_finite_end(result.records, batch.records());
@@ -90,17 +91,18 @@ py::tuple rollout(const std::vector<Model>& models, const Array& initial, const 
   std::vector<std::uint8_t> codes(result.record_states.size());
   for (std::size_t i = 0; i < codes.size(); ++i)
     codes[i] = static_cast<std::uint8_t>(result.record_states[i]);
-  py::object on_tips = py::none();
+  py::object on_tips = py::none(), axle = py::none();
   if (forces) on_tips = to_array(std::move(result.forces), {n, frames, 2, 3});
+  if (axles) axle = to_array(std::move(result.axles), {n, frames, 7});
   return py::make_tuple(to_array(std::move(result.records), {n, frames, 7}),
-                        to_array(std::move(codes), {n, frames}), on_tips);
+                        to_array(std::move(codes), {n, frames}), on_tips, axle);
 }
 
 }  // namespace
 
 void bind_rollout(py::module_& module) {
   module.def("rollout", &rollout, "models"_a, "initial"_a, "string_states"_a, "tips"_a, "begin"_a, "dt"_a,
-             "steps"_a, "record_every"_a, "threads"_a, "forces"_a,
+             "steps"_a, "record_every"_a, "threads"_a, "forces"_a, "axles"_a,
              "See diabolo.rollout, which checks and broadcasts what it hands over.");
 }
 

@@ -56,6 +56,12 @@ class Rollout(NamedTuple):
     forces: NDArray[np.float64] | None = None
     """Of the string on the left and the right tip, the mean over a frame's last step [N], shape
     (N, frames, 2, 3); None where nobody asked. A strand's tension is the norm."""
+    axis: NDArray[np.float64] | None = None
+    """Of the axle, shape (N, frames, 3); this and what follows None where nobody asked for the axle."""
+    tumble: NDArray[np.float64] | None = None
+    """The axle's angular velocity, square to it [rad/s], shape (N, frames, 3)."""
+    turns: NDArray[np.float64] | None = None
+    """Of the string around the axle, shape (N, frames)."""
 
     def __repr__(self) -> str:
         """How many samples, over how long, and where the first one ends."""
@@ -98,6 +104,7 @@ def rollout(
     record_every: int = 1,
     threads: int = 0,
     forces: bool = False,
+    axle: bool = False,
 ) -> Rollout:
     """Predict the diabolo from each of N initial states while the tips move.
 
@@ -114,6 +121,7 @@ def rollout(
     record_every: a frame after each so many steps; `steps` must be a multiple of it.
     threads: 0 takes all cores. The result does not depend on it.
     forces: whether the forces of the string on the tips are wanted, too.
+    axle: whether the axle's direction and angular velocity and the string's turns are wanted, too.
 
     Ctrl-C ends it at once. Raises ValueError about bad input, and FloatingPointError where a state does not
     stay finite. Warns (RolloutWarning) of input that is odd, such as in other units.
@@ -146,7 +154,7 @@ def rollout(
         )
     _warn_of_units(states, motions[0], models[0], dt)
 
-    records, record_states, on_tips = _core.rollout(
+    records, record_states, on_tips, axles = _core.rollout(
         models,
         _side_by_side(size, states, axes, tumbles, around.reshape(-1, 1)),
         np.broadcast_to(codes, (size,)),
@@ -157,12 +165,14 @@ def rollout(
         record_every,
         whole_number("threads", threads, 0, MOST_THREADS),
         true_or_false("forces", forces),
+        true_or_false("axle", axle),
     )
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     several = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or tumbles.ndim == 2 or around.ndim == 1
-    if several or is_several(model) or is_several(tips):
-        return Rollout(time, records, record_states, on_tips)
-    return Rollout(time, records[0], record_states[0], None if on_tips is None else on_tips[0])
+    several = several or is_several(model) or is_several(tips)
+    parts = [records, record_states, on_tips]
+    parts += [None] * 3 if axles is None else [axles[..., :3], axles[..., 3:6], axles[..., 6]]
+    return Rollout(time, *(part if several or part is None else part[0] for part in parts))
 
 
 def rollout_gradient(

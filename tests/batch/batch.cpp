@@ -113,7 +113,7 @@ TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbo
   kernels.push_back(portable_batch_kernel());
   for (const bool own_motions : {false, true}) {
     Case test(19, own_motions);
-    test.batch.forces = true;
+    test.batch.forces = test.batch.axles = true;
     std::vector<std::vector<State<double>>> expected;
     std::vector<std::vector<TipForces<double>>> pulls;
     for (std::size_t i = 0; i < test.batch.initial.size(); ++i) {
@@ -148,6 +148,10 @@ TEST_CASE("every kernel gives the bits of a single rollout, whatever the neighbo
             REQUIRE(V(record[3], record[4], record[5]) == s.velocity);
             REQUIRE(record[6] == s.spin);
             REQUIRE(result.record_states[i * test.batch.records() + k] == s.string_state);
+            const double* axle = &result.axles[7 * (i * test.batch.records() + k)];
+            REQUIRE(V(axle[0], axle[1], axle[2]) == s.axis);
+            REQUIRE(V(axle[3], axle[4], axle[5]) == s.tumble);
+            REQUIRE(axle[6] == s.turns);
             const TipForces<double>& f = pulls[i][7 * (k + 1) - 1];
             const double* force = &result.forces[6 * (i * test.batch.records() + k)];
             REQUIRE((V(force[0], force[1], force[2]) - f.left).norm() <= 1e-9 * (1.0 + f.left.norm()));

@@ -46,6 +46,42 @@ def test_a_rigid_axle_nutes_in_flight() -> None:
     assert np.ptp(np.array(axes)[:, 1:], axis=0).min() > 0.01
 
 
+def test_a_rollout_tells_what_the_axle_does() -> None:
+    tips = diabolo.TipMotion([0.0], [LEFT], [RIGHT])
+    start = [0.55, 0.0, 0.6, 0.0, 0.0, 0.0, 60.0]
+    axis = [[1.0, 0.0, 0.0], [np.cos(0.2), 0.0, np.sin(0.2)]]
+    told = diabolo.rollout(RIGID, start, tips, steps=300, axis=axis, record_every=100, axle=True)
+    assert told.axis is not None and told.tumble is not None and told.turns is not None
+    assert (told.axis.shape, told.tumble.shape, told.turns.shape) == ((2, 3, 3), (2, 3, 3), (2, 3))
+    assert np.linalg.norm(told.axis, axis=-1) == pytest.approx(np.ones((2, 3)))
+    assert np.abs(told.axis[1, -1] - axis[1]).max() > 0.01  # the flank yaws it
+    state = State(start[:3], spin=60.0, axis=axis[1])
+    predictor = Predictor(RIGID)
+    for _ in range(300):
+        predictor.step(state, LEFT, RIGHT, LEFT, RIGHT, 1e-3)
+    assert told.axis[1, -1] == pytest.approx(state.axis, abs=1e-9)
+    assert told.tumble[1, -1] == pytest.approx(state.tumble, abs=1e-9)
+    alone = diabolo.rollout(RIGID, start, tips, steps=300, record_every=100, axle=True)
+    assert alone.axis is not None and alone.axis.shape == (3, 3)
+    assert diabolo.rollout(RIGID, start, tips, steps=10).axis is None
+
+
+def test_a_played_recording_lies_as_its_axle() -> None:
+    time = np.arange(50) / 200.0
+    tilt = 0.3 * time
+    axis = np.column_stack([np.cos(tilt), np.zeros(50), np.sin(tilt)])
+    states = np.tile([0.0, 0.0, 0.6, 0.0, 0.0, 0.0, 70.0], (50, 1))
+    tips = np.tile(LEFT, (50, 1)), np.tile(RIGHT, (50, 1))
+    properties = diabolo.played_properties(Parameters())
+    take = diabolo.played_recording("tilted", time, *tips, states, 200.0, properties, 1.45, axis)
+    x, y, z, w = np.asarray(take.diabolo_orientation).T
+    seen = np.column_stack([1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)])
+    assert seen == pytest.approx(axis, abs=1e-9)
+    assert diabolo.start_state(take, 20).spin == pytest.approx(70.0, abs=0.1)
+    with pytest.raises(ValueError, match="axis: norm 2 in row 0; expected unit vectors"):
+        diabolo.played_recording("tilted", time, *tips, states, 200.0, properties, 1.45, 2.0 * axis)
+
+
 def test_hands_level_an_axle() -> None:
     hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
     assert hands.gains.shape == (2, 3)

@@ -22,6 +22,7 @@ struct Batch {
   Steps steps;
   std::size_t record_every = 0;  ///< a record after each so many steps; 0: final states only
   bool forces = false;           ///< whether the records have the string's forces on the tips, too
+  bool axles = false;            ///< whether they have the axle and the string's turns, too
 
   std::size_t records() const { return record_every == 0 ? 0 : steps.count / record_every; }
 
@@ -73,6 +74,7 @@ struct BatchResult {
   std::vector<double> records;              ///< n x records x 7
   std::vector<StringState> record_states;   ///< n x records
   std::vector<double> forces;  ///< n x records x 6: on the left and the right tip in a record's last step [N]
+  std::vector<double> axles;   ///< n x records x 7: axis, tumble [rad/s], turns, as in State
 };
 
 /// The kernel that any processor runs; `batch/kernels.hpp` has faster ones. A template, so that only
@@ -126,6 +128,7 @@ class BatchWorker {
     std::vector<StringState>& record_states = spare_record_states_;
     records.resize(7 * batch_.records());
     if (batch_.forces) spare_forces_.resize(6 * batch_.records());
+    if (batch_.axles) spare_axles_.resize(7 * batch_.records());
     record_states.resize(batch_.records());
     LaneBlock block{};
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(kernel_.lanes); ++lane) {
@@ -139,6 +142,8 @@ class BatchWorker {
       block.records[lane] = real ? result_.records.data() + 7 * batch_.records() * i : records.data();
       if (batch_.forces)
         block.forces[lane] = real ? result_.forces.data() + 6 * batch_.records() * i : spare_forces_.data();
+      if (batch_.axles)
+        block.axles[lane] = real ? result_.axles.data() + 7 * batch_.records() * i : spare_axles_.data();
       block.record_states[lane] =
           real ? result_.record_states.data() + batch_.records() * i : record_states.data();
     }
@@ -155,7 +160,7 @@ class BatchWorker {
   BatchResult& result_;
   std::array<std::vector<Tips<double>>, kMostLanes> tips_;
   std::array<std::size_t, kMostLanes> hints_{};
-  std::vector<double> spare_records_, spare_forces_;
+  std::vector<double> spare_records_, spare_forces_, spare_axles_;
   std::vector<StringState> spare_record_states_;
 };
 
@@ -171,7 +176,8 @@ inline BatchResult rollout_batch(const Batch& batch, const BatchKernel& kernel, 
   const std::size_t n = batch.initial.size();
   BatchResult result{batch.initial, std::vector<double>(n * batch.records() * 7),
                      std::vector<StringState>(n * batch.records()),
-                     std::vector<double>(batch.forces ? n * batch.records() * 6 : 0)};
+                     std::vector<double>(batch.forces ? n * batch.records() * 6 : 0),
+                     std::vector<double>(batch.axles ? n * batch.records() * 7 : 0)};
   // One share for each thread, of whole groups, since a worker reads shared tip motions anew.
   const auto parts = [](std::size_t whole, std::size_t part) { return (whole + part - 1) / part; };
   const std::size_t lanes = static_cast<std::size_t>(kernel.lanes);

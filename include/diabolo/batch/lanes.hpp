@@ -24,6 +24,7 @@ struct LaneBlock {
   const Tips<double>* tips[kMostLanes];    ///< steps + 1 poses each; lanes may share them
   double* records[kMostLanes];             ///< 7 numbers a record: position, velocity, spin; null: none
   double* forces[kMostLanes];              ///< 6 numbers a record: on the left and the right tip; null: none
+  double* axles[kMostLanes];               ///< 7 numbers a record: axis, tumble, turns; null: none
   StringState* record_states[kMostLanes];  ///< one a record
   bool shared_tips;                        ///< all lanes have the same tips
   double dt;                               ///< [s]
@@ -161,6 +162,18 @@ void scatter_forces(const TipForces<Pack>& forces, const LaneBlock& block, std::
     }
 }
 
+template <class Pack>
+void scatter_axle(const State<Pack>& state, const LaneBlock& block, std::size_t index) {
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
+    double* to = block.axles[lane] + 7 * index;
+    for (int k = 0; k < 3; ++k) {
+      to[k] = state.axis[k][lane];
+      to[3 + k] = state.tumble[k][lane];
+    }
+    to[6] = state.turns[lane];
+  }
+}
+
 template <class Pack, class P>
 void run_with(const P& predictor, const LaneBlock& block) {
   State<Pack> state = gather_state<Pack>(block), before;
@@ -178,6 +191,7 @@ void run_with(const P& predictor, const LaneBlock& block) {
     if (!records) continue;
     const std::size_t index = done / block.record_every - 1;
     scatter_record(state, block, index);
+    if (block.axles[0]) scatter_axle(state, block, index);
     if (pulls) scatter_forces(tip_forces(predictor, before, state, now, next, Pack(block.dt)), block, index);
   }
   scatter_state(state, block);

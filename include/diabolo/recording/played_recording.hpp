@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "diabolo/math/shortest_turn.hpp"
 #include "diabolo/parameters.hpp"
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/recording.hpp"
@@ -20,8 +22,8 @@ inline DiaboloProperties played_properties(const Parameters<double>& parameters)
   return {parameters.mass, kRedDiabolo.diameter, kRedDiabolo.length, parameters.axle_radius};
 }
 
-/// A predicted play as a recording, sample by sample: time [s], tips [m], and the diabolo's states. Its
-/// orientations turn about world -x by the spin, body x along world x, so that readers see the spin again
+/// A predicted play as a recording, sample by sample: time [s], tips [m], and the diabolo's states. Its body
+/// x lies along their axis and it turns about that by minus the spin, so that readers see the spin again
 /// where it stays below half a turn a sample. Throws RecordingError where it is none, see check_recording().
 inline Recording played_recording(const std::string& name, const Eigen::VectorXd& time,
                                   const Eigen::Matrix3Xd& left, const Eigen::Matrix3Xd& right,
@@ -52,7 +54,10 @@ inline Recording played_recording(const std::string& name, const Eigen::VectorXd
     const double half = 0.5 * (turned / rate);
     recording.frame.push_back(std::abs(time[i] * rate) < 1e15 ? std::lround(time[i] * rate) : 0);
     recording.diabolo.position.col(i) = state.position;
-    recording.diabolo_orientation.quaternion.col(i) << -std::sin(half), 0.0, 0.0, std::cos(half);
+    recording.diabolo_orientation.quaternion.col(i) =
+        (shortest_turn(Vector3<double>::UnitX(), state.axis) *
+         Eigen::Quaterniond(std::cos(half), -std::sin(half), 0.0, 0.0))
+            .coeffs();
     turned += state.spin;
   }
   recording.properties = properties;

@@ -164,4 +164,5 @@ def recording_of(
         1.0 / agent.period,
         played_properties(p),
         p.string_length,
+        np.array([state.axis for state, _, _ in poses]),
     )

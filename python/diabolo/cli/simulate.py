@@ -207,10 +207,13 @@ def on_motion(
         steps=samples * STEPS_PER_SAMPLE,
         record_every=STEPS_PER_SAMPLE,
         string_state=StringState.ON_STRING,
+        axle=True,
     )
+    assert result.axis is not None
     time = np.arange(samples + 1) / RATE
     left, right, _, _ = tips.at(time)
     states = np.vstack([initial, result.states])
     codes = np.concatenate([[np.uint8(StringState.ON_STRING)], result.string_states])
+    axis = np.vstack([[1.0, 0.0, 0.0], result.axis])
     properties = played_properties(model.parameters)
-    return played_recording(title, time, left, right, states, RATE, properties, length), codes
+    return played_recording(title, time, left, right, states, RATE, properties, length, axis), codes
