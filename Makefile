@@ -24,7 +24,7 @@ export CCACHE_SLOPPINESS ?= pch_defines,time_macros# else nothing with a precomp
 endif
 # Optimised a little, so that tests run fast, and with assertions; other groups of targets in trees of their own.
 test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF \
-  -DDIABOLO_BUILD_PYTHON=OFF -DCMAKE_UNITY_BUILD=ON
+  -DDIABOLO_BUILD_PYTHON=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
 ctest := ctest --output-on-failure --no-tests=error -j $(JOBS)
 
 package_sources := pyproject.toml CMakeLists.txt LICENSE examples/mujoco/plugin/string_plugin.cpp $(wildcard README.md) \

@@ -28,7 +28,7 @@ double path_length(const Vector& p, const Tips<double>& tips) {
 }
 
 /// The lowest point of the taut, not yet stretched string.
-State<double> hanging(const Tips<double>& tips, double length) {
+State<double> hanging_at(const Tips<double>& tips, double length) {
   return hanging_state(tips.left, tips.right, length);
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("a diabolo at rest stretches the string by compliance times tension") 
     for (const double distance : {0.0, 0.2, 1.0}) {
       const Tips<double> tips = level(distance);
       const Elastic predictor = elastic(stiffness, 0.3 * std::sqrt(stiffness));
-      State<double> state = hanging(tips, 1.45);
+      State<double> state = hanging_at(tips, 1.45);
       for (int i = 0; i < 20000; ++i) predictor.step(state, tips, tips, 1e-3);
       CAPTURE(stiffness, distance);
       REQUIRE(state.velocity.norm() < 1e-8);
@@ -119,7 +119,7 @@ TEST_CASE("an undamped resolved spring keeps the energy, a damped one loses it, 
   for (int i = 0; i < 60; ++i) {
     const double stiffness = random.log_uniform(30.0, 1000.0);
     const Tips<double> tips = level(random.uniform(0.0, 0.8));
-    State<double> state = hanging(tips, 1.45);
+    State<double> state = hanging_at(tips, 1.45);
     state.position += random.vector(0.02) - Vector(0.0, 0.0, 0.03);
     state.velocity = random.vector(0.3);
     for (const double damping : {0.0, 1.0}) {
@@ -151,7 +151,7 @@ TEST_CASE("bouncing on an elastic string gives no energy") {
   for (int i = 0; i < 60; ++i) {
     const double stiffness = random.log_uniform(30.0, 1e5);  // resolved and not
     const Tips<double> tips = level(random.uniform(0.0, 1.2));
-    State<double> state = hanging(tips, 1.45);
+    State<double> state = hanging_at(tips, 1.45);
     state.position.z() += 0.2;
     state.velocity = random.vector(2.0);
     const Elastic predictor = elastic(stiffness);
@@ -179,7 +179,7 @@ TEST_CASE("elastic motion converges to its equation with the second order of the
       const double tension = stiffness * (path_length(p, tips) - 1.45) + damping * rate;
       return Vector(Vector(0.0, 0.0, -kStandardGravity) - (l + r) * (std::max(0.0, tension) / kMass));
     };
-    State<double> start = hanging(player.at(0.0), 1.45 + 0.5 * kMass * kStandardGravity / stiffness);
+    State<double> start = hanging_at(player.at(0.0), 1.45 + 0.5 * kMass * kStandardGravity / stiffness);
     constexpr double kDuration = 0.5;
     Vector p = start.position, v = start.velocity;
     double least = 1.0;
@@ -215,7 +215,7 @@ TEST_CASE("ever stiffer strings give the rigid string's motion") {
   Random random(703);
   for (int episode = 0; episode < 5; ++episode) {
     const SmoothTips player = SmoothTips::random(random, 0.4, 0.1, 6.0);
-    State<double> start = hanging(player.at(0.0), 1.44);
+    State<double> start = hanging_at(player.at(0.0), 1.44);
     Numbers parameters = Numbers::consistent();
     parameters.mass = kMass;
     const auto final = [&](const auto& predictor) {
@@ -269,7 +269,7 @@ TEST_CASE("under the published rules a compliant string hangs as far down as its
     const Tips<double> tips = level(0.2);
     const Numbers parameters = Numbers::published();
     const Elastic predictor = elastic(stiffness, 0.0, parameters);
-    State<double> state = hanging(tips, parameters.string_length);
+    State<double> state = hanging_at(tips, parameters.string_length);
     for (int i = 0; i < 5000; ++i) predictor.step(state, tips, tips, 1e-3);
     const double drop = 1.0 - state.position.z(), strand = std::hypot(0.1, drop);
     const double tension = kMass * parameters.gravity * strand / (2.0 * drop);
@@ -287,7 +287,7 @@ TEST_CASE(
     for (int episode = 0; episode < 20; ++episode) {
       const Elastic predictor = elastic(random.log_uniform(60.0, 1e4), 0.0, preset());
       const SmoothTips player = SmoothTips::random(random, random.uniform(0.1, 1.2), 0.1, 8.0);
-      State<double> state = hanging(player.at(0.0), predictor.parameters().string_length);
+      State<double> state = hanging_at(player.at(0.0), predictor.parameters().string_length);
       for (int k = 0; k < 1000; ++k) {
         predictor.step(state, player.at(k * 1e-3), player.at((k + 1) * 1e-3), 1e-3);
         REQUIRE(state.position.allFinite());
@@ -303,7 +303,7 @@ TEST_CASE("a slack string does not pull, whatever its damper") {
   for (const double damping : {0.1, 1.0, 10.0, 1000.0})
     for (const double stiffness : {30.0, 100.0, 1000.0}) {
       const Elastic predictor = elastic(stiffness, damping);
-      State<double> state = hanging(tips, 1.45);
+      State<double> state = hanging_at(tips, 1.45);
       state.position.z() += 0.03;
       state.velocity = Vector(0.5, 0.2, -2.0);  // lengthening by almost 4 m/s
       predictor.step(state, tips, tips, 1e-3);

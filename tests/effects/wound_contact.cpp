@@ -11,7 +11,7 @@ using namespace effect_scene;
 
 namespace {
 
-constexpr double kFriction = 0.25, kGain = 4.0;
+constexpr double kFriction = 0.25, kSpinGain = 4.0;
 
 Numbers wound_numbers(double wraps) {
   Numbers numbers;
@@ -24,7 +24,7 @@ Numbers wound_numbers(double wraps) {
 Full wound(const Numbers& numbers, double friction = kFriction, double radius = 0.0) {
   Full::Set set;
   set.get<StringFriction>().coefficient = friction;
-  set.get<StringFriction>().spin_gain = kGain;
+  set.get<StringFriction>().spin_gain = kSpinGain;
   set.get<FiniteAxle>().radius = radius;
   return Full(numbers, set);
 }
@@ -40,7 +40,7 @@ double slip_of(const State<double>& state, const Tips<double>& tips, double axle
 /// Energy per mass [J/kg], that of the spin counted.
 double energy(const State<double>& state, const Numbers& numbers) {
   return 0.5 * state.velocity.squaredNorm() + numbers.gravity * state.position.z() +
-         0.5 * state.spin * state.spin * numbers.axle_radius / kGain;
+         0.5 * state.spin * state.spin * numbers.axle_radius / kSpinGain;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ TEST_CASE("a wound diabolo rolls down a string that is held still: its inertia c
   Random random(seed);
   const Numbers numbers = wound_numbers(1.0);
   const Full model = wound(numbers);
-  const double inertia = 1.0 / (kGain * numbers.axle_radius);
+  const double inertia = 1.0 / (kSpinGain * numbers.axle_radius);
   for (int trial = 0; trial < 20; ++trial) {
     Tips<double> tips = level(random.uniform(0.6, 1.2));
     tips.left.z() += random.uniform(-0.4, 0.4);
@@ -76,13 +76,13 @@ TEST_CASE("down an upright string with a turn a diabolo rolls at g / (1 + I / (m
   Numbers numbers = wound_numbers(1.0);
   Full::Set set;
   set.get<StringFriction>().coefficient = kFriction;
-  set.get<StringFriction>().spin_gain = kGain;
+  set.get<StringFriction>().spin_gain = kSpinGain;
   set.get<StringElasticity>().compliance_per_newton = 1e-3;
   const Full model(numbers, set);
   Tips<double> tips;  // 6 N of tension before the diabolo's weight
   tips.left = Vector(0.0, 0.0, 2.0);
   tips.right = Vector(0.0, 0.0, 2.0 - numbers.string_length - 6e-3);
-  const double expected = kStandardGravity / (1.0 + 1.0 / (kGain * numbers.axle_radius));
+  const double expected = kStandardGravity / (1.0 + 1.0 / (kSpinGain * numbers.axle_radius));
   for (const double dt : {2e-3, 1e-3, 2e-4}) {
     State<double> state;
     state.position = Vector(0.0, 0.0, 1.3);
@@ -261,7 +261,7 @@ TEST_CASE("lanes with turns step as each would alone, and floats nearly so") {
   Parameters<P> numbers = parameters_in<P>(wound_numbers(1.0));
   FullPredictor<P>::Set set;
   set.get<StringFriction>().coefficient = P(kFriction);
-  set.get<StringFriction>().spin_gain = P(kGain);
+  set.get<StringFriction>().spin_gain = P(kSpinGain);
   set.get<FiniteAxle>().radius = P(0.0073);
   const FullPredictor<P> packed(numbers, set);
   const Full model = wound(wound_numbers(1.0), kFriction, 0.0073);
@@ -297,7 +297,7 @@ TEST_CASE("a step on turns has the derivatives of central differences, sticking 
   const Numbers numbers = wound_numbers(1.0);
   FullPredictor<D>::Set set;
   set.get<StringFriction>().coefficient = D(kFriction);
-  set.get<StringFriction>().spin_gain = D(kGain);
+  set.get<StringFriction>().spin_gain = D(kSpinGain);
   const FullPredictor<D> dual(parameters_in<D>(numbers), set);
   const Full model = wound(numbers);
   for (const double spin : {0.0, 150.0}) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <cmath>
 
 // Square-root unscented filtering (van der Merwe and Wan, ICASSP 2001) of Gaussians that are kept as a lower
@@ -16,17 +15,35 @@ using ColumnOf = Eigen::Matrix<double, Size, 1>;
 template <int Rows, int Columns = Rows>
 using MatrixOf = Eigen::Matrix<double, Rows, Columns>;
 
+namespace estimate_detail {
+
+/// Makes all below the diagonal zero and keeps A' A, by Householder's reflections. Takes any size, so that it
+/// compiles once, and never allocates.
+inline void make_upper(Eigen::Ref<Eigen::MatrixXd> a) {
+  for (Eigen::Index i = 0; i < a.cols(); ++i) {
+    auto mirror = a.col(i).tail(a.rows() - i);
+    const double norm = mirror.norm(), turned = -std::copysign(norm, mirror[0]);
+    mirror[0] -= turned;
+    for (Eigen::Index j = i + 1; norm != 0.0 && j < a.cols(); ++j) {
+      auto column = a.col(j).tail(a.rows() - i);
+      column += mirror * (mirror.dot(column) / (mirror[0] * turned));
+    }
+    mirror.setZero();
+    mirror[0] = turned;
+  }
+}
+
+}  // namespace estimate_detail
+
 /// The lower triangular L with no negative diagonal and L L' = A A'. Never allocates.
 template <int Rows, int Columns>
 MatrixOf<Rows> lower_factor(const MatrixOf<Rows, Columns>& a) {
   static_assert(Columns >= Rows);
-  const Eigen::HouseholderQR<MatrixOf<Columns, Rows>> decomposition(a.transpose());
-  MatrixOf<Rows> lower = MatrixOf<Rows>::Zero();
-  for (int row = 0; row < Rows; ++row)
-    for (int column = 0; column <= row; ++column) {
-      const double sign = decomposition.matrixQR()(column, column) < 0.0 ? -1.0 : 1.0;
-      lower(row, column) = sign * decomposition.matrixQR()(column, row);
-    }
+  MatrixOf<Columns, Rows> upper = a.transpose();
+  estimate_detail::make_upper(upper);
+  MatrixOf<Rows> lower = upper.template topRows<Rows>().transpose();
+  for (int i = 0; i < Rows; ++i)
+    if (lower(i, i) < 0.0) lower.col(i) = -lower.col(i);
   return lower;
 }
 
