@@ -115,13 +115,12 @@ def rollout(
     steps: how many; by default as many as the (shortest) tip motion lasts.
     begin: time of the initial state within the tip motions [s]; by default where the first one begins.
     string_state: of the initial state; one for all or an array of the shape (N,).
-    axis: the axle's direction, which matters to MagnusLift and GyroscopicTilt, shape (3,) or (N, 3).
-    tumble: the axle's angular velocity, square to it [rad/s], shape (3,) or (N, 3), as in State.
+    axis, tumble: the axle's direction, which matters to MagnusLift and GyroscopicTilt, and its angular
+    velocity, square to it [rad/s], shape (3,) or (N, 3), as in State.
     turns: of the string around the axle, as in State; one for all or an array of the shape (N,).
     record_every: a frame after each so many steps; `steps` must be a multiple of it.
     threads: 0 takes all cores. The result does not depend on it.
-    forces: whether the forces of the string on the tips are wanted, too.
-    axle: whether the axle's direction and angular velocity and the string's turns are wanted, too.
+    forces, axle: whether the string's forces on the tips, or axis, tumble and turns, are wanted, too.
 
     Ctrl-C ends it at once. Raises ValueError about bad input, and FloatingPointError where a state does not
     stay finite. Warns (RolloutWarning) of input that is odd, such as in other units.
@@ -148,10 +147,7 @@ def rollout(
     )
     record_every = whole_number("record_every", record_every, 1, MOST_STEPS)
     start, dt, steps = _times(motions, begin, dt, steps, record_every)
-    if (frames := size * (steps // record_every)) > MOST_FRAMES:
-        raise ValueError(
-            f"rollout: {frames} frames; expected at most {MOST_FRAMES}, by a larger record_every"
-        )
+    _check_frames(size * (steps // record_every))
     _warn_of_units(states, motions[0], models[0], dt)
 
     records, record_states, on_tips, axles = _core.rollout(
@@ -170,8 +166,7 @@ def rollout(
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     several = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or tumbles.ndim == 2 or around.ndim == 1
     several = several or is_several(model) or is_several(tips)
-    parts = [records, record_states, on_tips]
-    parts += [None] * 3 if axles is None else [axles[..., :3], axles[..., 3:6], axles[..., 6]]
+    parts = (records, record_states, on_tips, *_axle_parts(axles))
     return Rollout(time, *(part if several or part is None else part[0] for part in parts))
 
 
@@ -234,6 +229,18 @@ def rollout_gradient(
 
 def _model(given: AnyModel) -> Model:
     return Model(given) if isinstance(given, Parameters) else instance_of("model", given, Model)
+
+
+def _check_frames(frames: int) -> None:
+    if frames > MOST_FRAMES:
+        raise ValueError(
+            f"rollout: {frames} frames; expected at most {MOST_FRAMES}, by a larger record_every"
+        )
+
+
+def _axle_parts(axles: NDArray[np.float64] | None) -> tuple[NDArray[np.float64] | None, ...]:
+    """Axis, tumble and turns."""
+    return (None,) * 3 if axles is None else (axles[..., :3], axles[..., 3:6], axles[..., 6])
 
 
 def _axes(axis: ArrayLike) -> NDArray[np.float64]:

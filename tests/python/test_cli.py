@@ -230,6 +230,13 @@ def test_info_tells_what_is_there(command: Command, played: Recording, tmp_path:
     assert "diabolo_red" in text.stdout and "spin: " in text.stdout
 
 
+def test_calibrations_of_the_authors_go_by_name(command: Command, motive_file: Path) -> None:
+    published = command("info", motive_file, "--calibration", "published")
+    assert published.stdout == command("info", motive_file).stdout
+    blue = command("info", motive_file, "--calibration", "blue")
+    assert 'the calibration is of "diabolo_blue_2020_10"' in blue.stdout
+
+
 def test_info_reads_takes_that_the_calibration_does_not_fit(command: Command, motive_file: Path) -> None:
     motive_file.write_text(motive_file.read_text().replace("stick_left", "stick_lost"))
     done = command("info", motive_file)

@@ -19,6 +19,7 @@ from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..files import STDOUT
 from ..formats import load_recording
 
+CALIBRATIONS = {"published": Calibration.published, "blue": Calibration.blue}
 OF_RECORDINGS = ("calibration", "up", "columns", "topics")
 """Options that say how a recording is read, but for --arms."""
 FARTHEST_BASE = 100.0
@@ -54,9 +55,10 @@ def add_command(
 def add_calibration(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--calibration",
-        metavar="FILE",
-        help="where tips and diabolo sit in the rigid bodies of Motive exports (diabolo.calibration/1); "
-        "default: the published calibration of the red diabolo",
+        metavar="NAME",
+        help="where tips and diabolo sit in the rigid bodies of Motive exports: a file "
+        "(diabolo.calibration/1), or the authors' for their red or their blue diabolo: published (default) "
+        "or blue",
     )
     parser.add_argument(
         "--up",
@@ -160,7 +162,7 @@ class Reading:
 
 def reading_of(arguments: argparse.Namespace) -> Reading:
     path = arguments.calibration
-    calibration = None if path is None else Calibration.load(path)
+    calibration = None if path is None else CALIBRATIONS.get(path, lambda: Calibration.load(path))()
     arms = arms_of(arguments)
     return Reading(calibration, arguments.up, arguments.columns, arguments.topics, arms)
 
