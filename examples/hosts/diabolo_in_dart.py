@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The diabolo in DART: their rigid body and integrator, our string (docs/hosts.md).
 
-    pip install '.[dart]'
-    python examples/hosts/diabolo_in_dart.py
+    pip install '.[dart,plot]'
+    python examples/hosts/diabolo_in_dart.py --picture dart.png
     python examples/hosts/diabolo_in_dart.py MOTION.csv SIM.csv
 
-Tips swing and beat for two seconds. It prints how far DART's body is from the plain predictor. Or it plays
-what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simulated SIM.csv`.
+Tips swing and beat for two seconds. It prints, and draws, how far DART's body is from the plain predictor.
+Or it plays what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simulated SIM.csv`.
 """
 
 from __future__ import annotations
@@ -67,4 +67,4 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int)
 
 
 if __name__ == "__main__":
-    main(simulate)
+    main(simulate, "DART")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The diabolo in Drake: their multibody plant, our string as a system of its own (docs/hosts.md).
 
-    pip install '.[drake]'
-    python examples/hosts/diabolo_in_drake.py
+    pip install '.[drake,plot]'
+    python examples/hosts/diabolo_in_drake.py --picture drake.png
     python examples/hosts/diabolo_in_drake.py MOTION.csv SIM.csv
 
-Tips swing and beat for two seconds. It prints how far Drake's body is from the plain predictor. Or it plays
-what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simulated SIM.csv`.
+Tips swing and beat for two seconds. It prints, and draws, how far Drake's body is from the plain predictor.
+Or it plays what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simulated SIM.csv`.
 """
 
 from __future__ import annotations
@@ -101,4 +101,4 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int)
 
 
 if __name__ == "__main__":
-    main(simulate)
+    main(simulate, "Drake")

@@ -9,9 +9,12 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
-from beside_the_predictor import compare
+from beside_the_predictor import compare, draw
 from diabolo import DiaboloProperties, Model, Parameters, Recording, State, TipMotion
+from diabolo.checks import check_drawing
 from diabolo.cli import Parser
+from diabolo.cli.arguments import output_name
+from diabolo.files import check_outputs
 from diabolo.robot import load_tip_plan
 from numpy.typing import NDArray
 
@@ -20,13 +23,16 @@ Simulate: TypeAlias = Callable[[Model, State, TipMotion, float, int], NDArray[np
 DT = 1e-3  # [s]
 
 
-def main(simulate: Simulate) -> None:
+def main(simulate: Simulate, host: str) -> None:
     parser = Parser(description=__doc__, allow_abbrev=False)
     parser.add_argument("motion", nargs="?", type=Path, help="what `diabolo motion` wrote; default: compare")
     parser.add_argument("out", nargs="?", type=Path, help="the recording to write, for --simulated")
+    parser.add_argument("--picture", type=output_name, help="draw the comparison")
     arguments = parser.parse_args()
     if arguments.motion is None:
-        return compare(simulate)
+        return compared(simulate, host, arguments.picture, parser)
+    if arguments.picture is not None:
+        parser.error("--picture is of the comparison; expected no MOTION.csv")
     if arguments.out is None:
         parser.error("MOTION.csv without SIM.csv; expected both")
     try:
@@ -37,6 +43,18 @@ def main(simulate: Simulate) -> None:
         parser.error(f"{arguments.motion}: {error}; expected it and its .json from `diabolo motion`")
     try:
         recording.save(arguments.out)
+    except ValueError as error:
+        parser.error(str(error))
+
+
+def compared(simulate: Simulate, host: str, picture: str | None, parser: Parser) -> None:
+    try:
+        if picture:
+            check_drawing(picture, "matplotlib")
+            check_outputs([picture], [])
+        found = compare(simulate)
+        if picture:
+            draw(found, host, Path(picture))
     except ValueError as error:
         parser.error(str(error))
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 from functools import partial
 
+import needs_ros  # noqa: F401
 from diabolo.robot import StickArm
 from geometry_msgs.msg import PoseStamped
 from outputs import Outputs

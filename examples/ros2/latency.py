@@ -13,6 +13,7 @@ import gc
 import sys
 import time
 
+import needs_ros  # noqa: F401
 import numpy as np
 from diabolo import TipMotion
 from geometry_msgs.msg import PoseStamped

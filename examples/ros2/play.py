@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import needs_ros  # noqa: F401
 import numpy as np
 from diabolo import TipMotion, load_recording
 from diabolo.robot import load_tip_plan

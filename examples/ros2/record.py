@@ -15,6 +15,7 @@ from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
+import needs_ros  # noqa: F401
 import numpy as np
 from diabolo import Model, Recording, played_properties, save_recording
 from diabolo.cli.arguments import output_name

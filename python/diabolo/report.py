@@ -198,6 +198,7 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
             "sentence": f"There is no held-out error: nothing could be predicted and compared.{left}",
             "rows": [],
             "spin": [],
+            "axle": [],
         }
     horizon, base, augmented, interval, start = rows[-1]
     held_out = {

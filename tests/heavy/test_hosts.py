@@ -16,18 +16,39 @@ pytestmark = pytest.mark.hosts
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
-def run(host: str, *arguments: object) -> str:
+def started(host: str, *arguments: object) -> subprocess.CompletedProcess[str]:
     program = [sys.executable, EXAMPLES / "hosts" / f"diabolo_in_{host}.py", *arguments]
-    done = subprocess.run([str(word) for word in program], capture_output=True, text=True)
+    return subprocess.run([str(word) for word in program], capture_output=True, text=True)
+
+
+def run(host: str, *arguments: object) -> str:
+    done = started(host, *arguments)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 @pytest.mark.parametrize("host", ["dart", "drake"])
-def test_the_host_s_body_goes_where_the_predictor_goes(host: str) -> None:
-    errors = [float(line.split(": ")[1].split()[0]) for line in run(host).splitlines()]
+def test_the_host_s_body_goes_where_the_predictor_goes(host: str, tmp_path: Path) -> None:
+    picture = tmp_path / f"{host}.png"
+    errors = [float(line.split(": ")[1].split()[0]) for line in run(host, "--picture", picture).splitlines()]
     assert len(errors) == 2
     assert max(errors) < 1e-6
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--picture", "nowhere/a.png"], "there is no folder"),
+        (["--picture", "a.wav"], "not supported"),
+        (["--picture", "a.png", "motion.csv", "sim.csv"], "expected no MOTION.csv"),
+        (["motion.csv"], "MOTION.csv without SIM.csv"),
+    ],
+)
+def test_what_cannot_be_drawn_or_played_is_told_in_a_sentence(arguments: list[str], sentence: str) -> None:
+    done = started("dart", *arguments)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1 and sentence in done.stderr
 
 
 def test_two_hosts_play_a_recorded_motion_alike(tmp_path: Path) -> None:

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from diabolo import Recording, RecordingError, load_recording, save_recording
+from diabolo import Model, Recording, RecordingError, load_recording, save_recording
 from diabolo.cli import main
+from diabolo.view import PREDICTED_ANEW, predict_anew
 
 pytest.importorskip("rerun", reason="rerun is not installed: pip install '.[rerun]'")
 from rerun.chunk import RrdReader
@@ -72,3 +73,29 @@ def test_points_alone_and_a_diabolo_that_is_never_seen_are_written(tmp_path: Pat
         found = columns(path)
         assert len(found["/world/string"]["LineStrips3D:strips"][0]) == count
         assert found["/world/sticks"]["LineStrips3D:strips"][0] == []
+
+
+def test_a_diagnosed_take_has_its_predictions_and_their_errors(tmp_path: Path) -> None:
+    out, given = tmp_path / "out", [str(SWING.with_name("hop.csv")), "--holdout", f"{SWING}:0-239"]
+    assert main(["diagnose", *given, "--out", str(out), "--rerun"]) == 0
+    takes = [load_recording(SWING.with_name("hop.csv")), load_recording(SWING).cut(0, 239)]
+    models = {"base": Model.named("consistent"), "corrected": Model.load(out / "model.json")}
+    means = {}
+    for i, take in enumerate(takes):
+        path = out / f"replay-{i + 1}.rrd"
+        assert len(RrdReader(path).blueprints()) == 1
+        found = columns(path)
+        for name, model in models.items():
+            positions = predict_anew(take, model, PREDICTED_ANEW)
+            seen = np.isfinite(positions[:, 0])
+            rows = found[f"/world/predicted/{name}"]["Points3D:positions"]
+            assert [len(row) for row in rows] == seen.astype(int).tolist()
+            assert 0.8 * len(take) < seen.sum() < len(take)
+            np.testing.assert_allclose([row[0] for row in rows if row], positions[seen], atol=1e-6)
+            errors = np.linalg.norm(positions - take.diabolo, axis=1)
+            told = [row[0] if row else np.nan for row in found[f"/error/{name}"]["Scalars:scalars"]]
+            np.testing.assert_allclose(told, errors, rtol=1e-12)
+            means[i, name] = np.nanmean(errors)
+    for i in range(len(takes)):  # it was diagnosed
+        assert means[i, "corrected"] < 0.5 * means[i, "base"]
+    assert main(["diagnose", *given, "--out", str(out)]) == 2  # the replays would stay

@@ -393,14 +393,21 @@ def test_an_end_while_writing_leaves_the_older_set(
     assert not (short.parent / "other").exists()
 
 
-@pytest.mark.parametrize("missing", ["jinja2", "plotly"])
+@pytest.mark.parametrize(
+    ("missing", "told"),
+    [
+        ("jinja2", "install jinja2 (pip install '.[plot]'"),
+        ("plotly", "install plotly (pip install '.[plot]'"),
+        ("rerun", "writing replay.rrd: needs rerun (pip install '.[rerun]'"),
+    ],
+)
 def test_a_missing_library_is_told_before_the_work(
-    short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], missing: str
+    short: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], missing: str, told: str
 ) -> None:
     monkeypatch.setattr("diabolo.cli.diagnose.run_diagnosis", None)
     monkeypatch.setitem(sys.modules, missing, None)
-    assert main(["diagnose", str(short), "--out", str(short.parent / "out")]) == 2
-    assert f"install {missing} (pip install '.[plot]'" in capsys.readouterr().err
+    assert main(["diagnose", str(short), "--rerun", "--out", str(short.parent / "out")]) == 2
+    assert told in capsys.readouterr().err
     assert not (short.parent / "out").exists()
 
 
@@ -438,6 +445,7 @@ def test_bad_input_makes_no_folder(short: Path) -> None:
         (["TAKE", "--threads", "-1"], "--threads: -1"),
         (["TAKE", "--draws", "-1", "--out", "d"], "--draws: -1"),
         (["TAKE", "--draws", "3"], "--draws 3: expected with --out DIR, and without --simulated"),
+        (["TAKE", "--rerun"], "--rerun: expected with --out DIR"),
         (["TAKE", "--budget", "nan"], "--budget: nan s"),
         (["TAKE", "--out", "TAKE"], "a file; expected a folder"),
     ],

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "python").glob("[0-9]*.py"))
+FOLDER = Path(__file__).parents[2] / "examples"
+EXAMPLES, ROS2 = sorted((FOLDER / "python").glob("[0-9]*.py")), FOLDER / "ros2"
 
 
 def run(example: Path, folder: Path, **environment: str) -> str:
@@ -122,3 +123,25 @@ def test_a_clone_plays_nearly_as_well_as_its_teacher(drawn: Drawn) -> None:
     )
     assert clone[0] > 0.9 * teacher[0]
     assert clone[1] <= teacher[1] + 10  # of 200
+
+
+@pytest.mark.parametrize("program", ["diabolo_node", "latency", "play", "record"])
+@pytest.mark.parametrize("missing", ["rclpy", "geometry_msgs", "sensor_msgs", "std_msgs"])
+def test_without_ros_its_programs_end_with_a_sentence(program: str, missing: str, tmp_path: Path) -> None:
+    for name in ("rclpy", "geometry_msgs", "sensor_msgs", "std_msgs"):
+        module = tmp_path / name
+        module.mkdir()
+        fault = f"raise ModuleNotFoundError('No module named {name}')\n" if name == missing else ""
+        (module / "__init__.py").write_text(fault)
+        (module / "msg.py").write_text("")
+    done = subprocess.run(
+        [sys.executable, ROS2 / f"{program}.py", "--help"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    sentence = (
+        f"{program}: No module named {missing}; expected ROS 2, by pip install -r tools/ros2-requirements.txt"
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"{sentence}\n")

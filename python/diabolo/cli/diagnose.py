@@ -18,7 +18,7 @@ from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import MOST_DRAWS, Comparison, Diagnosis, compare_simulator
 from ..diagnosis import diagnose as run_diagnosis
 from ..evaluation import DEFAULT_MODELS, Excerpt
-from ..formats import load_recording, reader_of
+from ..formats import check_writer, load_recording, reader_of
 from ..report import check as check_report
 from ..report import report_html
 from ..view import Replay, replay_of
@@ -35,6 +35,7 @@ from .arguments import (
 
 MODEL_FILE, REPORT_FILE, RESULT_FILE = "model.json", "report.html", "diagnosis.json"
 COMPARISON_FILE, SIMULATOR_FILE = "comparison.json", "simulator.json"
+REPLAY_FILE = "replay.rrd"
 
 
 def add_parser(commands: Any) -> None:
@@ -108,28 +109,26 @@ def add_parser(commands: Any) -> None:
         "DIR/model-1.json and so on, for `diabolo train --model DIR/model-*.json`",
     )
     parser.add_argument(
+        "--rerun",
+        action="store_true",
+        help="also write DIR/replay-1.rrd and so on, one for each recording and held-out one: the play, what "
+        "base and corrected model predict, begun again each second, and their errors, to look at in rerun",
+    )
+    parser.add_argument(
         "--seed", metavar="N", type=int, default=1, help="seed of intervals and draws; default: 1"
     )
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    whole_number("--threads", arguments.threads, 0, MOST_THREADS)
-    whole_number("--seed", arguments.seed, 0, LARGEST_SEED)
-    whole_number("--draws", arguments.draws, 0, MOST_DRAWS)
-    if arguments.draws and (arguments.out is None or arguments.simulated):
-        raise ValueError(f"--draws {arguments.draws}: expected with --out DIR, and without --simulated")
-    if not arguments.budget > 0.0:
-        raise ValueError(f"--budget: {arguments.budget} s; expected more than 0")
+    check_options(arguments)
     folder = None if arguments.out is None else Path(arguments.out)
     outputs: list[Path | str | None] = [arguments.json]
     if folder is not None:
-        names = [MODEL_FILE, REPORT_FILE, RESULT_FILE]
-        names += [COMPARISON_FILE, SIMULATOR_FILE] if arguments.simulated else []
-        names += [drawn_file(i) for i in range(arguments.draws)]
-        check_drawn(folder, arguments.draws)
-        outputs += [folder / name for name in names]
+        outputs += [folder / name for name in names_in(folder, arguments)]
         check_report(folder / REPORT_FILE)
+        if arguments.rerun:
+            check_writer(folder / REPLAY_FILE)
     inputs = [split_excerpt(text)[0] for text in [*arguments.recordings, *arguments.holdout]]
     settings = [arguments.calibration] if arguments.calibration else []
     settings += [arguments.base] if arguments.base not in DEFAULT_MODELS else []
@@ -164,14 +163,15 @@ def run(arguments: argparse.Namespace) -> None:
         seconds=time.monotonic() - begin, inputs=hashes, model=None if folder is None else MODEL_FILE
     ).to_dict()
     told = result if comparison is None else comparison.to_dict()
-    if folder is None:
-        texts = {}
-    else:
+    texts, replays = {}, []
+    if folder is not None:
         replays = [replay_of(take, base, diagnosis.model) for take in [*takes, *held]]
         texts = _texts(folder, diagnosis, result, comparison, replays)
     if arguments.json not in (None, files.STDOUT):
         texts[Path(arguments.json)] = files.json_text(told)
     with nullcontext() if folder is None else files.made_folder(folder):
+        if folder is not None and arguments.rerun:
+            save_replays(folder, replays)
         files.write_texts(texts)
     if arguments.json == files.STDOUT:
         files.write_json(arguments.json, told)
@@ -181,17 +181,44 @@ def run(arguments: argparse.Namespace) -> None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
 
 
-def drawn_file(i: int) -> str:
-    """Name of the model that was drawn as number i, from 0."""
-    return f"model-{i + 1}.json"
+def check_options(arguments: argparse.Namespace) -> None:
+    """Raise ValueError about one that cannot be, or not with another."""
+    whole_number("--threads", arguments.threads, 0, MOST_THREADS)
+    whole_number("--seed", arguments.seed, 0, LARGEST_SEED)
+    whole_number("--draws", arguments.draws, 0, MOST_DRAWS)
+    if arguments.draws and (arguments.out is None or arguments.simulated):
+        raise ValueError(f"--draws {arguments.draws}: expected with --out DIR, and without --simulated")
+    if arguments.rerun and arguments.out is None:
+        raise ValueError("--rerun: expected with --out DIR")
+    if not arguments.budget > 0.0:
+        raise ValueError(f"--budget: {arguments.budget} s; expected more than 0")
 
 
-def check_drawn(folder: Path, draws: int) -> None:
-    """Raise ValueError where a folder holds models that were drawn before, and would stay."""
-    for path in sorted(folder.glob("model-*.json")):
-        number = path.stem.removeprefix("model-")
-        if number.isdecimal() and int(number) > draws:
-            raise ValueError(f"{path}: drawn before; remove it, or take another folder")
+def names_in(folder: Path, arguments: argparse.Namespace) -> list[str]:
+    """Of the files to write. Raises ValueError where older ones would stay among them."""
+    names = [MODEL_FILE, REPORT_FILE, RESULT_FILE]
+    names += [COMPARISON_FILE, SIMULATOR_FILE] if arguments.simulated else []
+    replayed = len(arguments.recordings) + len(arguments.holdout) if arguments.rerun else 0
+    return [*names, *numbered(folder, MODEL_FILE, arguments.draws), *numbered(folder, REPLAY_FILE, replayed)]
+
+
+def numbered(folder: Path, file: str, count: int) -> list[str]:
+    """NAME-1.SUFFIX and so on for a file NAME.SUFFIX. Raises ValueError where a folder holds one with a
+    greater number, which would stay."""
+    name, suffix = Path(file).stem, Path(file).suffix
+    for path in sorted(folder.glob(f"{name}-*{suffix}")):
+        number = path.stem.removeprefix(f"{name}-")
+        if number.isdecimal() and int(number) > count:
+            raise ValueError(f"{path}: written before; remove it, or take another folder")
+    return [f"{name}-{i + 1}{suffix}" for i in range(count)]
+
+
+def save_replays(folder: Path, replays: list[Replay]) -> None:
+    """One file each, of rerun."""
+    from ..formats import rrd
+
+    for name, replay in zip(numbered(folder, REPLAY_FILE, len(replays)), replays, strict=True):
+        rrd.save_replay(replay, folder / name)
 
 
 def read_simulated(path: str, like: Recording) -> Recording:
@@ -294,8 +321,9 @@ def _texts(
         folder / REPORT_FILE: report_html(result, told, replays),
         folder / RESULT_FILE: files.json_text(result),
     }
-    for i, drawn in enumerate(diagnosis.models):
-        texts[folder / drawn_file(i)] = drawn.to_json()
+    drawn = diagnosis.models
+    for name, model in zip(numbered(folder, MODEL_FILE, len(drawn)), drawn, strict=True):
+        texts[folder / name] = model.to_json()
     if comparison is not None:
         texts[folder / COMPARISON_FILE] = comparison.result.to_json()
         texts[folder / SIMULATOR_FILE] = comparison.simulated.model.to_json()

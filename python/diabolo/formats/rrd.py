@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Recordings of rerun, to be looked at: the play in three dimensions, and height and spin over time."""
+"""Recordings of rerun, to be looked at: the play in three dimensions, height and spin over time, and beside
+them what models predict."""
 
 from __future__ import annotations
 
@@ -13,28 +14,43 @@ from numpy.typing import NDArray
 
 from .._core import Recording, RecordingError
 from ..files import whole_file
+from ..view import Replay
 from .bodies import Floats
 
 STICK = 0.35
 """How much of a stick is drawn [m]."""
+GHOST = 0.03
+"""Radius of a prediction [m]."""
 TAUT = (-0.02, 0.15)
 """The path over the diabolo may be so much shorter and longer than the string to be drawn over it [m]."""
 WOOD, ROPE, CUPS, AXLE = (190, 150, 100), (120, 120, 130), (204, 38, 25), (60, 60, 60)
+PREDICTED = {"base": (225, 29, 72), "corrected": (5, 150, 105)}
+"""Colours of a replay's predictions, as in the report."""
 
 
 def save(recording: Recording, path: Path) -> None:
     """Write the entities world/sticks, world/string, world/diabolo, height [m] and spin [rad/s] over the
     timeline `time`, with a layout. What was not seen is not there."""
+    save_replay(Replay(recording, {}), path)
+
+
+def save_replay(replay: Replay, path: Path) -> None:
+    """That of its recording, and of each prediction world/predicted/NAME and error/NAME [m]."""
     import rerun as rr
 
+    recording = replay.recording
     stream = rr.RecordingStream("diabolo")
     time = rr.TimeColumn("time", duration=recording.time - recording.time[0])
 
     def send(entity: str, kind: Any, counts: NDArray[np.int64], **columns: Any) -> None:
         stream.send_columns(entity, [time], kind.columns(**columns).partition(counts))
 
+    def plot(entity: str, values: Floats) -> None:
+        seen = np.isfinite(values)
+        send(entity, rr.Scalars, np.where(seen, 1, 0), scalars=values[seen])
+
     with whole_file(path) as temporary, _closed(stream, path):
-        stream.save(temporary, default_blueprint=_layout())
+        stream.save(temporary, default_blueprint=_layout(with_errors=bool(replay.predictions)))
         stream.send_recording_name(recording.name)
         stream.log("world", rr.ViewCoordinates.FLU, static=True)
         for name, (strips, counts), colour, radius in (
@@ -49,9 +65,14 @@ def save(recording: Recording, path: Path) -> None:
         columns = {"quaternions": turns} if len(turns) else {}
         send("world/diabolo/cups", rr.Ellipsoids3D, counts, centers=centres, **columns)
         stream.log("world/diabolo/cups", _cup(recording), static=True)
-        for name, values in (("height", recording.diabolo[:, 2]), ("spin", recording.spin())):
-            seen = np.isfinite(values)
-            send(name, rr.Scalars, np.where(seen, 1, 0), scalars=values[seen])
+        plot("height", recording.diabolo[:, 2])
+        plot("spin", recording.spin())
+        for name, positions in replay.predictions.items():
+            entity, seen, colour = f"world/predicted/{name}", np.isfinite(positions[:, 0]), PREDICTED[name]
+            send(entity, rr.Points3D, np.where(seen, 1, 0), positions=positions[seen])
+            stream.log(entity, rr.Points3D.from_fields(colors=[colour], radii=[GHOST]), static=True)
+            plot(f"error/{name}", replay.errors(name))
+            stream.log(f"error/{name}", rr.SeriesLines(colors=[colour], names=[name]), static=True)
 
 
 @contextmanager
@@ -69,14 +90,13 @@ def _closed(stream: Any, path: Path) -> Iterator[None]:
             stream.disconnect()
 
 
-def _layout() -> Any:
-    """The play, and beside it height and spin."""
+def _layout(with_errors: bool) -> Any:
+    """The play, and beside it height, spin and how far predictions are off."""
     import rerun.blueprint as rrb
 
-    plots = [
-        rrb.TimeSeriesView(origin="height", name="height [m]"),
-        rrb.TimeSeriesView(origin="spin", name="spin [rad/s]"),
-    ]
+    units = {"error": "m"} if with_errors else {}
+    units |= {"height": "m", "spin": "rad/s"}
+    plots = [rrb.TimeSeriesView(origin=name, name=f"{name} [{unit}]") for name, unit in units.items()]
     eye = rrb.EyeControls3D(position=[-1.3, -0.9, 1.2], look_target=[0.0, 0.0, 0.9], eye_up=[0.0, 0.0, 1.0])
     play = rrb.Spatial3DView(origin="world", name="play", eye_controls=eye)
     parts = rrb.Horizontal(play, rrb.Vertical(*plots), column_shares=[2, 1])
