@@ -7,7 +7,9 @@ raise   a minute that gains 60 rad/s or more; the axle shall stay within 5 degre
 back    a tilt of 20 degrees shall be below 5 within 3 s, and stay there
 throw   twenty throws and catches in a row, with cycles of acceleration between, shall lose nothing
 
-Hands that do not level play the same beside them. Each plant has its own numbers, friction and groove among
+Hands that do not level play the same beside them. Those that do know the plant's numbers; with `--by
+diagnosis` what a diagnosis makes of a filmed play, with `--by linear` a linear map that they learn in play.
+Each plant has its own numbers, friction and groove among
 them; the hands see its axle three frames late, with half a degree of noise, and its true spin.
 """
 
@@ -15,11 +17,12 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import math
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import diabolo
 import numpy as np
@@ -29,6 +32,7 @@ from numpy.typing import NDArray
 
 from ... import command
 from .. import plant as driver
+from .level_peers import LEARNS, LinearHands, Shaking, diagnosed
 from .plant import STICKS, Plant
 from .session import GAINS, LIMITS, REACTION, draw
 
@@ -181,20 +185,60 @@ def scenario(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[st
     asked = plant.scenario(
         (home[:3].tolist(), home[3:].tolist()), hold, axle.spin, {}, plant.seed, wander=False
     )
-    asked["diabolo"] |= {
-        "inertia_ratio": axle.inertia_ratio,
-        "groove_radius": axle.groove_radius,
-        "groove_half_width": axle.groove_half_width,
-    }
+    asked["diabolo"] |= groove_of(axle)
     asked["start"] |= {"pitch_deg": axle.pitch, "yaw_deg": axle.yaw}
     return asked
 
 
-def play_level(plant: Plant, axle: FreeAxle, what: str, *, levels: bool) -> Levelled:
+def groove_of(axle: FreeAxle) -> dict[str, float]:
+    return {
+        "inertia_ratio": axle.inertia_ratio,
+        "groove_radius": axle.groove_radius,
+        "groove_half_width": axle.groove_half_width,
+    }
+
+
+Levelling: TypeAlias = diabolo.LevelHands | LinearHands
+
+
+def hands_that_level(plant: Plant, axle: FreeAxle, by: str) -> Levelling:
+    """Hands that have learnt what they shall; `by` is model, diagnosis, linear or nothing."""
+    home = Playing(plant, axle.spin, throws=False).home
+    if by == "linear":
+        shaking = Shaking(home, plant.seed)
+        play_level(plant, axle._replace(pitch=0.0), "raise", shaking, LEARNS)
+        return shaking.learnt(home)
+    model = model_of(plant, axle)
+    if by == "diagnosis":
+        model = diagnosed(plant.program, filmed(plant, axle, home))
+    return diabolo.LevelHands(model, home[:3], home[3:], axle.spin)
+
+
+def filmed(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[str, Any]:
+    """Some seconds of play to learn from: hands to and fro, and one before the other."""
+    elements: list[dict[str, Any]] = [
+        {"type": "hold", "duration": 0.5},
+        {"type": "swing", "amplitude": 0.1, "frequency": 0.7, "cycles": 3},
+        {"type": "fore_aft", "amplitude": 0.08, "frequency": 0.6, "cycles": 3},
+        {"type": "beat", "amplitude": 0.06, "frequency": 1.3, "cycles": 4},
+        {"type": "fore_aft", "amplitude": 0.06, "frequency": 0.9, "cycles": 3},
+        {"type": "hold", "duration": 0.5},
+    ]
+    asked = plant.scenario(
+        (home[:3].tolist(), home[3:].tolist()), elements, 150.0, {}, plant.seed, wander=True
+    )
+    asked["diabolo"] |= groove_of(axle)
+    return asked
+
+
+def play_level(
+    plant: Plant, axle: FreeAxle, what: str, level: Levelling | None, longest: float = math.inf
+) -> Levelled:
     """The plant's diabolo in a play of PLAYS, by hands that turn their motion to the axle, or not."""
     rng = np.random.default_rng(plant.seed)
     motion = Playing(plant, axle.spin, throws=what == "throw")
-    level = diabolo.LevelHands(model_of(plant, axle), motion.home[:3], motion.home[3:], axle.spin)
+    levels = level is not None
+    level = level or LinearHands(motion.home, np.zeros((2, 2)), np.zeros(2))
     hands = Hands(motion.home)
     rows: list[tuple[float, ...]] = []
     looks: list[NDArray[np.float64]] = []
@@ -204,7 +248,7 @@ def play_level(plant: Plant, axle: FreeAxle, what: str, *, levels: bool) -> Leve
         contextlib.suppress(driver.FailedError),
         driver.LivePlay(plant.program, scenario(plant, axle, motion.home)) as live,
     ):
-        for step in range(int(PLAYS[what] / PERIOD)):
+        for step in range(int(min(PLAYS[what], longest) / PERIOD)):
             moment = live.moment
             if moment.mode == "MISSED" or moment.position[2] < LOST:
                 break
@@ -251,7 +295,10 @@ def outcome(what: str, number: int, given: argparse.Namespace, *, levels: bool) 
     rng = np.random.default_rng([given.seed, number])
     plant = draw(given.plant, rng)
     axle = draw_axle(rng, TILT if what == "back" else 0.0)
-    play = play_level(plant, axle, what, levels=levels)
+    try:
+        play = play_level(plant, axle, what, hands_that_level(plant, axle, given.by) if levels else None)
+    except ValueError as error:
+        return False, str(error)
     off = np.maximum(np.abs(play.tilt), np.abs(play.yaw))
     if what == "back":
         well = not play.lost and bool((off[play.time >= SOON] < LEVEL).all())
@@ -297,6 +344,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--wanted", metavar="SHARE", type=float, default=0.95,
         help="exit with 1 where fewer are well (%(default)s)",
     )  # fmt: skip
+    parser.add_argument(
+        "--by", choices=("model", "diagnosis", "linear"), default="model", help="what levels (%(default)s)"
+    )
     driver.add_option(parser)
     return command.run(parser, run, arguments)
 
