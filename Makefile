@@ -149,10 +149,12 @@ plant: ## Build the independent plant, on which the proofs play
 
 prove: $(VENV)/.package plant ## Put the diagnosis to the proof on a few recordings whose truth it cannot see
 	@$(VENV)/bin/python -m benchmarks.proof.diagnosis quick --cases 16 --jobs $(JOBS) --plant $(BUILD)/plant/diabolo-plant
+	@$(VENV)/bin/python -m benchmarks.proof.axle --cases 4 --jobs $(JOBS) --plant $(BUILD)/plant/diabolo-plant
 
 prove-player: $(VENV)/.package plant ## Play a few plans on the independent plant, and see that they do what is wanted
 	@$(VENV)/bin/python -m benchmarks.proof.player small --plant $(BUILD)/plant/diabolo-plant
 	@$(VENV)/bin/python -m benchmarks.proof.player.level back --count 4 --wanted 1 --plant $(BUILD)/plant/diabolo-plant
+	@$(VENV)/bin/python -m benchmarks.proof.player.level back --count 2 --by diagnosis --wanted 1 --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests
 	@$(VENV)/bin/python -m pytest -n $(JOBS) --dist worksteal

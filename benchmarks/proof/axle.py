@@ -30,7 +30,6 @@ from .diagnosis.sizes import either_sign, log_uniform, merged
 EXAMPLE = "  make plant && python -m benchmarks.proof.axle --cases 24"
 LAWS = ("gyroscopic_tilt", "groove", "unbalance")
 HALF_WIDTH = 0.008  # of every groove [m]
-SPINS = (90.0, 250.0)  # that plays begin with [rad/s]
 LEAST_SHARE = 0.8  # of the laws that are there shall be found
 MOST_FALSE = 0.1  # of those that are not there may be
 
@@ -73,7 +72,6 @@ def draw(number: int, seed: int) -> Case:
         "player": {"catches": True, "steers": False},
     }
     scenario = merged(merged(body, own), base.play(rng, "lively", throws=False))
-    scenario["start"]["spin"] = either_sign(rng) * log_uniform(rng, *SPINS)
     diabolo_, string = scenario["diabolo"], scenario["string"]
     lever = diabolo_["axle_radius"] + string["radius"]
     gain = diabolo_["mass"] * lever / diabolo_["axial_inertia"]

@@ -240,13 +240,8 @@ def _axle(fit: dict[str, Any]) -> list[list[str]]:
     )
     if ahead is None or base is None or augmented is None:
         return []
-    gain = _degrees(base - augmented, fit.get("axle_improvement_ci95_rad"))
-    return [[quantity(ahead, "s"), _degrees(base), _degrees(augmented), gain]]
-
-
-def _degrees(angle: float, interval: Any = None) -> str:
-    ends = [np.degrees(end) for end in interval] if interval and None not in interval else None
-    return quantity(float(np.degrees(angle)), "deg", ends)
+    gain = quantity(base - augmented, "rad", fit.get("axle_improvement_ci95_rad"))
+    return [[quantity(ahead, "s"), quantity(base, "rad"), quantity(augmented, "rad"), gain]]
 
 
 SPIN_ERRORS = (
@@ -466,7 +461,7 @@ def _sizes(row: dict[str, Any]) -> list[str]:
     ]
     share, turn = row.get("spin_share_1s"), row.get("axle_1s_rad")
     sizes += [] if share is None else [f"{percent(share)} of the spin in 1 s"]
-    return sizes + ([] if turn is None else [f"turns the axle by {_degrees(turn)} in 1 s"])
+    return sizes + ([] if turn is None else [f"turns the axle by {quantity(turn, 'rad')} in 1 s"])
 
 
 def _where(where: dict[str, Any], windows: Iterable[dict[str, Any]] = ()) -> list[str]:

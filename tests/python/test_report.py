@@ -589,8 +589,8 @@ def test_the_size_of_a_spin_effect_is_a_share() -> None:
 def test_the_size_of_what_turns_the_axle_is_an_angle() -> None:
     size = {"acceleration_mps2": None, "position_1s_m": None, "axle_1s_rad": 0.1}
     text = Page(report_html(invented(effects=[{"name": "groove", "size": size}]))).text
-    assert "String climbs the groove's flanks groove" in text and "turns the axle by 5.7° in 1 s" in text
-    assert "1 s 5.7° 0.57° 5.2 [4.0, 6.3]°" in text
+    assert "String climbs the groove's flanks groove" in text and "turns the axle by 5.73 deg in 1 s" in text
+    assert "1 s 5.73 deg 0.573 deg 5.2 [4.0, 6.3] deg" in text
 
 
 def test_says_what_a_claim_is_worth_on_data_that_was_not_fitted() -> None:
