@@ -97,7 +97,7 @@ def ask(case: Case, program: Path) -> Answer | None:
             return None
         result = diabolo.diagnose([diabolo.load_recording(file)], threads=1).result
     fit = result.fit
-    before, after = np.degrees([fit.base_axle_error_rad, fit.augmented_axle_error_rad])
+    before, after = np.degrees(np.array([fit.base_axle_error_rad, fit.augmented_axle_error_rad], float))
     return Answer([told_of(result, law, case.truth[law]) for law in LAWS], float(before), float(after))
 
 

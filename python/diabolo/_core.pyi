@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'Unbalance', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
   """Name, unit and range of a numeric parameter."""
   @property
@@ -525,6 +525,25 @@ class GyroscopicTilt:
     """transverse over axial moment of inertia; zero: no nutation [1]; within [0.0, 100.0]"""
   @inertia_ratio.setter
   def inertia_ratio(self, arg1: _Real) -> None: ...
+class Unbalance:
+  """
+  Cups of unlike weight: the centre of mass lies `offset` beside the groove, along the axle.
+  
+  It yaws the axle, where a GyroscopicTilt has its gain.
+  """
+  __hash__: typing.ClassVar[None] = None
+  @staticmethod
+  def fields() -> list:
+    """Name, unit and range of every field (ParameterInfo)."""
+  def __eq__(self, other: typing.Any) -> bool: ...
+  def __init__(self, **kwargs) -> None: ...
+  def to_dict(self) -> dict:
+    """All fields by name."""
+  @property
+  def offset(self) -> float:
+    """of the centre of mass from the groove's middle, along the axle [m]; within [-0.1, 0.1]"""
+  @offset.setter
+  def offset(self, arg1: _Real) -> None: ...
 class FormulaLaws:
   """
   Laws by formulas: somebody's own, or learnt by a diagnosis.
@@ -597,6 +616,7 @@ class Model:
   string_elasticity: StringElasticity
   string_friction: StringFriction
   string_mass: StringMass
+  unbalance: Unbalance
   unnamed_force: UnnamedForce
   @staticmethod
   def consistent() -> Model:
@@ -1270,6 +1290,9 @@ class EffectSize:
   def acceleration_mps2(self) -> float | None:
     """As a constant one would move it as far."""
   @property
+  def axle_1s_rad(self) -> float | None:
+    """How far it turns the axle in 1 s."""
+  @property
   def position_05s_m(self) -> float | None:
     """How far it moves the diabolo in 0.5 s."""
   @property
@@ -1284,6 +1307,9 @@ class ClaimedEffect:
   def __eq__(self, other: typing.Any) -> bool: ...
   def to_dict(self) -> dict:
     """The same as its file has it."""
+  @property
+  def axle_worse_without_ci95_rad(self) -> Interval | None:
+    """The same of the axle's direction, some second ahead; null of what does not turn it."""
   @property
   def confidence(self) -> float | None:
     """Chance that the name is right."""
@@ -1485,11 +1511,23 @@ class HeldOutErrors:
   def to_dict(self) -> dict:
     """The same as its file has it."""
   @property
+  def augmented_axle_error_rad(self) -> float | None:
+    """The same with what was found."""
+  @property
   def augmented_error_m(self) -> list[float | None]:
     """The same with what was found."""
   @property
   def augmented_spin_error_radps(self) -> list[float | None]:
     """The same with what was found."""
+  @property
+  def axle_ahead_s(self) -> float | None:
+    """How long after the axle was seen its direction is compared, a mean; null where it was not seen."""
+  @property
+  def axle_improvement_ci95_rad(self) -> Interval | None:
+    """95 % interval of base less augmented."""
+  @property
+  def base_axle_error_rad(self) -> float | None:
+    """Mean angle that the base is off then."""
   @property
   def base_error_m(self) -> list[float | None]:
     """Mean position error of the base."""
@@ -1576,7 +1614,7 @@ class LadderRow:
     """Why it is claimed, or not."""
   @property
   def size_m(self) -> float | None:
-    """How far it moves a free diabolo in 0.5 s; null where it acts on spin."""
+    """How far it moves a free diabolo in 0.5 s; null where it acts on spin or axle."""
   @property
   def unit(self) -> str: ...
   @property
@@ -2431,8 +2469,8 @@ def plan_cost(models: collections.abc.Sequence[Model], start: State, motion: Sti
   """The paper's residual of a motion; infinite where it breaks a limit."""
 def played_properties(parameters: Parameters) -> DiaboloProperties:
   """The diabolo of a model: cups of the paper's red one, the model's mass and axle."""
-def played_recording(name: str, time: _Reals, left: _Reals, right: _Reals, states: _Reals, rate: _Real, properties: DiaboloProperties, string_length: _Real) -> Recording:
-  """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin."""
+def played_recording(name: str, time: _Reals, left: _Reals, right: _Reals, states: _Reals, rate: _Real, properties: DiaboloProperties, string_length: _Real, axis: _Reals | None = None) -> Recording:
+  """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin about the axle's `axis`, unit vectors, shape (N, 3), by default world x."""
 def predict(recording: Recording, model: Model, row: _Whole | None, start: str) -> tuple:
   """See diabolo.predict."""
 def read_recording(text: str, path: os.PathLike | str | bytes, calibration: Calibration, up: str | None, columns: None | str | collections.abc.Mapping[str, str]) -> Recording:
@@ -2443,7 +2481,7 @@ def recorded_plan(recording: Recording) -> TipMotion:
   """The TipMotion of a recording whose tips are smoothed: a camera's noise of 0.1 mm asks for more jerk than an arm's limits allow."""
 def recording_of_bodies(file: str, time: _Reals, bodies: collections.abc.Sequence[tuple[str, _Reals, _Reals | None]], notes: collections.abc.Sequence[str], calibration: Calibration, up: str | None) -> Recording:
   """The recording of rigid bodies: times [s], shape (N,), and of each body its name, positions [m], shape (N, 3), and orientations x, y, z, w, shape (N, 4), or None where it is a point; a row with NaN is a dropout. `file` is what messages name, `notes` what its reader changed."""
-def rollout(models: collections.abc.Sequence[Model], initial: _Reals, string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: _Real, dt: _Real, steps: _Whole, record_every: _Whole, threads: _Whole, forces: bool) -> tuple:
+def rollout(models: collections.abc.Sequence[Model], initial: _Reals, string_states: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8], tips: collections.abc.Sequence[TipMotion], begin: _Real, dt: _Real, steps: _Whole, record_every: _Whole, threads: _Whole, forces: bool, axles: bool) -> tuple:
   """See diabolo.rollout, which checks and broadcasts what it hands over."""
 def rollout_gradient(model: Model, initial: State, tips: TipMotion, with_respect_to: collections.abc.Sequence[str], begin: _Real, dt: _Real, steps: _Whole, threads: _Whole) -> tuple:
   """See diabolo.rollout_gradient."""

@@ -276,8 +276,9 @@ def text_of(diagnosis: Diagnosis) -> str:
         ]
         if shown:
             lines.append(f"  mean {what} on held-out {fit.heldout}, after " + "; ".join(shown))
-    if fit.axle_ahead_s is not None:
-        before, after = np.degrees([fit.base_axle_error_rad, fit.augmented_axle_error_rad])
+    axle = fit.base_axle_error_rad, fit.augmented_axle_error_rad
+    if fit.axle_ahead_s is not None and None not in axle:
+        before, after = np.degrees(np.array(axle, float))
         lines.append(
             f"  mean error of the axle's direction on held-out {fit.heldout},"
             f" after {fit.axle_ahead_s:.2g} s: {before:.1f} -> {after:.1f} deg"
