@@ -21,10 +21,11 @@ ifneq ($(shell command -v ccache),)
 cmake += -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 ccache := --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER=ccache
 export CCACHE_SLOPPINESS ?= pch_defines,time_macros# else nothing with a precompiled header is found again
+export CCACHE_BASEDIR ?= $(CURDIR)# so that a checkout in another folder finds what this one compiled
 endif
 # Optimised a little, so that tests run fast, and with assertions; other groups of targets in trees of their own.
 test_flags := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DDIABOLO_BUILD_BENCHMARKS=OFF \
-  -DDIABOLO_BUILD_PYTHON=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
+  -DDIABOLO_BUILD_PYTHON=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 -DCMAKE_UNITY_BUILD_RELOCATABLE=ON
 ctest := ctest --output-on-failure --no-tests=error -j $(JOBS)
 
 package_sources := pyproject.toml CMakeLists.txt LICENSE examples/mujoco/plugin/string_plugin.cpp $(wildcard README.md) \

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "catch.hpp"
+#include "source_dir.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;
@@ -58,7 +59,7 @@ TEST_CASE("what a diagnosis' file holds in the wrong place is named") {
 }
 
 TEST_CASE("the schema that is committed is that of what is written") {
-  std::ifstream file(DIABOLO_SOURCE_DIR "/docs/diagnosis.schema.json");
+  std::ifstream file(source_dir() / "docs/diagnosis.schema.json");
   const std::string committed{std::istreambuf_iterator<char>(file), {}};
   CHECK(nlohmann::json::parse(committed) == nlohmann::json::parse(diagnosis_schema()));
   const auto schema = nlohmann::json::parse(committed);

@@ -6,6 +6,7 @@
 #include "diabolo/json/calibration_file.hpp"
 #include "diabolo/json/recording_file.hpp"
 #include "recording/support.hpp"
+#include "source_dir.hpp"
 
 using namespace diabolo;
 
@@ -15,8 +16,7 @@ namespace {
 template <class Read>
 std::pair<int, int> read_and_refused(const std::string& corpus, const Read& read) {
   std::pair<int, int> counts;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(DIABOLO_SOURCE_DIR) /
-                                                               "tests/fuzz/corpus" / corpus)) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "tests/fuzz/corpus" / corpus)) {
     INFO(entry.path().string());
     const std::string text = read_file(entry.path());
     const std::string said = test::complaint([&] { read(text); });

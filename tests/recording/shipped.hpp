@@ -7,6 +7,8 @@
 
 #include "diabolo/json/recording_file.hpp"
 
+#include "source_dir.hpp"
+
 namespace diabolo::test {
 
 inline constexpr std::array<const char*, 7> kShipped{"circular_acceleration", "drop_and_catch", "hold", "hop",
@@ -14,7 +16,7 @@ inline constexpr std::array<const char*, 7> kShipped{"circular_acceleration", "d
 
 /// Where a recording lies that comes with the project, with the noise and the dropouts of a real one.
 inline std::filesystem::path shipped_path(const std::string& name) {
-  return std::filesystem::path(DIABOLO_SOURCE_DIR) / "data/recordings" / (name + ".csv");
+  return source_dir() / "data/recordings" / (name + ".csv");
 }
 
 inline Recording shipped(const std::string& name) { return load_recording(shipped_path(name)); }

@@ -3,8 +3,6 @@
 
 #include <limits>
 
-#include <Eigen/SVD>
-
 #include "catch.hpp"
 #include "count_allocations.hpp"
 #include "diabolo/robot/arm/build_seed_grid.hpp"
