@@ -7,11 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <vector>
 
-#include "diabolo/diagnose/axle_fit.hpp"
+#include "diabolo/diagnose/axle_selection.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/math/bootstrap.hpp"
 
@@ -30,8 +31,10 @@ struct AxleAnswer {
 
 namespace diagnose_detail {
 
-inline double angle_between(const Vector3<double>& a, const Vector3<double>& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+/// Half a turn where a prediction came to nothing.
+inline double angle_between(const Vector3<double>& predicted, const Vector3<double>& seen) {
+  const double angle = std::atan2(predicted.cross(seen).norm(), predicted.dot(seen));
+  return std::isfinite(angle) ? angle : std::numbers::pi;
 }
 
 /// Asks for the laws of the axle, keeps those that are sure, and judges them on stretches that were left out.
@@ -52,7 +55,8 @@ class AxleInquiry {
   AxleAnswer answer(std::uint64_t seed) {
     AxleAnswer result;
     if (stretches_.all().empty() || laws_.empty()) return result;
-    const AxleFit everything = keep_what_is_sure();
+    const AxleFit everything = fit_all_axle_laws(stretches_, model_, laws_, threads_, watch_);
+    kept_ = keep_sure_axle_laws(everything, stretches_, model_, laws_, threads_, watch_);
     const std::vector<double> base = errors(UnknownVector::Zero()), found = errors_left_out(kept_.free);
     std::mt19937_64 generator(seed);
     for (const Candidate* law : laws_)
@@ -64,48 +68,6 @@ class AxleInquiry {
   }
 
  private:
-  static bool any_stretch(std::size_t) { return true; }
-  static int number_of(const Candidate& law) { return index_of(law.unknowns.front()); }
-  bool is_kept(const Candidate& law) const { return std::ranges::count(kept_.free, number_of(law)) > 0; }
-
-  /// Fits all laws together, and takes out the least sure until all that are left speak for themselves.
-  /// Returns the first fit.
-  AxleFit keep_what_is_sure() {
-    std::vector<int> free;
-    UnknownVector at = UnknownVector::Zero();
-    for (const Candidate* law : laws_) free.push_back(number_of(*law));
-    // Without its gain no other law turns the axle, nor would anything be seen of them.
-    const int gain = index_of(Unknown::kGyroscopicGain);
-    if (model_.effects.get<GyroscopicTilt>().gain == 0.0) at[gain] = kUnknownInfos[gain].scale;
-    kept_ = fit_axle(stretches_, model_, free, at, threads_, watch_);
-    const AxleFit everything = kept_;
-    for (;;) {
-      const UnknownVector deviation = kept_.deviation();
-      const Candidate* weakest = nullptr;
-      double least = 0.0;
-      for (const Candidate* law : laws_) {
-        const double z = is_kept(*law) ? significance(*law, kept_.at, deviation) : 0.0;
-        if (!is_kept(*law) || speaks_for(*law, z)) continue;
-        if (weakest == nullptr || std::abs(z) < least) weakest = law, least = std::abs(z);
-      }
-      if (weakest == nullptr) return everything;
-      std::vector<int> rest = kept_.free;
-      std::erase(rest, number_of(*weakest));
-      if (number_of(*weakest) == gain || rest.empty()) {
-        kept_ = AxleFit{};
-        return everything;
-      }
-      UnknownVector from = kept_.at;
-      from[number_of(*weakest)] = 0.0;
-      kept_ = fit_axle(stretches_, model_, rest, from, threads_, watch_);
-    }
-  }
-
-  static double significance(const Candidate& law, const UnknownVector& at, const UnknownVector& deviation) {
-    const int u = number_of(law);
-    return deviation[u] > 0.0 ? at[u] / deviation[u] : 0.0;
-  }
-
   bool far_enough(std::size_t i) const { return stretches_.all()[i].seconds >= kFarEnoughAhead; }
 
   /// Angles at the stretches' ends between what such unknowns predict and what was seen, of those that are
@@ -146,16 +108,16 @@ class AxleInquiry {
 
   Finding finding_of(const Candidate& law, const AxleFit& everything, const std::vector<double>& found,
                      std::mt19937_64& generator) const {
-    const AxleFit& fit = is_kept(law) ? kept_ : everything;
+    const AxleFit& fit = is_free(kept_, law) ? kept_ : everything;
     Finding f;
     f.candidate = &law;
     f.estimate = fit.at;
     f.deviation = fit.deviation();
-    f.z = significance(law, f.estimate, f.deviation);
+    f.z = z_of(law, f.estimate, f.deviation);
     if (number_of(law) != index_of(Unknown::kGyroscopicGain))
       f.deviation = (f.deviation.cwiseAbs2() + (radius_share_ * f.estimate).cwiseAbs2()).cwiseSqrt();
     f.p_value = family_wise(f.z);
-    f.sure = is_kept(law);
+    f.sure = is_free(kept_, law);
     if (!f.sure) {
       f.reason = "too small to be told from nothing";
       return f;

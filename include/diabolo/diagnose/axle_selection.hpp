@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "diabolo/diagnose/axle_fit.hpp"
+#include "diabolo/diagnose/select.hpp"
+
+namespace diabolo::diagnose_detail {
+
+/// The one unknown of a law of the axle.
+inline int number_of(const Candidate& law) { return index_of(law.unknowns.front()); }
+inline bool is_free(const AxleFit& fit, const Candidate& law) {
+  return std::ranges::count(fit.free, number_of(law)) > 0;
+}
+inline double z_of(const Candidate& law, const UnknownVector& at, const UnknownVector& deviation) {
+  const int u = number_of(law);
+  return deviation[u] > 0.0 ? at[u] / deviation[u] : 0.0;
+}
+
+/// All of them together. Without a gain no other law turns the axle, nor would anything be seen of it: where
+/// the model has none, a usual one is where the fit begins.
+inline AxleFit fit_all_axle_laws(const AxleStretches& stretches, const Model& model, const Bank& laws,
+                                 int threads, const Watch& watch) {
+  const int gain = index_of(Unknown::kGyroscopicGain);
+  std::vector<int> free;
+  UnknownVector at = UnknownVector::Zero();
+  for (const Candidate* law : laws) free.push_back(number_of(*law));
+  if (model.effects.get<GyroscopicTilt>().gain == 0.0 && std::ranges::count(free, gain) > 0)
+    at[gain] = kUnknownInfos[static_cast<std::size_t>(gain)].scale;
+  return fit_axle(stretches, model, free, at, threads, watch);
+}
+
+/// The least sure law of a fit, of those that do not speak for themselves; null where all do.
+inline const Candidate* weakest_of(const AxleFit& fit, const Bank& laws) {
+  const UnknownVector deviation = fit.deviation();
+  const Candidate* weakest = nullptr;
+  double least = 0.0;
+  for (const Candidate* law : laws) {
+    if (!is_free(fit, *law)) continue;
+    const double z = z_of(*law, fit.at, deviation);
+    if (speaks_for(*law, z) || (weakest != nullptr && std::abs(z) >= least)) continue;
+    weakest = law;
+    least = std::abs(z);
+  }
+  return weakest;
+}
+
+/// Takes the least sure law out of a fit and fits the others again, until all that are left are sure.
+inline AxleFit keep_sure_axle_laws(AxleFit fit, const AxleStretches& stretches, const Model& model,
+                                   const Bank& laws, int threads, const Watch& watch) {
+  while (const Candidate* const weakest = weakest_of(fit, laws)) {
+    std::vector<int> rest = fit.free;
+    std::erase(rest, number_of(*weakest));
+    const bool nothing_turns =
+        first_of(*weakest) == Unknown::kGyroscopicGain && model.effects.get<GyroscopicTilt>().gain == 0.0;
+    if (nothing_turns || rest.empty()) return {};
+    UnknownVector from = fit.at;
+    from[number_of(*weakest)] = 0.0;
+    fit = fit_axle(stretches, model, rest, from, threads, watch);
+  }
+  return fit;
+}
+
+}  // namespace diabolo::diagnose_detail
