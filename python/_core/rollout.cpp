@@ -93,6 +93,7 @@ py::tuple rollout(const std::vector<Model>& models, const Array& initial, const 
     codes[i] = static_cast<std::uint8_t>(result.record_states[i]);
   py::object on_tips = py::none(), axle = py::none();
   if (forces) on_tips = to_array(std::move(result.forces), {n, frames, 2, 3});
+  expect_finite_end(result.axles, axles ? batch.records() : 0);
   if (axles) axle = to_array(std::move(result.axles), {n, frames, 7});
   return py::make_tuple(to_array(std::move(result.records), {n, frames, 7}),
                         to_array(std::move(codes), {n, frames}), on_tips, axle);

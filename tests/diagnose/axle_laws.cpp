@@ -15,19 +15,21 @@ namespace {
 
 constexpr double kGain = 3.8, kRadiusShare = 0.05;
 
-/// What a play's recorded axle says, where place and spin are explained.
-AxleAnswer answer_on(const AllEffects<double>& turning, const std::vector<std::string>& names = {},
-                     double seconds = 14.0, const Model& base = {}) {
-  AllEffects<double> effects = turning;
-  effects.get<StringFriction>().coefficient = 0.2;
-  Model model = base;
+/// What the recorded axles of plays say, where place and spin are explained.
+AxleAnswer answer_on(const std::vector<Recording>& recordings, const std::vector<std::string>& names = {},
+                     Model model = {}) {
   model.effects.get<StringFriction>().coefficient = 0.2;
-  Fit fit = diagnose_detail::prepared({played(effects, seconds, 4)}, model);
+  Fit fit = diagnose_detail::prepared(recordings, model);
   // What a diagnosis would find; sizes along the axle count in its radius.
   fit.at[index_of(Unknown::kAxleRadius)] = Recording{}.properties.axle_radius + 7e-4;
   approach<diagnose_detail::CompiledDual<0>>(fit, model, ActiveSet::Constant(false), 3, 2);
   model = augmented_model(model, fit.at, "found");
   return diagnose_detail::AxleInquiry(fit, model, axle_bank(names), kRadiusShare, 2, {}).answer(1);
+}
+
+Recording rubbing(AllEffects<double> effects, double seconds = 14.0, std::uint64_t seed = 4) {
+  effects.get<StringFriction>().coefficient = 0.2;
+  return played(effects, seconds, seed);
 }
 
 AllEffects<double> turning(double gain, double profile = 0.0, double offset = 0.0) {
@@ -56,7 +58,7 @@ void check_size(const Finding& f, double truth) {
 }  // namespace
 
 TEST_CASE("an axle that keeps its direction has no law") {
-  const AxleAnswer answer = answer_on(turning(0.0));
+  const AxleAnswer answer = answer_on({rubbing(turning(0.0))});
   REQUIRE(answer.findings.size() == 3);
   for (const Finding& f : answer.findings) {
     CAPTURE(f.candidate->name, f.z);
@@ -73,7 +75,8 @@ TEST_CASE("tilt, flank and unbalance are told apart and sized, and predict what 
   for (const bool climbs : {false, true})
     for (const bool leans : {false, true}) {
       CAPTURE(climbs, leans);
-      const AxleAnswer answer = answer_on(turning(kGain, climbs ? profile : 0.0, leans ? offset : 0.0));
+      const AxleAnswer answer =
+          answer_on({rubbing(turning(kGain, climbs ? profile : 0.0, leans ? offset : 0.0))});
       const Finding &tilt = finding(answer, "gyroscopic_tilt"), &groove = finding(answer, "groove"),
                     &unbalance = finding(answer, "unbalance");
       check_size(tilt, kGain);
@@ -96,7 +99,7 @@ TEST_CASE("tilt, flank and unbalance are told apart and sized, and predict what 
 }
 
 TEST_CASE("an axle that falls over and tumbles still shows its laws") {
-  const AxleAnswer answer = answer_on(turning(kGain, 0.006, -7e-4), {}, 30.0);
+  const AxleAnswer answer = answer_on({rubbing(turning(kGain, 0.006, -7e-4), 30.0)});
   REQUIRE(answer.ahead);
   CHECK(answer.ahead->base_error > 20.0 * kDegree);
   CHECK(answer.ahead->augmented_error < 0.5 * answer.ahead->base_error);
@@ -108,7 +111,7 @@ TEST_CASE("an axle that falls over and tumbles still shows its laws") {
 TEST_CASE("what the base says of the axle is not asked again") {
   Model base;
   base.effects.get<GyroscopicTilt>().gain = kGain;
-  const AxleAnswer answer = answer_on(turning(kGain), {}, 14.0, base);
+  const AxleAnswer answer = answer_on({rubbing(turning(kGain))}, {}, base);
   for (const Finding& f : answer.findings) {
     CAPTURE(f.candidate->name, f.z);
     CHECK_FALSE(f.claimed);
@@ -117,9 +120,46 @@ TEST_CASE("what the base says of the axle is not asked again") {
   CHECK(answer.ahead->base_error < 0.5 * kDegree);
 }
 
-TEST_CASE("laws of the axle are asked about by name") {
-  const AxleAnswer answer = answer_on(turning(kGain), {"gyroscopic_tilt"});
+TEST_CASE("a base that turns its axle is asked for what it lacks") {
+  Model base;
+  base.effects.get<GyroscopicTilt>().gain = kGain;
+  const AxleAnswer answer = answer_on({rubbing(turning(kGain, 0.0, 1e-3))}, {}, base);
+  check_size(finding(answer, "unbalance"), 1e-3);
+  CHECK_FALSE(finding(answer, "gyroscopic_tilt").claimed);
+  CHECK(answer.at[index_of(Unknown::kGyroscopicGain)] == Approx(0.0).margin(0.1));
+}
+
+TEST_CASE("laws of the axle are asked about by name, with the gain without which none acts") {
+  const Recording recording = rubbing(turning(kGain));
+  const AxleAnswer answer = answer_on({recording}, {"gyroscopic_tilt"});
   REQUIRE(answer.findings.size() == 1);
   CHECK(answer.findings.front().claimed);
-  CHECK(answer_on(turning(kGain), {"wind"}).findings.empty());
+  const AxleAnswer other = answer_on({recording}, {"groove"});
+  REQUIRE(other.findings.size() == 2);
+  CHECK(finding(other, "gyroscopic_tilt").claimed);
+  CHECK_FALSE(finding(other, "groove").sure);
+  CHECK(answer_on({recording}, {"wind"}).findings.empty());
+}
+
+TEST_CASE("several recordings judge each other, and one without an axle is no obstacle") {
+  const AllEffects<double> effects = turning(kGain, 0.006);
+  std::vector<Recording> both{rubbing(effects), rubbing(effects, 12.0, 5)};
+  both[1].name = "other";
+  for (const bool blind : {false, true}) {
+    CAPTURE(blind);
+    if (blind) both[1].diabolo_orientation = {};
+    const AxleAnswer answer = answer_on(both);
+    check_size(finding(answer, "gyroscopic_tilt"), kGain);
+    CHECK(finding(answer, "gyroscopic_tilt").claimed);
+    REQUIRE(answer.ahead);
+    CHECK(answer.ahead->augmented_error < 0.5 * kDegree);
+  }
+}
+
+TEST_CASE("no axle that was never seen is told of") {
+  Recording recording = rubbing(turning(kGain));
+  recording.diabolo_orientation = {};
+  const AxleAnswer answer = answer_on({recording});
+  CHECK(answer.findings.empty());
+  CHECK_FALSE(answer.ahead);
 }

@@ -108,3 +108,22 @@ TEST_CASE("what was not done ends the sentence") {
   CHECK(d.sentence ==
         "Nothing is missing that this recording could show. Not done: this; that (beyond the budget).");
 }
+
+TEST_CASE("what turns the axle makes a name where nothing else is found, and is said behind all else") {
+  Diagnosis d;
+  d.findings = {claim("gyroscopic_tilt", 40.0, {})};
+  conclude(d);
+  CHECK(d.headline == Headline::kNamed);
+  CHECK(d.sentence == "The simulator leaves out the tilt of the axle by the string.");
+  d.findings.push_back(claim("length_scale", 20.0, {}));
+  conclude(d);
+  CHECK(d.headline == Headline::kMeasurementFault);
+  CHECK_THAT(
+      d.sentence,
+      Catch::Contains("no other physics that has a name is missing.") &&
+          Catch::EndsWith("What turns the axle is left out, too: the tilt of the axle by the string."));
+  d.findings.push_back(claim("string_friction", 20.0, {}));
+  conclude(d);
+  CHECK(d.headline == Headline::kNamed);
+  CHECK_THAT(d.sentence, Catch::StartsWith("The simulator leaves out friction of the string on the axle;"));
+}

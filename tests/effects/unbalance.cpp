@@ -8,9 +8,9 @@ using namespace effect_scene;
 
 namespace {
 
-constexpr double kGain = 3.5;
+constexpr double kTurnsBy = 3.5;
 
-Full unbalanced(double offset, double gain = kGain) {
+Full unbalanced(double offset, double gain = kTurnsBy) {
   Numbers parameters;
   parameters.spin_coupling = 0.0;
   Full::Set set;
@@ -27,7 +27,7 @@ TEST_CASE("cups of unlike weight change no bit where nothing turns the axle") {
   Full::Set set;
   set.get<Unbalance>().offset = 1e-3;
   CHECK(differing_steps(set, seed) == 0);
-  set.get<GyroscopicTilt>().gain = kGain;
+  set.get<GyroscopicTilt>().gain = kTurnsBy;
   CHECK(differing_steps(set, seed) > 1000);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("an unbalanced diabolo that hangs yaws at the rate of a heavy top, slo
     const Vector axle = state.axis;
     model.step(state, tips, tips, dt);
     // Momentum -I w s, weight m g in the centre of mass, offset s away from where it hangs.
-    const double mass_over_inertia = kGain / model.parameters().axle_radius;
+    const double mass_over_inertia = kTurnsBy / model.parameters().axle_radius;
     const Vector weight(0.0, 0.0, -kStandardGravity);
     const Vector expected = -mass_over_inertia / spin * (offset * axle).cross(weight);
     CHECK(((state.axis - axle) / dt - expected).norm() < 0.01 * expected.norm());

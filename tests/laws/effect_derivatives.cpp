@@ -171,7 +171,7 @@ double change_of(int k) {
 
 /// The least that a field moves the outcome by; an axle turns by some milliradians.
 double least_of(int k, double usual) {
-  const std::string& name = field_names()[static_cast<std::size_t>(k)];
+  const std::string name = field_names()[static_cast<std::size_t>(k)];
   return name.starts_with("gyroscopic") || name.starts_with("unbalance") ? 1e-4 : usual;
 }
 

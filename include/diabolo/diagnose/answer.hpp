@@ -77,7 +77,6 @@ struct AxleAhead {
   double seconds = 0.0;  ///< that while, a mean
   double base_error = 0.0, augmented_error = 0.0;
   std::optional<Interval> improvement_ci95;  ///< of base less augmented
-  std::size_t stretches = 0;
 };
 
 /// Errors on data that the model was not fitted to.

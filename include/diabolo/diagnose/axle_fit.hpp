@@ -5,28 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/axle_stretches.hpp"
 #include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/diagnose/with_axle.hpp"
 #include "diabolo/math/solve_symmetric.hpp"
 
 namespace diabolo {
 
-/// Half the width of a groove whose string nobody has seen at its edge [m].
-inline constexpr double kRoomyGroove = 0.01;
-
-/// The model with what unknowns of the axle add to its fields.
-inline Model with_axle(const Model& model, const UnknownVector& at) {
-  Model result = model;
-  for_each_unknown(result.effects, [&](Unknown u, double& field) { field += at[index_of(u)]; });
-  auto& groove = result.effects.get<Groove>();
-  if (groove.profile_radius > 0.0 && groove.half_width == 0.0) groove.half_width = kRoomyGroove;
-  return result;
-}
+inline bool every_stretch(std::size_t) { return true; }
 
 /// Laws of the axle as they fit best, and what each stretch says around that: numbers in usual sizes.
 struct AxleFit {
@@ -36,7 +27,8 @@ struct AxleFit {
   std::vector<Eigen::MatrixXd> information;
   std::vector<Eigen::VectorXd> slope;
 
-  /// What those stretches say for which `counts` is true, of `asked` alone; the others are nothing.
+  /// What those stretches say for which `counts` is true, of `asked` alone; the others are nothing. Not
+  /// bounded.
   template <class Counts>
   UnknownVector estimate(const std::vector<int>& asked, const Counts& counts) const {
     std::vector<int> places;
@@ -55,18 +47,25 @@ struct AxleFit {
     }
     const Eigen::VectorXd solution = solve_symmetric(sum, product);
     UnknownVector result = UnknownVector::Zero();
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(asked[k])];
+    for (std::size_t k = 0; k < asked.size(); ++k)
       result[asked[k]] =
-          std::clamp(info.scale * solution[static_cast<Eigen::Index>(k)], info.minimum, info.maximum);
-    }
+          kUnknownInfos[static_cast<std::size_t>(asked[k])].scale * solution[static_cast<Eigen::Index>(k)];
     return result;
+  }
+
+  /// The free ones within their search bounds.
+  UnknownVector in_bounds(UnknownVector x) const {
+    for (const int u : free) {
+      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+      x[u] = std::clamp(x[u], info.minimum, info.maximum);
+    }
+    return x;
   }
 
   /// Standard deviations by the jackknife over the stretches.
   UnknownVector deviation() const {
     UnknownVector square = UnknownVector::Zero();
-    const UnknownVector whole = estimate(free, [](std::size_t) { return true; });
+    const UnknownVector whole = estimate(free, every_stretch);
     for (std::size_t left_out = 0; left_out < information.size(); ++left_out)
       square += (estimate(free, [&](std::size_t i) { return i != left_out; }) - whole).cwiseAbs2();
     return square.cwiseSqrt();
@@ -80,36 +79,38 @@ inline Eigen::Matrix3Xd about_mean(const Eigen::Matrix3Xd& axle) {
   return axle.colwise() - axle.rowwise().mean();
 }
 
-/// What a stretch leaves counts in proportion, from about a camera's noise on [rad]: where the axle tumbles,
-/// little is to be learnt.
+/// What a stretch leaves counts in proportion and no longer as its square, from about a camera's noise on
+/// [rad]: where the axle tumbles, little is to be learnt.
 inline constexpr double kAxleNoise = 0.2 * kDegree;
 
 /// What stretches leave between what was seen and what is predicted [rad].
-class AxleRests {
+class AxleResiduals {
  public:
-  AxleRests(const std::vector<Eigen::Matrix3Xd>& seen, const std::vector<Eigen::Matrix3Xd>& predicted) {
+  AxleResiduals(const std::vector<Eigen::Matrix3Xd>& seen, const std::vector<Eigen::Matrix3Xd>& predicted) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      rests_.push_back(about_mean(seen[i] - predicted[i]));
-      const double square = rests_.back().squaredNorm() / std::max(1.0, static_cast<double>(seen[i].cols()));
-      sizes_.push_back(std::sqrt(square + kAxleNoise * kAxleNoise));
+      const double rows = static_cast<double>(seen[i].cols());
+      residuals_.push_back(about_mean(seen[i] - predicted[i]));
+      const bool predicts = residuals_.back().allFinite();
+      if (!predicts) residuals_.back().setZero();
+      const double square = residuals_.back().squaredNorm() / rows + kAxleNoise * kAxleNoise;
+      sizes_.push_back(predicts ? std::sqrt(square) : std::numbers::pi);
+      weights_.push_back(predicts ? kAxleNoise / (rows * sizes_.back()) : 0.0);
     }
   }
-  const Eigen::Matrix3Xd& of(std::size_t i) const { return rests_[i]; }
-  double weight(std::size_t i) const { return kAxleNoise / sizes_[i]; }
-  double cost() const {
-    const double sum = std::accumulate(sizes_.begin(), sizes_.end(), 0.0);
-    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
-  }
+  const Eigen::Matrix3Xd& of(std::size_t i) const { return residuals_[i]; }
+  /// Of its squares, by which the cost is linear in the residual; zero where there was no prediction.
+  double weight(std::size_t i) const { return weights_[i]; }
+  double cost() const { return std::accumulate(sizes_.begin(), sizes_.end(), 0.0); }
 
  private:
-  std::vector<Eigen::Matrix3Xd> rests_;
-  std::vector<double> sizes_;  ///< root mean squares
+  std::vector<Eigen::Matrix3Xd> residuals_;
+  std::vector<double> sizes_, weights_;  ///< root mean squares
 };
 
 /// Asks the stretches around `fit.at`. Derivatives are differences over a thousandth of what is usual.
-inline void ask_stretches(AxleFit& fit, const AxleStretches& stretches, const Model& model,
-                          const std::vector<Eigen::Matrix3Xd>& here, const AxleRests& rests, int threads,
-                          const Watch& watch) {
+inline void linearize_axle(AxleFit& fit, const AxleStretches& stretches, const Model& model,
+                           const std::vector<Eigen::Matrix3Xd>& here, const AxleResiduals& residuals,
+                           int threads, const Watch& watch) {
   constexpr double kShare = 1e-3;
   std::vector<std::vector<Eigen::Matrix3Xd>> beside;
   for (const int u : fit.free) {
@@ -126,8 +127,9 @@ inline void ask_stretches(AxleFit& fit, const AxleStretches& stretches, const Mo
       const Eigen::Matrix3Xd change = about_mean(beside[k][i] - here[i]) / kShare;
       columns.col(static_cast<Eigen::Index>(k)) = change.reshaped();
     }
-    fit.information.emplace_back(rests.weight(i) * columns.transpose() * columns);
-    fit.slope.emplace_back(rests.weight(i) * columns.transpose() * rests.of(i).reshaped());
+    if (!columns.allFinite()) columns.setZero();
+    fit.information.emplace_back(residuals.weight(i) * columns.transpose() * columns);
+    fit.slope.emplace_back(residuals.weight(i) * columns.transpose() * residuals.of(i).reshaped());
   }
 }
 
@@ -146,20 +148,20 @@ inline AxleFit fit_axle(const AxleStretches& stretches, const Model& model, std:
   AxleFit fit{std::move(free), at, at, {}, {}};
   std::vector<Eigen::Matrix3Xd> here = predicted(at);
   for (int iteration = 0; iteration < kMost; ++iteration) {
-    const diagnose_detail::AxleRests rests(seen, here);
-    diagnose_detail::ask_stretches(fit, stretches, model, here, rests, threads, watch);
-    const UnknownVector step = fit.estimate(fit.free, [](std::size_t) { return true; }) - fit.at;
+    const diagnose_detail::AxleResiduals residuals(seen, here);
+    diagnose_detail::linearize_axle(fit, stretches, model, here, residuals, threads, watch);
+    const UnknownVector step = fit.in_bounds(fit.estimate(fit.free, every_stretch)) - fit.at;
     double gained = -1.0;
     for (int halves = 0; halves <= kMostHalves && !(gained > 0.0); ++halves) {
       const UnknownVector there = fit.at + std::ldexp(1.0, -halves) * step;
       std::vector<Eigen::Matrix3Xd> trial = predicted(there);
-      gained = rests.cost() - diagnose_detail::AxleRests(seen, trial).cost();
+      gained = residuals.cost() - diagnose_detail::AxleResiduals(seen, trial).cost();
       if (gained > 0.0) {
         fit.at = there;
         here = std::move(trial);
       }
     }
-    if (!(gained > kSettled * rests.cost())) break;
+    if (!(gained > kSettled * residuals.cost())) break;
   }
   return fit;
 }

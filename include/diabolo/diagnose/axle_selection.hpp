@@ -12,6 +12,7 @@ namespace diabolo::diagnose_detail {
 
 /// The one unknown of a law of the axle.
 inline int number_of(const Candidate& law) { return index_of(law.unknowns.front()); }
+inline bool is_gain(const Candidate& law) { return first_of(law) == Unknown::kGyroscopicGain; }
 inline bool is_free(const AxleFit& fit, const Candidate& law) {
   return std::ranges::count(fit.free, number_of(law)) > 0;
 }
@@ -28,18 +29,20 @@ inline AxleFit fit_all_axle_laws(const AxleStretches& stretches, const Model& mo
   std::vector<int> free;
   UnknownVector at = UnknownVector::Zero();
   for (const Candidate* law : laws) free.push_back(number_of(*law));
-  if (model.effects.get<GyroscopicTilt>().gain == 0.0 && std::ranges::count(free, gain) > 0)
+  if (needs_gain(model) && std::ranges::count(free, gain) > 0)
     at[gain] = kUnknownInfos[static_cast<std::size_t>(gain)].scale;
   return fit_axle(stretches, model, free, at, threads, watch);
 }
 
-/// The least sure law of a fit, of those that do not speak for themselves; null where all do.
-inline const Candidate* weakest_of(const AxleFit& fit, const Bank& laws) {
+/// The least sure law of a fit, of those that do not speak for themselves; null where all do. A gain that
+/// nothing works without is asked last.
+inline const Candidate* weakest_of(const AxleFit& fit, const Model& model, const Bank& laws) {
   const UnknownVector deviation = fit.deviation();
   const Candidate* weakest = nullptr;
   double least = 0.0;
   for (const Candidate* law : laws) {
-    if (!is_free(fit, *law)) continue;
+    const bool bears = is_gain(*law) && needs_gain(model) && fit.free.size() > 1;
+    if (!is_free(fit, *law) || bears) continue;
     const double z = z_of(*law, fit.at, deviation);
     if (speaks_for(*law, z) || (weakest != nullptr && std::abs(z) >= least)) continue;
     weakest = law;
@@ -48,19 +51,22 @@ inline const Candidate* weakest_of(const AxleFit& fit, const Bank& laws) {
   return weakest;
 }
 
+/// The fit of the others; nothing where none is left.
+inline AxleFit without_law(const AxleFit& fit, const Candidate& law, const AxleStretches& stretches,
+                           const Model& model, int threads, const Watch& watch) {
+  std::vector<int> rest = fit.free;
+  std::erase(rest, number_of(law));
+  if (rest.empty() || (is_gain(law) && needs_gain(model))) return {};
+  UnknownVector from = fit.at;
+  from[number_of(law)] = 0.0;
+  return fit_axle(stretches, model, rest, from, threads, watch);
+}
+
 /// Takes the least sure law out of a fit and fits the others again, until all that are left are sure.
 inline AxleFit keep_sure_axle_laws(AxleFit fit, const AxleStretches& stretches, const Model& model,
                                    const Bank& laws, int threads, const Watch& watch) {
-  while (const Candidate* const weakest = weakest_of(fit, laws)) {
-    std::vector<int> rest = fit.free;
-    std::erase(rest, number_of(*weakest));
-    const bool nothing_turns =
-        first_of(*weakest) == Unknown::kGyroscopicGain && model.effects.get<GyroscopicTilt>().gain == 0.0;
-    if (nothing_turns || rest.empty()) return {};
-    UnknownVector from = fit.at;
-    from[number_of(*weakest)] = 0.0;
-    fit = fit_axle(stretches, model, rest, from, threads, watch);
-  }
+  while (const Candidate* const weakest = weakest_of(fit, model, laws))
+    fit = without_law(fit, *weakest, stretches, model, threads, watch);
   return fit;
 }
 

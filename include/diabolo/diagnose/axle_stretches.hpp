@@ -23,9 +23,9 @@ struct AxleStretch {
   double seconds;
 };
 
-/// Windows that follow each other are predicted together for so long [s], and compared if they are longer
-/// than most of it.
-inline constexpr double kAxleAhead = 0.9, kFarEnoughAhead = 0.7;
+/// Windows that follow each other are predicted together for so long [s], and compared if that is most of
+/// the longest.
+inline constexpr double kAxleAhead = 0.9, kFarEnough = 0.7;
 
 /// The recorded axle, and what models predict of it.
 class AxleStretches {
@@ -57,14 +57,20 @@ class AxleStretches {
     return result;
   }
 
-  /// The same as a model predicts it from each stretch's first row.
   std::vector<Eigen::Matrix3Xd> predicted(const Model& model, int threads, const Watch& watch) const {
+    return predicted(model, threads, watch, [](std::size_t) { return true; });
+  }
+
+  /// What a model predicts of it from each stretch's first row on; nothing of those that do not count.
+  template <class Counts>
+  std::vector<Eigen::Matrix3Xd> predicted(const Model& model, int threads, const Watch& watch,
+                                          const Counts& counts) const {
     std::vector<FullPredictor<double>> predictors;
     for (const Recording& recording : recordings_)
       predictors.emplace_back(parameters_for(model, recording), model.effects);
     std::vector<Eigen::Matrix3Xd> result(stretches_.size());
     for_each_index(stretches_.size(), threads, watch, [&](std::size_t i) {
-      result[i] = play(stretches_[i], predictors[stretches_[i].fit_take]);
+      if (counts(i)) result[i] = play(stretches_[i], predictors[stretches_[i].fit_take]);
     });
     return result;
   }
@@ -80,11 +86,22 @@ class AxleStretches {
     return fit_->fit_takes[s.fit_take].windows[s.last].last;
   }
 
+  /// Whether the recorded axle, which ends point forward of, is followed through a window: one that turns
+  /// past a right angle is seen from its other end.
+  static bool is_followed(const FitTake& fit_take, const FitWindow& window) {
+    const Eigen::Matrix3Xd& axis = fit_take.take->axis;
+    for (Eigen::Index row = window.first; row < window.last; ++row)
+      if (axis.col(row).dot(axis.col(row + 1)) < 0.0) return false;
+    return true;
+  }
+
   /// Of windows whose motion is explained, the axle seen at the beginning.
   void add_stretches(std::size_t s, std::size_t before) {
     const FitTake& fit_take = fit_->fit_takes[s];
     const std::vector<FitWindow>& windows = fit_take.windows;
-    const auto explained = [&](std::size_t w) { return fit_->scores[before + w].weight >= 1.0; };
+    const auto explained = [&](std::size_t w) {
+      return fit_->scores[before + w].weight >= 1.0 && is_followed(fit_take, windows[w]);
+    };
     const auto seconds = [&](std::size_t from, std::size_t to) {
       return fit_take.take->times[windows[to].last] - fit_take.take->times[windows[from].first];
     };

@@ -154,6 +154,9 @@ inline std::string_view alternative_to(std::string_view name) {
   return name == "frame_rate" ? "length_scale" : "";
 }
 
+/// Seen in the axle's direction alone, see AxleInquiry.
+inline bool is_of_axle(const Candidate& candidate) { return candidate.direction == "axle"; }
+
 /// All of them but placebos, or those of some names, as far as they can be missing in a base: a base that has
 /// a spin coupling leaves it to be fitted, and one with the Earth's gravity has it right. In another one
 /// gravity is asked about, and not the scale of lengths, which acts alike and is the better known. What is an
@@ -172,7 +175,7 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
   const bool asks_gravity = !earth && wanted(candidate_of("gravity_magnitude"));
   for (const Candidate& candidate : candidates()) {
     if (candidate.unknowns.empty() || !alternative_to(candidate.name).empty() || !wanted(candidate)) continue;
-    if (candidate.direction == "axle") continue;  // see axle_bank()
+    if (is_of_axle(candidate)) continue;  // see axle_bank()
     if (candidate.name == "spin_coupling" && base.spin_coupling > 0.0) continue;
     if (candidate.name == "gravity_magnitude" && earth) continue;
     if (candidate.name == "length_scale" && asks_gravity) continue;
@@ -192,12 +195,15 @@ inline Bank bank_for(const Parameters<double>& base, const std::vector<std::stri
   return bank;
 }
 
-/// The laws of the axle, all or those of some names.
+/// The laws of the axle, all or those of some names; with the gain, without which none of them acts.
 inline Bank axle_bank(const std::vector<std::string>& names) {
+  const auto named = [&](const Candidate& candidate) {
+    return is_of_axle(candidate) && (names.empty() || std::ranges::count(names, candidate.name) > 0);
+  };
   Bank bank;
+  if (std::ranges::none_of(candidates(), named)) return bank;
   for (const Candidate& candidate : candidates())
-    if (candidate.direction == "axle" && (names.empty() || std::ranges::count(names, candidate.name) > 0))
-      bank.push_back(&candidate);
+    if (named(candidate) || first_of(candidate) == Unknown::kGyroscopicGain) bank.push_back(&candidate);
   return bank;
 }
 
@@ -215,9 +221,6 @@ inline bool is_in(const ActiveSet& set, const Candidate& candidate) {
 inline bool is_of_spin(const Candidate& candidate) {
   return candidate.law != nullptr ? candidate.law->acts == Acts::kSpin : candidate.direction == "spin";
 }
-
-/// Seen in the axle's direction alone, see AxleInquiry.
-inline bool is_of_axle(const Candidate& candidate) { return candidate.direction == "axle"; }
 
 /// How far unknowns like these move the diabolo within half a second in the most affected tenth of the
 /// windows [m]; of spin effects the share of the spin that goes within kSpinTime.

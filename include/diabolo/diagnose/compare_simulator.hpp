@@ -31,12 +31,13 @@ inline const Finding* claim_of(const Diagnosis& d, std::string_view name) {
   return found == d.findings.end() ? nullptr : &*found;
 }
 
-/// What is claimed of either, of the first in its order.
+/// What is claimed of either, of the first in its order; less what turns the axle, which is fitted apart.
 inline std::vector<const Candidate*> claimed_of_either(const Diagnosis& real, const Diagnosis& simulated) {
   std::vector<const Candidate*> result;
   for (const Diagnosis* d : {&real, &simulated})
     for (const Finding& f : d->findings)
-      if (f.claimed && f.swapped == 0 && (d == &real || claim_of(real, f.candidate->name) == nullptr))
+      if (f.claimed && f.swapped == 0 && !is_of_axle(*f.candidate) &&
+          (d == &real || claim_of(real, f.candidate->name) == nullptr))
         result.push_back(f.candidate);
   return result;
 }

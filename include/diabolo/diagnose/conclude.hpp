@@ -198,11 +198,16 @@ inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
   d.findings.insert(d.findings.begin(), f);
 }
 
-/// Headline and sentence.
+/// Headline and sentence. They are about place and spin: what turns the axle is named where nothing else is
+/// found, and else said behind it.
 inline void conclude(Diagnosis& d) {
-  std::vector<const Finding*> physics, faults;
+  std::vector<const Finding*> physics, faults, axle;
   for (const Finding& f : d.findings)
-    if (f.claimed) (f.candidate->kind == CandidateKind::kPhysics ? physics : faults).push_back(&f);
+    if (f.claimed)
+      (f.candidate->kind != CandidateKind::kPhysics ? faults
+       : is_of_axle(*f.candidate)                   ? axle
+                                                    : physics)
+          .push_back(&f);
   const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
   const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
   const bool has_law = !d.learnt.empty();
@@ -234,10 +239,13 @@ inline void conclude(Diagnosis& d) {
   } else if (!faults.empty()) {
     d.headline = Headline::kMeasurementFault;
     d.sentence = "The measurement is off by " + names(faults) +
-                 (has_law ? "; and a" + left_plainly(d) : "; no physics that has a name is missing.");
+                 (has_law        ? "; and a" + left_plainly(d)
+                  : axle.empty() ? "; no physics that has a name is missing."
+                                 : "; no other physics that has a name is missing.");
   } else if (d.numerical && *d.numerical > kNumericalShare && !has_law && !beyond_noise) {
     d.headline = Headline::kNumerical;
-    d.sentence = "No physics is missing: the numerical rules of " + d.base + " make the difference.";
+    d.sentence = std::string(axle.empty() ? "No" : "No other") +
+                 " physics is missing: the numerical rules of " + d.base + " make the difference.";
   } else if (has_law || only_leftover) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "A" + left_plainly(d);
@@ -251,13 +259,19 @@ inline void conclude(Diagnosis& d) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something without a name is left: " + std::to_string(std::lround(100.0 * d.unexplained)) +
                  " % of the windows are off by more than five times what the others are.";
+  } else if (!axle.empty()) {
+    d.headline = Headline::kNamed;
+    d.sentence = "The simulator leaves out " + names(axle) + ".";
+    axle.clear();
   } else {
     d.headline = Headline::kNothingMissing;
     d.sentence = d.catch_rule ? "No physics is missing that this recording could show."
                               : "Nothing is missing that this recording could show.";
   }
-  if (d.reason.empty() && d.headline != Headline::kNumerical && d.headline != Headline::kNothingMissing)
+  const bool of_motion = leading.size() + d.learnt.size() > 0 || d.headline == Headline::kUnnamedStructure;
+  if (d.reason.empty() && of_motion && d.headline != Headline::kNumerical)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
+  if (!axle.empty()) d.sentence += " What turns the axle is left out, too: " + names(axle) + ".";
   d.sentence += catch_in_words(d.catch_rule);
   d.sentence += differing_in_words(d);
   for (std::size_t i = 0; i < d.not_done.size(); ++i)

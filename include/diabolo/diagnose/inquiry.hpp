@@ -54,8 +54,8 @@ class Inquiry : public ClaimSearch<D> {
       compare_takes();
       ask_axle();
       finish();
-      result_.final_fit =
-          std::make_shared<FinalFit>(FinalFit{physics_, std::move(fit_), set_, possible(), !withdrawn});
+      result_.final_fit = std::make_shared<FinalFit>(
+          FinalFit{physics_, std::move(fit_), set_, possible(), axle_.at, axle_.deviation, !withdrawn});
     }
     std::ranges::copy(budget_.left(), std::back_inserter(result_.not_done));
     conclude(result_);
@@ -204,20 +204,21 @@ class Inquiry : public ClaimSearch<D> {
     if (looking.is_enough()) budget_.leave(comparing);
   }
 
-  /// Asks what turns the axle; place and spin are as they were found.
+  /// Asks what turns the axle, with place and spin as they were found.
   void ask_axle() {
     const char* const asking = "asking what turns the axle";
     if (!budget_.allows(asking, kRulesShare)) return;
+    const FitWatch looking = step(asking, 0.965, 0.967, kRulesShare);
     const int radius = index_of(Unknown::kAxleRadius);
-    AxleAnswer axle = AxleInquiry(fit_, result_.model, axle_bank(options_.bank),
-                                  result_.deviation[radius] / std::max(fit_.at[radius], 1e-3),
-                                  options_.threads, step(asking, 0.965, 0.967, kRulesShare))
-                          .answer(options_.seed);
-    std::ranges::move(axle.findings, std::back_inserter(result_.findings));
+    const double radius_share = result_.deviation[radius] / std::max(fit_.at[radius], 1e-3);
+    axle_ = AxleInquiry(fit_, augmented_model(physics_, fit_.at, "diagnosed", bank_),
+                        axle_bank(options_.bank), radius_share, options_.threads, looking)
+                .answer(options_.seed);
+    if (looking.is_enough()) budget_.leave(asking);
+    std::ranges::move(axle_.findings, std::back_inserter(result_.findings));
     surest_first(result_.findings);
-    result_.model = with_axle(result_.model, axle.at);
-    physics_ = with_axle(physics_, axle.at);
-    result_.heldout.axle = axle.ahead;
+    result_.model = with_axle(result_.model, axle_.at);
+    result_.heldout.axle = axle_.ahead;
   }
 
   /// Where it was before and after, the numerical rules' share, the noise, and what to record next.
@@ -228,7 +229,7 @@ class Inquiry : public ClaimSearch<D> {
       rules.parameters.catch_slack = physics_.parameters.catch_slack;
       rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
       result_.numerical =
-          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.965, 0.97));
+          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.967, 0.97));
     }
     for (std::size_t s = 0; s < fit_.fit_takes.size(); ++s)
       result_.noise.push_back({fit_.fit_takes[s].take->recording.name, fit_.noise[s]});
@@ -240,6 +241,7 @@ class Inquiry : public ClaimSearch<D> {
   }
 
   std::vector<const Candidate*> denied_;
+  AxleAnswer axle_;
   HeldOut judged_;  ///< against the base with the rule for a catch that the model has
 };
 

@@ -18,6 +18,7 @@
 #include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/select.hpp"
+#include "diabolo/diagnose/with_axle.hpp"
 
 namespace diabolo {
 
@@ -32,6 +33,8 @@ class Posterior {
     if (!diagnosis.final_fit || !diagnosis.final_fit->stands) return;
     const FinalFit& final = *diagnosis.final_fit;
     physics_ = final.physics;
+    axle_ = final.axle;
+    axle_deviation_ = final.axle_deviation;
     bank_ = final.bank;
     const Evidence evidence(final.fit);
     claimed_.push_back(explanation(evidence, final.free, final.fit.at));
@@ -52,8 +55,12 @@ class Posterior {
     std::vector<Model> models;
     std::mt19937_64 generator(seed);
     for (std::size_t i = 0; i < count; ++i) {
-      models.push_back(claimed_.empty() ? best_
-                                        : augmented_model(physics_, unknowns(generator), best_.name, bank_));
+      if (claimed_.empty()) {
+        models.push_back(best_);
+      } else {
+        models.push_back(augmented_model(physics_, unknowns(generator), best_.name, bank_));
+        models.back() = with_axle(models.back(), axle_numbers(generator));
+      }
       models.back().name.append(" ").append(std::to_string(i + 1));
     }
     return models;
@@ -94,6 +101,18 @@ class Posterior {
     return result;
   }
 
+  /// Of what turns the axle, each by itself.
+  UnknownVector axle_numbers(std::mt19937_64& generator) const {
+    UnknownVector at = axle_;
+    std::normal_distribution<double> normal;
+    for (int u = 0; u < kUnknowns; ++u) {
+      if (axle_[u] == 0.0) continue;
+      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+      at[u] = std::clamp(axle_[u] + axle_deviation_[u] * normal(generator), info.minimum, info.maximum);
+    }
+    return at;
+  }
+
   UnknownVector unknowns(std::mt19937_64& generator) const {
     const bool beside = !others_.empty() && std::bernoulli_distribution(unclaimed_)(generator);
     const std::vector<Explanation>& list = beside ? others_ : claimed_;
@@ -117,6 +136,7 @@ class Posterior {
   }
 
   Model best_, physics_;
+  UnknownVector axle_ = UnknownVector::Zero(), axle_deviation_ = axle_;
   double unclaimed_;
   std::shared_ptr<const OwnCandidates> own_;  ///< to which the bank may point
   Bank bank_;

@@ -58,7 +58,9 @@ enum class Unknown : int {
   kLinearDrag = diagnose_detail::number_of("linear_drag"),
   kQuadraticDrag = diagnose_detail::number_of("quadratic_drag"),
   kWindX = diagnose_detail::number_of("wind_x"),
-  kGyroscopicGain = diagnose_detail::number_of("gyroscopic_gain"),  ///< seen in the axle alone, never free
+  // Seen in the axle alone, and never free beside the others.
+  kGyroscopicGain = diagnose_detail::number_of("gyroscopic_gain"),
+  kGrooveProfile = diagnose_detail::number_of("groove_profile"),
   // Latent accelerations: what is left, wherever it comes from [m/s^2], [rad/s^2].
   kStringTangent = diagnose_detail::number_of("string_tangent"),
   kStringBinormal = diagnose_detail::number_of("string_binormal"),
