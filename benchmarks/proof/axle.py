@@ -129,15 +129,18 @@ def run(given: argparse.Namespace) -> int:
         )
         told += answer.laws
         errors.append((answer.before, answer.after))
+    if not errors:
+        raise ValueError(f"none of {given.cases} plants could be played to its end; expected one at least")
     there, absent = [one for one in told if one.truth], [one for one in told if not one.truth]
     claims = [one for one in there if one.claimed]
     found, false = sum(one.sure for one in there), sum(one.sure for one in absent)
     before, after = np.median(errors, axis=0)
-    sizes = [abs(one.estimate / one.truth - 1.0) for one in claims]
+    sizes = [abs(one.estimate / one.truth - 1.0) for one in there if one.sure]
+    held = sum(one.holds for one in claims)
     print(
         f"found {found} of {len(there)} laws that are there; said {false} of {len(absent)} that are not\n"
-        f"claimed {len(claims)}: off by {np.median(sizes):.1%} in the median, 90 % intervals hold the truth "
-        f"in {sum(one.holds for one in claims)}\n"
+        f"sizes of those found: off by {np.median(sizes or [np.nan]):.1%} in the median\n"
+        f"claimed: {len(claims)}, the 90 % interval holds the truth in {held}\n"
         f"the axle's direction on data not fitted: {before:.1f} -> {after:.1f} deg in the middle plant"
     )
     good = found >= LEAST_SHARE * len(there) and false <= MOST_FALSE * len(absent) and after < 0.5 * before

@@ -198,7 +198,7 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
             "sentence": f"There is no held-out error: nothing could be predicted and compared.{left}",
             "rows": [],
             "spin": [],
-            "axle": [],
+            "axle": _axle(fit),
         }
     horizon, base, augmented, interval, start = rows[-1]
     held_out = {
@@ -432,6 +432,9 @@ def _effect(effect: dict[str, Any], horizons: list[float], windows: list[dict[st
 def _effect_sizes(effect: dict[str, Any], horizons: list[float]) -> list[str]:
     """What was measured without it; else how far it would move a free diabolo."""
     without, size = _without(effect, horizons), dict(effect.get("size") or {})
+    if turned := effect.get("axle_worse_without_ci95_rad"):
+        low, high = np.degrees(turned)
+        without = [f"without it the axle is off by {low:.2g} to {high:.2g} deg more on data not fitted"]
     if without:
         size["position_1s_m"] = None
     return [*_sizes(size), *without]

@@ -8,9 +8,9 @@ back    a tilt of 20 degrees shall be below 5 within 3 s, and stay there
 throw   twenty throws and catches in a row, with cycles of acceleration between, shall lose nothing
 
 Hands that do not level play the same beside them. Those that do know the plant's numbers; with `--by
-diagnosis` what a diagnosis makes of a filmed play, with `--by linear` a linear map that they learn in play.
-Each plant has its own numbers, friction and groove among
-them; the hands see its axle three frames late, with half a degree of noise, and its true spin.
+diagnosis` they go by what a diagnosis makes of a filmed play, with `--by linear` by a linear map that they
+learn in play. Each plant has its own numbers, friction and groove among them; the hands see its axle three
+frames late, with half a degree of noise, and its true spin.
 """
 
 from __future__ import annotations
@@ -202,7 +202,7 @@ Levelling: TypeAlias = diabolo.LevelHands | LinearHands
 
 
 def hands_that_level(plant: Plant, axle: FreeAxle, by: str) -> Levelling:
-    """Hands that have learnt what they shall; `by` is model, diagnosis, linear or nothing."""
+    """Hands that have learnt what they shall; `by` is model, diagnosis or linear."""
     home = Playing(plant, axle.spin, throws=False).home
     if by == "linear":
         shaking = Shaking(home, plant.seed)

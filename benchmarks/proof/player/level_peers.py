@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Others that level the axle: by a model that was diagnosed, and by a linear map that was learnt.
 
-Both first see the plant play, and know nothing else of it. The map is that of Murooka, Okada and Inaba
+Both first see the plant play, and know of its axle nothing else. The map is that of Murooka, Okada and Inaba
 ("Diabolo orientation stabilization by learning predictive model for unstable unknown-dynamics juggling
 manipulation", IROS 2020): what tilt and yaw do next is linear in what they are and in what the hands do.
 Place and string are ignored, as there.
@@ -36,7 +36,7 @@ def diagnosed(program: Path, scenario: dict[str, Any]) -> diabolo.Model:
         take = Path(folder) / "take.csv"
         driver.play(program, scenario, take)
         recording = diabolo.load_recording(take)
-    found = diabolo.diagnose([recording]).model
+    found = diabolo.diagnose([recording], threads=1).model
     if not found.gyroscopic_tilt.gain:
         raise ValueError("the diagnosis has no gain of gyroscopic_tilt")
     return diabolo.model_for(found, recording)

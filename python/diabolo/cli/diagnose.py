@@ -280,7 +280,7 @@ def text_of(diagnosis: Diagnosis) -> str:
     if fit.axle_ahead_s is not None and None not in axle:
         before, after = np.degrees(np.array(axle, float))
         lines.append(
-            f"  mean error of the axle's direction on held-out {fit.heldout},"
+            "  mean error of the axle's direction on stretches left out,"
             f" after {fit.axle_ahead_s:.2g} s: {before:.1f} -> {after:.1f} deg"
         )
     if fit.holdout_unused:
