@@ -238,7 +238,7 @@ def _axle(fit: dict[str, Any]) -> list[list[str]]:
     ahead, base, augmented = (
         fit.get(name) for name in ("axle_ahead_s", "base_axle_error_rad", "augmented_axle_error_rad")
     )
-    if ahead is None or base is None or augmented is None:
+    if not (isinstance(base, int | float) and isinstance(augmented, int | float)):
         return []
     gain = quantity(base - augmented, "rad", fit.get("axle_improvement_ci95_rad"))
     return [[quantity(ahead, "s"), quantity(base, "rad"), quantity(augmented, "rad"), gain]]

@@ -32,6 +32,7 @@ struct AxleFit {
   template <class Counts>
   UnknownVector estimate(const std::vector<int>& asked, const Counts& counts) const {
     std::vector<int> places;
+    places.reserve(asked.size());
     for (const int u : asked) places.push_back(static_cast<int>(std::ranges::find(free, u) - free.begin()));
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(asked), std::ssize(asked));
     Eigen::VectorXd product = Eigen::VectorXd::Zero(std::ssize(asked));
