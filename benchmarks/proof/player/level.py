@@ -58,6 +58,7 @@ LEVEL = 5.0  # [deg]
 TILT = 20.0  # that `back` begins with [deg]
 SOON = 3.0  # [s]
 LOST = 0.15  # a diabolo below is [m]
+FILMED = 200.0  # a play to diagnose begins with [rad/s]
 
 
 class FreeAxle(NamedTuple):
@@ -225,7 +226,7 @@ def filmed(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[str,
         {"type": "hold", "duration": 0.5},
     ]
     asked = plant.scenario(
-        (home[:3].tolist(), home[3:].tolist()), elements, 150.0, {}, plant.seed, wander=True
+        (home[:3].tolist(), home[3:].tolist()), elements, FILMED, {}, plant.seed, wander=True
     )
     asked["diabolo"] |= groove_of(axle)
     return asked
