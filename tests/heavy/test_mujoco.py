@@ -278,6 +278,28 @@ def test_sticks_that_a_host_moves_feel_the_string():
     assert data.site("left").xpos[1] < 0.4 - 1e-3  # and pulled together
 
 
+def test_string_pulls_at_the_centre_of_mass_and_turns_about_the_axle():
+    """Of a body whose centre lies off its frame, and which is turned."""
+    text = host.scene(Model(Parameters(), name="rubs", string_friction=StringFriction(coefficient=0.2)))
+    assert 'inertial pos="0 0 0"' in text
+    model, data = loaded(text.replace('inertial pos="0 0 0"', 'inertial pos="0.01 0.02 -0.015"'))
+    free = data.joint(model.body("diabolo").jntadr[0])
+    data.mocap_pos[:] = [[0, 0.4, 1.3], [0, -0.4, 1.3]]
+    turn = np.array([0.9, 0.2, -0.3, 0.25])
+    free.qpos[:] = [0.0, 0.0, 0.695, *(turn / np.linalg.norm(turn))]
+    free.qvel[:] = [0.3, 0.2, 0.0, -60.0, 0.0, 0.0]
+    for _ in range(20):
+        mujoco.mj_step(model, data)
+    mujoco.mj_forward(model, data)
+    body, force = data.body("diabolo"), free.qfrc_passive[:3]
+    frame, arm = body.xmat.reshape(3, 3), np.cross(body.xipos - body.xpos, force)
+    about_centre = frame @ free.qfrc_passive[3:] - arm
+    assert force[2] > 0.5 and np.linalg.norm(arm) > 1e-2
+    axle = frame[:, 0]
+    assert abs(axle @ about_centre) > 1e-4
+    np.testing.assert_allclose(np.cross(axle, about_centre), 0.0, atol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("was", "put", "words"),
     [

@@ -62,7 +62,7 @@ class StringOnBody {
 
   void pull(const mjModel* m, mjData* d, Stored& stored) const {
     if (!is_later_stage(m, d, stored)) ask(m, d, stored);
-    mj_applyFT(m, d, stored.force, stored.torque, d->xipos + 3 * body_, body_, d->qfrc_passive);
+    push(m, d, Seen(stored.force), Seen(stored.torque));
     constexpr mjtNum kNone[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < 2; ++k) {
       const int tip = m->site_bodyid[sites_[k]];
@@ -166,6 +166,16 @@ class StringOnBody {
            d->time < stored.time + 1.0001 * m->opt.timestep;
   }
 
+  /// At the body's centre, as mj_applyFT() does, but for a free joint alone and without a Jacobian. The joint
+  /// takes the force in the world's frame and the torque in the body's.
+  void push(const mjModel* m, mjData* d, const Vector3<double>& force, const Vector3<double>& torque) const {
+    using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+    Eigen::Map<Eigen::Matrix<double, 6, 1>> passive(d->qfrc_passive + m->body_dofadr[body_]);
+    const Vector3<double> arm = Seen(d->xipos + 3 * body_) - Seen(d->xpos + 3 * body_);
+    passive.head<3>() += force;
+    passive.tail<3>() += Frame(d->xmat + 9 * body_).transpose() * (torque + diabolo::cross(arm, force));
+  }
+
   void ask(const mjModel* m, mjData* d, Stored& stored) const {
     const double dt = m->opt.timestep;
     if (!(dt > 0.0)) mju_error("diabolo.string, timestep: %g s; expected more than 0", dt);
@@ -231,14 +241,9 @@ class StringOnBody {
   diabolo::AttachedString string_;
 };
 
-Stored read(const mjModel* m, const mjData* d, int instance) {
-  Stored stored;
-  std::memcpy(&stored, d->plugin_state + m->plugin_stateadr[instance], sizeof(stored));
-  return stored;
-}
-
-void write(const mjModel* m, mjData* d, int instance, const Stored& stored) {
-  std::memcpy(d->plugin_state + m->plugin_stateadr[instance], &stored, sizeof(stored));
+/// The state of an instance, where MuJoCo keeps it.
+Stored& stored_in(const mjModel* m, const mjData* d, int instance) {
+  return *reinterpret_cast<Stored*>(d->plugin_state + m->plugin_stateadr[instance]);
 }
 
 const StringOnBody& string_on(const mjData* d, int instance) {
@@ -260,11 +265,9 @@ int init(const mjModel* m, mjData* d, int instance) {
 
 void compute(const mjModel* m, mjData* d, int instance, int capability) {
   if (capability == mjPLUGIN_PASSIVE) {
-    Stored stored = read(m, d, instance);
-    string_on(d, instance).pull(m, d, stored);
-    write(m, d, instance, stored);
+    string_on(d, instance).pull(m, d, stored_in(m, d, instance));
   } else {
-    const Stored stored = read(m, d, instance);
+    const Stored& stored = stored_in(m, d, instance);
     for (int s = 0; s < m->nsensor; ++s)
       if (m->sensor_plugin[s] == instance)
         std::memcpy(d->sensordata + m->sensor_adr[s], stored.seen, sizeof(stored.seen));
@@ -272,11 +275,10 @@ void compute(const mjModel* m, mjData* d, int instance, int capability) {
 }
 
 void advance(const mjModel* m, mjData* d, int instance) {
-  Stored stored = read(m, d, instance);
+  Stored& stored = stored_in(m, d, instance);
   stored.now = stored.next;
   stored.begun = 1.0;
   stored.time = kNoStep;
-  write(m, d, instance, stored);
 }
 
 /// The attributes' names, which MuJoCo keeps by their address.
@@ -316,7 +318,7 @@ mjPLUGIN_LIB_INIT(diabolo_string) {
   plugin.compute = compute;
   plugin.advance = advance;
   plugin.visualize = [](const mjModel* m, mjData* d, const mjvOption*, mjvScene* scene, int instance) {
-    const double state = read(m, d, instance).seen[4];
+    const double state = stored_in(m, d, instance).seen[4];
     string_on(d, instance).draw(d, scene, state == static_cast<double>(diabolo::StringState::kFlying));
   };
   mjp_registerPlugin(&plugin);
