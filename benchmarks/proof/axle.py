@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 import diabolo
 import numpy as np
+from diabolo.checks import LARGEST_SEED, whole_number
 
 from .. import command
 from . import plant
@@ -115,6 +116,8 @@ def answers(given: argparse.Namespace) -> Iterator[tuple[int, Answer | None]]:
 
 
 def run(given: argparse.Namespace) -> int:
+    for option, least, most in (("cases", 1, 9999), ("jobs", 1, 256), ("seed", 0, LARGEST_SEED)):
+        whole_number(f"--{option}", getattr(given, option), least, most)
     plant.check(given.plant)
     told: list[Told] = []
     errors = []
