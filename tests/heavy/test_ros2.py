@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import math
-import os
 import random
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -47,15 +47,17 @@ def ros() -> Iterator[None]:
 
 @contextmanager
 def running(program: str, *arguments: object, log: Path | None = None) -> Iterator[subprocess.Popen[bytes]]:
-    """A program of the examples; what it says goes to a log."""
+    """A program of the examples; what it says goes to a log, and is shown where a test fails."""
     command = [sys.executable, str(EXAMPLES / program), *map(str, arguments)]
-    with (log or Path(os.devnull)).open("wb") as said:
+    with log.open("w+") if log else tempfile.TemporaryFile("w+") as said:
         process = subprocess.Popen(command, stdout=said, stderr=said)
         try:
             yield process
         finally:
             process.kill()
             process.wait()
+            said.seek(0)
+            print(f"{program}, status {process.returncode}:\n{said.read()}")
 
 
 def node(log: Path | None = None, **parameters: object):
@@ -282,12 +284,14 @@ def test_a_turned_axle_keeps_its_direction(axis: list[float]) -> None:
 def heard(folder: Path, name: str, file: Path, seconds: float) -> Path:
     """A bag of what a node and a player say, recorded until SIGINT. seconds: as long as the file plays."""
     bag, options = folder / name, ("--listeners", 2, "--start", FIRST // 10**9)
-    with node(), meter() as peer, running("record.py", bag, log=folder / "log") as recorder:
-        with running("play.py", file, *options, log=folder / "played") as player:
-            hear(peer, FIRST + round(1e9 * (seconds - 0.5 / RATE)))
-            assert player.wait(60) == 0, (folder / "played").read_text()
-        time.sleep(1.0)  # the recorder, too, has heard it by then
-        assert end(recorder, signal.SIGINT) == 0, (folder / "log").read_text()
+    with node(), meter() as peer:
+        played(peer, *swing(0.2))  # node and peer have found each other: what is answered is heard
+        with running("record.py", bag, log=folder / "log") as recorder:
+            with running("play.py", file, *options, log=folder / "played") as player:
+                hear(peer, FIRST + round(1e9 * (seconds - 0.5 / RATE)))
+                assert player.wait(60) == 0
+            time.sleep(1.0)  # the recorder, too, has heard it by then
+            assert end(recorder, signal.SIGINT) == 0
     return bag
 
 
