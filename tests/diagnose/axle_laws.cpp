@@ -34,6 +34,7 @@ Recording rubbing(AllEffects<double> effects, double seconds = 14.0, std::uint64
 
 AllEffects<double> turning(double gain, double profile = 0.0, double offset = 0.0) {
   AllEffects<double> effects;
+  effects.get<FiniteAxle>().follows_axis = 1.0;  // as a rigid diabolo's, square to which its string leaves it
   effects.get<GyroscopicTilt>().gain = gain;
   effects.get<Groove>().profile_radius = profile;
   effects.get<Groove>().half_width = 0.005;
@@ -52,7 +53,7 @@ void check_size(const Finding& f, double truth) {
   const int u = index_of(first_of(*f.candidate));
   CAPTURE(f.candidate->name, f.estimate[u], f.deviation[u], truth);
   CHECK(f.sure);
-  CHECK(f.estimate[u] == Approx(truth).epsilon(0.03));
+  CHECK(f.estimate[u] == Approx(truth).epsilon(0.015));
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ TEST_CASE("tilt, flank and unbalance are told apart and sized, and predict what 
 TEST_CASE("an axle that falls over and tumbles still shows its laws") {
   const AxleAnswer answer = answer_on({rubbing(turning(kGain, 0.006, -7e-4), 30.0)});
   REQUIRE(answer.ahead);
-  CHECK(answer.ahead->base_error > 20.0 * kDegree);
+  CHECK(answer.ahead->base_error > 15.0 * kDegree);
   CHECK(answer.ahead->augmented_error < 0.5 * answer.ahead->base_error);
   const Finding& tilt = finding(answer, "gyroscopic_tilt");
   CHECK(tilt.claimed);
