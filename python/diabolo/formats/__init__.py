@@ -17,6 +17,7 @@ from .. import _core
 from .._core import Calibration, Recording, RecordingError, StickArm
 from ..arms import two_arms
 from ..checks import check_library, instance_of, shown
+from . import bodies, qualisys, vicon
 from .bodies import ROLES, Body
 
 OF_A_CLOCK = "the times are stamps of a clock: they are counted from the first one on"
@@ -80,8 +81,6 @@ def _recording_of_bodies(
     arms: Sequence[StickArm],
 ) -> Recording:
     """The recording of a file that holds bodies with names."""
-    from . import bodies
-
     found, setup, notes = _bodies_of(reader, path, names, arms)
     bodies.check_names(path, found, names)
     names = names or _names_in(calibration, [body.name for body in found])
@@ -188,10 +187,10 @@ def reader_of(path: Path) -> str | None:
         return reader
     if path.suffix.lower() in (".csv", ".tsv") and os.path.isfile(path):
         with path.open("rb") as file:
-            first = file.readline(200).decode("utf-8", "replace").strip("\ufeff\r\n ,\t;")
+            first = file.readline(200).decode("utf-8-sig", "replace")
         if first.startswith("NO_OF_FRAMES"):
             return "qualisys"
-        if first == "Objects":
+        if vicon.title_of(first) in vicon.TITLES:
             return "vicon"
     return None
 
@@ -209,7 +208,5 @@ def _bodies_of(
         from . import c3d
 
         return c3d.read(path), None, []
-    from . import exports
-
-    found, notes = exports.read_qualisys(path) if reader == "qualisys" else exports.read_vicon(path)
+    found, notes = qualisys.read(path) if reader == "qualisys" else vicon.read(path)
     return found, None, notes
