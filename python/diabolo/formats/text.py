@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 from .._core import RecordingError, read_text
 from ..checks import shown
 
+LARGEST = 1e12
+"""Number in a file."""
+
 
 def whole_lines(path: Path) -> tuple[list[str], list[str]]:
     """Lines of a text, without a last one that may be cut off, and a note of that."""
@@ -41,8 +44,11 @@ def numbers(path: Path, rows: Sequence[str], first: int, mark: str, size: int) -
 
 def _number(path: Path, line: int, at: int, text: str) -> float:
     try:
-        return float(text) if text else np.nan
+        found = float(text) if text else np.nan
     except ValueError:
+        found = np.inf
+    if abs(found) > LARGEST:
         raise RecordingError(
-            f"{path}, line {line}, cell {at + 1}: found {shown(text)}; expected a number"
-        ) from None
+            f"{path}, line {line}, cell {at + 1}: found {shown(text)}; expected a number within {LARGEST:g}"
+        )
+    return found
