@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Recordings of other programs: bags of ROS, C3D, Parquet, and exports of Vicon and Qualisys."""
 
+import os
 import sqlite3
 import sys
 from collections.abc import Callable, Mapping
@@ -363,14 +364,21 @@ def test_a_broken_file_ends_in_one_sentence(
         ),
         (lambda _: load_recording(SWING, topics="left"), "topics 'left'; expected left=NAME,right=NAME"),
         (lambda _: load_recording(SWING, topics={"middle": "a"}), "topics: found 'middle'; expected left"),
+        (lambda _: load_recording(SWING, topics={"left": 5}), "topics: left: 5; expected a name"),
+        (lambda _: load_recording(SWING, up=5), "up: 5; expected the name of an axis"),
+        (lambda _: load_recording(SWING, calibration=5), "calibration: 5; expected a Calibration"),
         (
             lambda folder: save_recording(load_recording(SWING), folder / "a.txt"),
             "expected a name that ends in",
         ),
+        (
+            lambda folder: save_recording(load_recording(SWING), folder / f"{'a' * 300}.mcap"),
+            "a.mcap: cannot be written (File name too long",
+        ),
     ],
 )
 def test_what_cannot_be_meant_is_refused(tmp_path: Path, call: Callable[[Path], Any], complaint: str) -> None:
-    with pytest.raises(RecordingError, match=complaint.replace("(", r"\(")):
+    with pytest.raises(ValueError, match=complaint.replace("(", r"\(")):
         call(tmp_path)
 
 
@@ -439,6 +447,14 @@ def test_two_bodies_of_one_name_are_refused(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("\n".join([*head, *rows]) + "\n")
     with pytest.raises(RecordingError, match="two bodies are named 'left'"):
         load_recording(tmp_path / "a.csv")
+
+
+def test_a_name_in_bytes_that_are_no_text_is_read(swing: Recording, tmp_path: Path) -> None:
+    path = os.fsencode(tmp_path) + b"/b\xe9.mcap"
+    save_recording(swing, path)
+    again = load_recording(path)
+    same(swing, again)
+    assert again.name == "b\ufffd"
 
 
 def test_what_is_read_is_not_written_over(swing: Recording, tmp_path: Path) -> None:
