@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 Simulate: TypeAlias = Callable[[Model, State, TipMotion, float, int], NDArray[np.float64]]
 """`simulate(model, start, tips, dt, steps)` gives the places after each step, (steps, 3) [m]."""
-DT = 1e-3  # [s]
+DT = 1e-3
+"""About how long a step is; a whole number of them lies between two starts [s]."""
 
 
 def main(simulate: Simulate, host: str) -> None:
@@ -89,8 +90,9 @@ def piece(
     simulate: Simulate, model: Model, start: dict[str, Any], tips: TipMotion, end: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Times [s], (N,), and places [m], (N, 3), from a start to before `end`."""
-    time = start["time"] + DT * np.arange(round((end - start["time"]) / DT))
+    count = max(1, round((end - start["time"]) / DT))
+    time = np.linspace(start["time"], end, count, endpoint=False)
     moved = TipMotion(time - time[0], *tips.at(time)[:2], "spline")
     state = State(start["position"], start["velocity"], start["spin"], "loose")
-    path = simulate(model, state, moved, DT, len(time) - 1)
+    path = simulate(model, state, moved, (end - start["time"]) / count, count - 1)
     return time, np.vstack([start["position"], path])

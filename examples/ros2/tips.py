@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from diabolo import robot
-from diabolo.arms import SIDES
+from diabolo.arms import LARGEST_ANGLE, SIDES
 from diabolo.robot import StickArm
 from diabolo.rollout import FARTHEST
 from numpy.typing import NDArray
@@ -19,8 +19,6 @@ from turns import first_axis
 
 JOINTS = [f"{side}_{joint}" for side in SIDES for joint in robot.JOINTS]
 """Names of the arms' joints, the left arm's first."""
-LARGEST_ANGLE = 6.4
-"""Of a joint [rad]: a full turn either way, and a little."""
 MOST_WAITING = 1000
 """Tips of one side without one of the other."""
 

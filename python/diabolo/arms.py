@@ -22,6 +22,8 @@ JOINTS = (
     "wrist_3_joint",
 )
 """Of a UR5e, base to last wrist, as its ROS driver names them; those of a cell begin with left_ or right_."""
+LARGEST_ANGLE = 6.4
+"""Of a joint [rad]: a full turn either way, and a little."""
 
 
 def two_arms(arms: Sequence[StickArm] | None) -> list[StickArm]:

@@ -98,7 +98,9 @@ def json_text(value: dict[str, Any]) -> str:
 def _place(path: Path) -> Path:
     """Where a file is, or what it is a link to."""
     place = Path(os.path.realpath(path))
-    if place.is_symlink():
+    with _said_of(path):
+        is_link = place.is_symlink()
+    if is_link:
         raise ValueError(f"{path}: a symbolic link that leads to itself; expected a file")
     return place
 

@@ -352,6 +352,18 @@ def test_a_step_of_no_length_and_a_tip_nowhere_are_told():
         mujoco.mj_step(model, data)
 
 
+def test_a_cell_that_is_ready_rests():
+    host.load_plugin()
+    model = mujoco.MjModel.from_xml_string(host.cell())
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("ready").id)
+    joints, place = data.qpos[:12].copy(), data.qpos[12:15].copy()
+    for _ in range(2000):
+        mujoco.mj_step(model, data)
+    np.testing.assert_allclose(data.qpos[:12], joints, atol=1e-3)  # its servos give a little
+    np.testing.assert_allclose(data.qpos[12:15], place, atol=1e-3)
+
+
 def test_two_arms_play_for_a_minute():
     """The sticks go up and down against each other; the string stays as long as it is."""
     arms = [StickArm("left"), StickArm("right")]

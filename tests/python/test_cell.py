@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
-from diabolo import MagnusLift, Model
+from diabolo import MagnusLift, Model, Parameters
 from diabolo.cli import main
 from diabolo.hosts import mjcf, sdf, urdf
 from diabolo.robot import JOINTS, StickArm
@@ -46,6 +47,24 @@ def test_a_preset_is_meant_by_its_name(tmp_path: Path, monkeypatch: pytest.Monke
     (tmp_path / "worlds").mkdir()
     assert main(["convert", "paper", "worlds/cell.sdf"]) == 0
     assert ElementTree.parse("worlds/cell.sdf").findtext(".//plugin/model") == "paper"
+
+
+def test_a_cell_in_mjcf_has_a_key_where_it_is_ready() -> None:
+    def key(arms: list[StickArm], length: float = 1.45) -> ElementTree.Element | None:
+        model = Model(Parameters(string_length=length))
+        return ElementTree.fromstring(mjcf.cell(arms, model)).find("keyframe/key")
+
+    arms = [StickArm(side, height=0.75, spacing=1.05, forward=0.2) for side in ("left", "right")]
+    ready = key(arms)
+    assert ready is not None
+    place = np.array((ready.get("qpos") or "").split(), float)
+    for arm, joints, aside in zip(arms, (place[:6], place[6:12]), (0.35, -0.35), strict=True):
+        np.testing.assert_allclose(arm.tip_position(joints), [0.8, aside, 1.3], atol=1e-9)
+    below = 1.3 - np.sqrt(0.725**2 - 0.35**2)  # but for the axle's width
+    np.testing.assert_allclose(place[12:], [0.8, 0.0, below, 1.0, 0.0, 0.0, 0.0], atol=1e-3)
+    assert (ready.get("ctrl") or "").split() == (ready.get("qpos") or "").split()[:12]
+    assert key(arms, length=3.0) is None  # it would be in the floor
+    assert key([StickArm(side, spacing=2.5) for side in ("left", "right")]) is None  # out of reach
 
 
 @pytest.mark.parametrize("name", ["", " ", "a\x01.json", "\ud800", 5, None, Path("model.json")])

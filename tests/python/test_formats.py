@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Recordings of other programs: bags of ROS, C3D, Parquet, and exports of Vicon and Qualisys."""
 
+import os
+import sqlite3
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +14,9 @@ import pytest
 from diabolo import Calibration, Recording, RecordingError, load_recording, save_recording
 from diabolo.cli import main
 from diabolo.cli.diagnose import input_file
+from diabolo.formats import qualisys, vicon
 from diabolo.formats.bodies import Body, at_common_times
 from diabolo.formats.c3d import quaternions
-from diabolo.formats.exports import read_qualisys, read_vicon
 from diabolo.robot import StickArm
 from numpy.typing import NDArray
 
@@ -53,7 +56,12 @@ def test_what_is_written_is_read_again(swing: Recording, tmp_path: Path, suffix:
     assert not np.isfinite(again.diabolo).all() and np.isfinite(again.diabolo).any()  # with its dropouts
 
 
-def write_bag(folder: Path, recording: Recording, topics: dict[str, str], shift: dict[str, int]) -> None:
+def write_bag(
+    folder: Path,
+    recording: Recording,
+    topics: dict[str, str],
+    shift: Mapping[str, int | NDArray[np.int64]],
+) -> None:
     """A folder of rosbag2 whose bodies have stamps of their own."""
     from rosbags.rosbag2 import StoragePlugin, Writer
     from rosbags.typesys import Stores, get_typestore
@@ -64,8 +72,9 @@ def write_bag(folder: Path, recording: Recording, topics: dict[str, str], shift:
         for role, topic in topics.items():
             connection = writer.add_connection(topic, "geometry_msgs/msg/PoseStamped", typestore=store)
             places, turns = getattr(recording, role), getattr(recording, f"{role}_orientation")
+            late = np.broadcast_to(shift.get(role, 0), len(recording)).tolist()
             for i in np.flatnonzero(np.isfinite(places[:, 0])):
-                stamp = 1_700_000_000 * 10**9 + round(recording.time[i] * 1e9) + shift.get(role, 0)
+                stamp = 1_700_000_000 * 10**9 + round(recording.time[i] * 1e9) + late[i]
                 message = types["geometry_msgs/msg/PoseStamped"](
                     types["std_msgs/msg/Header"](
                         types["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9), "world"
@@ -114,6 +123,98 @@ def test_bodies_with_stamps_of_their_own_are_interpolated_to_the_diabolo(
     seen = np.isfinite(swing.diabolo[:, 0])
     np.testing.assert_allclose(found.left[inside], late[seen][inside], atol=3e-4)
     assert len(found) == int(seen.sum())
+
+
+@pytest.mark.parametrize("together", [True, False])
+def test_the_rate_of_a_bag_is_told_by_its_stamps_though_they_jitter(
+    swing: Recording, tmp_path: Path, together: bool
+) -> None:
+    rng = np.random.default_rng(2532)
+    late = rng.normal(0.0, 0.08e9 / swing.rate, (3, len(swing))).astype(np.int64)
+    shift = {role: late[0 if together else k] for k, role in enumerate(TOPICS)}
+    write_bag(tmp_path / "bag", swing, TOPICS, shift)
+    found = load_recording(tmp_path / "bag", topics=TOPICS)
+    assert found.rate == pytest.approx(swing.rate, rel=1e-3)
+    assert any("each row is moved to its even time" in note for note in found.warnings())
+    at = np.arange(len(swing)) if together else np.flatnonzero(np.isfinite(swing.diabolo[:, 0]))
+    np.testing.assert_allclose(np.diff(found.time) * found.rate, np.diff(at), atol=0.15)  # gaps jitter, too
+    np.testing.assert_allclose(found.diabolo, swing.diabolo[at], rtol=0.0, atol=1e-6)
+    step = np.nanmax(np.linalg.norm(np.diff(swing.left, axis=0), axis=1))
+    apart = np.nanmax(np.linalg.norm(found.left - swing.left[at], axis=1))
+    assert apart < (1e-6 if together else 0.5 * step)  # both are late by less than a quarter of a step
+
+
+MARKED = {
+    "mocap4r2_msgs/msg/Marker": "int8 USE_NAME=0\nint8 USE_INDEX=1\nint8 USE_BOTH=2\nint8 id_type\n"
+    "int32 marker_index\nstring marker_name\ngeometry_msgs/Point translation",
+    "mocap4r2_msgs/msg/RigidBody": "string rigid_body_name\nMarker[] markers\ngeometry_msgs/Pose pose",
+    "mocap4r2_msgs/msg/RigidBodies": "std_msgs/Header header\nuint32 frame_number\nRigidBody[] rigidbodies",
+}
+"""What mocap4r2_msgs has in its files."""
+
+
+@pytest.mark.parametrize("kind", ["mcap", "sqlite without definitions", "rosbag1"])
+def test_rigid_bodies_of_mocap4r2_are_read(swing: Recording, tmp_path: Path, kind: str) -> None:
+    from rosbags import rosbag1, rosbag2
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+    store = get_typestore(Stores.ROS1_NOETIC if kind == "rosbag1" else Stores.ROS2_HUMBLE)
+    for name, text in MARKED.items():
+        store.register(get_types_from_msg(text, name))
+    types, numbered = store.types, (0,) if kind == "rosbag1" else ()
+    messages = []
+    for i, time in enumerate(swing.time):
+        stamp = 1_700_000_000 * 10**9 + round(time * 1e9)
+        clock = types["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9)
+        bodies = []
+        for name in ("left", "right", "diabolo"):
+            place, turn = getattr(swing, name)[i], getattr(swing, f"{name}_orientation")[i]
+            point = types["geometry_msgs/msg/Point"](*place.tolist())
+            pose = types["geometry_msgs/msg/Pose"](
+                point, types["geometry_msgs/msg/Quaternion"](*turn.tolist())
+            )
+            marker = types["mocap4r2_msgs/msg/Marker"](2, 7, f"{name}_1", point)
+            bodies.append(types["mocap4r2_msgs/msg/RigidBody"](name, [marker], pose))
+        header = types["std_msgs/msg/Header"](*numbered, clock, "map")
+        messages.append((stamp, types["mocap4r2_msgs/msg/RigidBodies"](header, i, bodies)))
+    kept = "mocap4r2_msgs/msg/RigidBodies"
+    if kind == "rosbag1":
+        with rosbag1.Writer(tmp_path / "take.bag") as writer:
+            connection = writer.add_connection("/rigid_bodies", kept, typestore=store)
+            for stamp, message in messages:
+                writer.write(connection, stamp, store.serialize_ros1(message, kept))
+        path = tmp_path / "take.bag"
+    else:
+        path = tmp_path / "take"
+        plugin = rosbag2.StoragePlugin.MCAP if kind == "mcap" else rosbag2.StoragePlugin.SQLITE3
+        with rosbag2.Writer(path, version=8, storage_plugin=plugin) as writer:
+            connection = writer.add_connection("/rigid_bodies", kept, typestore=store)
+            for stamp, message in messages:
+                writer.write(connection, stamp, store.serialize_cdr(message, kept))
+    for database in tmp_path.glob("*/*.db3"):  # as ROS 2 Humble writes it
+        with closing(sqlite3.connect(database)) as changed:
+            changed.execute("UPDATE schema SET schema_version = 3")
+            changed.execute("DROP TABLE message_definitions")
+            changed.commit()
+    same(swing, load_recording(path), places=1e-6)
+
+
+def test_what_a_bag_says_twice_is_read_once(swing: Recording, tmp_path: Path) -> None:
+    from diabolo.formats.bag import Rows, _body
+
+    rows = Rows([1, 2, 2, 3], [1, 2, 3, 4], [(0.0,) * 3, (1.0,) * 3, (1.0,) * 3, (2.0,) * 3], {"world"})
+    body = _body(Path("bag"), "left", rows, {})
+    assert body.stamps.tolist() == [1, 2, 3] and body.position[:, 0].tolist() == [0.0, 1.0, 2.0]
+    rows.numbers[2] = (1.5,) * 3  # else than what was said
+    with pytest.raises(RecordingError, match="stamp 2 ns does not come after the one before"):
+        at_common_times(Path("bag"), [_body(Path("bag"), "left", rows, {})], {})
+
+
+def test_stamps_of_no_clock_are_refused(tmp_path: Path) -> None:
+    from diabolo.formats.bag import Rows, _body
+
+    with pytest.raises(RecordingError, match=f"bag, left: stamp {2**63} ns; expected one within"):
+        _body(Path("bag"), "left", Rows([0], [2**63], [(0.0,) * 3], {"world"}), {})
 
 
 def test_points_of_c3d_are_tips_without_directions(swing: Recording, tmp_path: Path) -> None:
@@ -237,8 +338,8 @@ def test_the_commands_take_them(swing: Recording, tmp_path: Path, capsys: pytest
         ("take.tsv", b"NO_OF_FRAMES\t2\nFREQUENCY\t100\n", "no BODY_NAMES"),
         ("take.tsv", b"NO_OF_FRAMES\t2\nBODY_NAMES\ta\nX\n", "no FREQUENCY"),
         ("take.tsv", b"NO_OF_FRAMES\t2\nFREQUENCY\t100\nBODY_NAMES\ta\nX\tY\n1\t2\n", "columns of 0 bodies"),
-        ("take.csv", b"Objects\n100\n", "expected an export of Vicon"),
-        ("take.csv", b"Objects\nfast\na\nRX\nrad\n1\n", "line 2: found ['fast']; expected the rate"),
+        ("take.csv", b"Objects\n100\n", "line 2: found 'the end'; expected Objects, rate, names"),
+        ("take.csv", b"Objects\nfast\na\nRX\nrad\n1\n", "line 2: found 'fast'; expected the rate"),
         ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad\n1,0,0,0,0\n", "3 cells'; expected 5 units"),
         ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad,,\n1,0,0,0,0\n", "expected a column TX of a"),
     ],
@@ -263,14 +364,21 @@ def test_a_broken_file_ends_in_one_sentence(
         ),
         (lambda _: load_recording(SWING, topics="left"), "topics 'left'; expected left=NAME,right=NAME"),
         (lambda _: load_recording(SWING, topics={"middle": "a"}), "topics: found 'middle'; expected left"),
+        (lambda _: load_recording(SWING, topics={"left": 5}), "topics: left: 5; expected a name"),
+        (lambda _: load_recording(SWING, up=5), "up: 5; expected the name of an axis"),
+        (lambda _: load_recording(SWING, calibration=5), "calibration: 5; expected a Calibration"),
         (
             lambda folder: save_recording(load_recording(SWING), folder / "a.txt"),
             "expected a name that ends in",
         ),
+        (
+            lambda folder: save_recording(load_recording(SWING), folder / f"{'a' * 300}.mcap"),
+            "a.mcap: cannot be written (File name too long",
+        ),
     ],
 )
 def test_what_cannot_be_meant_is_refused(tmp_path: Path, call: Callable[[Path], Any], complaint: str) -> None:
-    with pytest.raises(RecordingError, match=complaint.replace("(", r"\(")):
+    with pytest.raises(ValueError, match=complaint.replace("(", r"\(")):
         call(tmp_path)
 
 
@@ -341,6 +449,14 @@ def test_two_bodies_of_one_name_are_refused(tmp_path: Path) -> None:
         load_recording(tmp_path / "a.csv")
 
 
+def test_a_name_in_bytes_that_are_no_text_is_read(swing: Recording, tmp_path: Path) -> None:
+    path = os.fsencode(tmp_path) + b"/b\xe9.mcap"
+    save_recording(swing, path)
+    again = load_recording(path)
+    same(swing, again)
+    assert again.name == "b\ufffd"
+
+
 def test_what_is_read_is_not_written_over(swing: Recording, tmp_path: Path) -> None:
     bag = tmp_path / "bag"
     write_bag(bag, swing, TOPICS, {})
@@ -360,7 +476,7 @@ def test_points_stay_points(swing: Recording, tmp_path: Path) -> None:
 
 
 def test_messages_of_all_kinds_are_read(tmp_path: Path) -> None:
-    from diabolo.formats.bag import ROWS_OF
+    from diabolo.formats.messages import ROWS_OF
     from rosbags.typesys import Stores, get_typestore
 
     types = get_typestore(Stores.ROS2_HUMBLE).types
@@ -412,7 +528,7 @@ def test_a_quarter_turn_of_qualisys_is_one_to_the_left(tmp_path: Path) -> None:
     lines = ["NO_OF_FRAMES\t2", "FREQUENCY\t100", "BODY_NAMES\tleft", own]
     row = "1000\t0\t0\t0\t0\t90\t0.1\t0\t1\t0\t-1\t0\t0\t0\t0\t1"  # the columns of the matrix, in turn
     (tmp_path / "a.tsv").write_text("\n".join([*lines, row, row]) + "\n\n")
-    [body], _ = read_qualisys(tmp_path / "a.tsv")
+    [body], _ = qualisys.read(tmp_path / "a.tsv")
     np.testing.assert_allclose(body.position[0], [1.0, 0.0, 0.0])
     np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-12)
 
@@ -423,10 +539,81 @@ def test_vicon_may_give_degrees_or_a_quaternion_and_skip_frames(tmp_path: Path) 
     for head, row in ((degrees, "0,0,0,90,100,0,0"), (quaternion, "0,0,0,0.70710678,0.70710678,10,0,0")):
         rows = [f"{frame},{row}" for frame in (1, 2, 5)]
         (tmp_path / "a.csv").write_text("\n".join([*head, *rows]) + "\n")
-        [body], _ = read_vicon(tmp_path / "a.csv")
+        [body], _ = vicon.read(tmp_path / "a.csv")
         np.testing.assert_allclose(np.diff(body.stamps), [10_000_000, 30_000_000])
         np.testing.assert_allclose(body.position[0], [0.1, 0.0, 0.0])
         np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-7)
+
+
+NEXUS = """\
+Devices
+1000
+,,Force Plate 1 - Force,,
+Frame,Sub Frame,Fx,Fy,Fz
+,,N,N,N
+1,0,0.1,0.2,broken
+
+Segments
+100
+,,Play:left,,,,,,Play:top
+Frame,Sub Frame,RX,RY,RZ,TX,TY,TZ,RX,RY,RZ,TX,TY,TZ
+,,rad,rad,rad,mm,mm,mm,rad,rad,rad,mm,mm,mm
+1,0,0,0,0,100,0,0,0,0,0,500,0,0
+2,0,0,0,0,200,0,0,0,0,0,500,0,0
+
+Model Outputs
+100
+,,Play:Elbow,,,Play:middle,,
+Frame,Sub Frame,X,Y,Z,X,Y,Z
+,,deg,deg,deg,mm,mm,mm
+1,0,1,2,3,10,20,30
+2,0,1,2,3,10,20,30
+
+Trajectories
+200
+,,Play:right,,,,,,A:top,,,*11,,
+Frame,Sub Frame,X,Y,Z,X',Y',Z',X,Y,Z,X,Y,Z
+,,cm,cm,cm,cm/s,cm/s,cm/s,mm,mm,mm,mm,mm,mm
+1,0,10,20,30,0,0,0,1,2,3,,,
+2,0,,,,,,,1,2,3,,,
+3,0,10,20,50,0,0,0,1,2,3,,,
+"""
+
+
+def test_sections_of_vicon_stand_in_one_file(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(NEXUS)
+    found = {body.name: body for body in vicon.read(tmp_path / "a.csv")[0]}
+    assert found.keys() == {"left", "Play:top", "middle", "right", "A:top", "*11"}
+    np.testing.assert_allclose(found["left"].position, [[0.1, 0.0, 0.0], [0.2, 0.0, 0.0]])
+    np.testing.assert_allclose(found["left"].orientation, [[0.0, 0.0, 0.0, 1.0]] * 2)
+    np.testing.assert_allclose(found["middle"].position, [[0.01, 0.02, 0.03]] * 2)
+    np.testing.assert_allclose(found["right"].position, [[0.1, 0.2, 0.3], [np.nan] * 3, [0.1, 0.2, 0.5]])
+    assert found["right"].orientation is None and np.isnan(found["*11"].position).all()
+    assert found["right"].stamps.tolist() == [5_000_000, 10_000_000, 15_000_000]
+    (tmp_path / "b.csv").write_text(NEXUS[: NEXUS.index("Segments")])
+    with pytest.raises(RecordingError, match=r"b.csv: no bodies or points; expected some in Objects, Segm"):
+        load_recording(tmp_path / "b.csv")
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "complaint"),
+    [
+        ("2,0,0,0,0,200", "2,0,0,0,0,twenty", "line 14, cell 6: found 'twenty'; expected a number"),
+        (",,cm,cm,cm", ",,N,N,N", "line 28: found 'N'; expected mm or cm or m below X of Play:right"),
+        ("Trajectories\n200", "Trajectories\n", "line 25: found ''; expected the rate"),
+        ("2,0,0,0,0,200", "2,0,inf,0,0,0", "line 14, cell 3: found 'inf'; expected a number within 1e\\+12"),
+        ("\n2,0,,,", "\n1e12,0,,,", "row 2: time 5e\\+09 s; expected one within 1e\\+09 s"),
+        ("3,0,10,20", "1,0,10,20", "right: stamp 5000000 ns does not come after the one before"),
+        ("Model Outputs\n100", "Model Outputs\n0", "0 frames per second; expected 0.001 to 1e6"),
+    ],
+)
+def test_a_section_of_vicon_that_is_broken_is_told_with_its_line(
+    tmp_path: Path, was: str, now: str, complaint: str
+) -> None:
+    assert was in NEXUS
+    (tmp_path / "a.csv").write_text(NEXUS.replace(was, now))
+    with pytest.raises(RecordingError, match=complaint):
+        load_recording(tmp_path / "a.csv", topics={"left": "left", "right": "right", "diabolo": "Play:top"})
 
 
 def test_a_point_cannot_have_a_tip_elsewhere() -> None:

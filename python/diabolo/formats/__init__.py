@@ -17,6 +17,7 @@ from .. import _core
 from .._core import Calibration, Recording, RecordingError, StickArm
 from ..arms import two_arms
 from ..checks import check_library, instance_of, shown
+from . import bodies, qualisys, vicon
 from .bodies import ROLES, Body
 
 OF_A_CLOCK = "the times are stamps of a clock: they are counted from the first one on"
@@ -53,7 +54,11 @@ def load_recording(
     Raises RecordingError with the file, what was found and what was expected, and ValueError where a library
     is not installed.
     """
-    path, names, used = Path(os.fspath(path)), topics_of(topics), two_arms(arms)
+    path, names, used = Path(os.fsdecode(path)), topics_of(topics), two_arms(arms)
+    if calibration is not None:
+        instance_of("calibration", calibration, Calibration)
+    if not isinstance(up, str | None):
+        raise ValueError(f"up: {shown(up)}; expected the name of an axis")
     reader = reader_of(path)
     if names and reader in (None, "parquet"):
         raise RecordingError(f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only")
@@ -80,8 +85,6 @@ def _recording_of_bodies(
     arms: Sequence[StickArm],
 ) -> Recording:
     """The recording of a file that holds bodies with names."""
-    from . import bodies
-
     found, setup, notes = _bodies_of(reader, path, names, arms)
     bodies.check_names(path, found, names)
     names = names or _names_in(calibration, [body.name for body in found])
@@ -90,7 +93,8 @@ def _recording_of_bodies(
     if calibration is None and setup is None:
         notes.append(NO_SETUP)
     used = (calibration or setup or Calibration.plain()).renamed(**names)
-    return _core.recording_of_bodies(str(path), time, tracks, notes, used, up)
+    shown_path = os.fsencode(path).decode(errors="replace")
+    return _core.recording_of_bodies(shown_path, time, tracks, notes, used, up)
 
 
 def _names_in(calibration: Calibration | None, known: list[str]) -> dict[str, str]:
@@ -114,7 +118,7 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
         RecordingError: another suffix.
         ValueError: a library is not installed.
     """
-    path = Path(os.fspath(path))
+    path = Path(os.fsdecode(path))
     instance_of("recording", recording, Recording)
     check_writer(path)
     if path.suffix == ".csv":
@@ -140,7 +144,7 @@ def check_writer(path: str | os.PathLike[str]) -> None:
         RecordingError: its suffix is none of WRITTEN.
         ValueError: a library is not installed.
     """
-    path = Path(os.fspath(path))
+    path = Path(os.fsdecode(path))
     if path.suffix not in WRITERS:
         raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
     for library in WRITERS[path.suffix]:
@@ -164,6 +168,9 @@ def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:
         )
     if unknown := sorted({*given} - {*ROLES}):
         raise RecordingError(f"topics: found {shown(unknown[0])}; expected {', '.join(ROLES)}")
+    for role, name in given.items():
+        if not isinstance(name, str):
+            raise RecordingError(f"topics: {role}: {shown(name)}; expected a name")
     return dict(given)
 
 
@@ -188,10 +195,10 @@ def reader_of(path: Path) -> str | None:
         return reader
     if path.suffix.lower() in (".csv", ".tsv") and os.path.isfile(path):
         with path.open("rb") as file:
-            first = file.readline(200).decode("utf-8", "replace").strip("\ufeff\r\n ,\t;")
+            first = file.readline(200).decode("utf-8-sig", "replace")
         if first.startswith("NO_OF_FRAMES"):
             return "qualisys"
-        if first == "Objects":
+        if vicon.title_of(first) in vicon.TITLES:
             return "vicon"
     return None
 
@@ -209,7 +216,5 @@ def _bodies_of(
         from . import c3d
 
         return c3d.read(path), None, []
-    from . import exports
-
-    found, notes = exports.read_qualisys(path) if reader == "qualisys" else exports.read_vicon(path)
+    found, notes = qualisys.read(path) if reader == "qualisys" else vicon.read(path)
     return found, None, notes

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,19 +17,20 @@ from ..arms import JOINTS, SIDES, two_arms
 from ..checks import check_library
 from ..files import whole_file
 from .bodies import NO_FRAME, Body, Floats, unreadable
-from .joints import angles_of, sticks, unknown_joints
+from .joints import sticks, unknown_joints
+from .messages import JOINT_STATE, MOCAP4R2, NAMED_INSIDE, POINT, POSE, ROWS_OF
 
 SCHEMA = "diabolo.recording/1"
-POSE, POINT = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"
-JOINT_STATE = "sensor_msgs/msg/JointState"
 TOPICS = {"left": "/left_tip", "right": "/right_tip", "diabolo": "/diabolo"}
 """Topics that save() writes."""
+LAST_STAMP = 2**63 - 1
+"""[ns]"""
 
 
 @dataclass
 class Rows:
-    """What a bag has of one body: stamps of headers and of the log [ns], places [m], of a body with its
-    orientation x, y, z, w behind it, of an arm its six angles [rad] instead, and the frame."""
+    """What a bag has of one body: stamps of headers and of the log [ns], numbers as in messages.Row, and the
+    frame."""
 
     stamps: list[int] = field(default_factory=list)
     logged: list[int] = field(default_factory=list)
@@ -37,21 +38,16 @@ class Rows:
     frames: set[str] = field(default_factory=set)
 
 
-Row = tuple[str, Any, tuple[float, ...]]
-"""Name of a body, header, and its numbers as in Rows."""
-
-
 def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | None = None) -> list[Body]:
     """The bodies of a bag, each a topic with poses or points, a frame of /tf, or the stick of an arm of whose
     joints it tells: those of these names, or all without them."""
     from rosbags.highlevel import AnyReader
-    from rosbags.typesys import Stores, get_typestore
 
     found: defaultdict[str, Rows] = defaultdict(Rows)
     joints: dict[str, list[str]] = {}
     wanted = {*names} | {name.rpartition(":")[0] for name in names}  # of an arm TOPIC:left or TOPIC:right
     try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as bag:
+        with AnyReader([path], default_typestore=known_types()) as bag:
             known = [
                 one
                 for one in bag.connections
@@ -85,6 +81,16 @@ def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | Non
     return [_body(path, name, rows, holding) for name, rows in found.items()]
 
 
+def known_types() -> Any:
+    """Of the library, with those of MOCAP4R2."""
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    for name, text in MOCAP4R2.items():
+        store.register(get_types_from_msg(text, name))
+    return store
+
+
 def _is_arm(rows: Rows) -> bool:
     return len(rows.numbers[0]) == len(JOINTS)
 
@@ -111,9 +117,8 @@ def save(recording: Recording, path: Path) -> None:
     """Write the tips and the diabolo, each a topic (TOPICS) in the frame "world": poses of ROS 2, or points
     where no orientations are known. Dropouts are left out. An orientation that is not known is all zeros."""
     from mcap.writer import Writer
-    from rosbags.typesys import Stores, get_typestore
 
-    store = get_typestore(Stores.ROS2_HUMBLE)
+    store = known_types()
     stamps = np.rint(recording.time * 1e9).astype(np.int64)
     stamps -= min(0, int(stamps[0]))
     for role in TOPICS:
@@ -162,70 +167,18 @@ def _setup(recording: Recording) -> dict[str, Any]:
 def _body(path: Path, name: str, rows: Rows, arms: dict[str, StickArm]) -> Body:
     if len({len(one) for one in rows.numbers}) > 1 or len(rows.frames) > 1:
         raise RecordingError(f"{path}, {name}: points and poses, or several frames; expected one kind")
-    stamps = np.array(rows.stamps if any(rows.stamps) else rows.logged, np.int64)
+    told = rows.stamps if any(rows.stamps) else rows.logged
+    if max(told) > LAST_STAMP:
+        raise RecordingError(f"{path}, {name}: stamp {max(told)} ns; expected one within {LAST_STAMP}")
+    stamps, numbers = np.array(told, np.int64), np.array(rows.numbers, float)
     order = np.argsort(stamps, kind="stable")
-    numbers = np.array(rows.numbers, float)[order]
+    stamps, numbers = stamps[order], numbers[order]
+    once = np.append(True, (np.diff(stamps) != 0) | (numbers[1:] != numbers[:-1]).any(axis=1))
+    stamps, numbers = stamps[once], numbers[once]  # /tf says again what it said
     if numbers.shape[1] == len(JOINTS):
-        return Body(name, stamps[order], *sticks(arms[name.rpartition(":")[2]], numbers), NO_FRAME)
+        return Body(name, stamps, *sticks(arms[name.rpartition(":")[2]], numbers), NO_FRAME)
     places, turns = numbers[:, :3], numbers[:, 3:] if numbers.shape[1] == 7 else None
     places[~np.isfinite(places).all(axis=1)] = np.nan
     if turns is not None:
         turns[~np.isfinite(turns).all(axis=1) | (turns == 0.0).all(axis=1)] = np.nan
-    return Body(name, stamps[order], places, turns, min(rows.frames))
-
-
-def _pose(place: Any, turn: Any) -> tuple[float, ...]:
-    return place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w
-
-
-def _of_pose(topic: str, message: Any) -> Iterator[Row]:
-    yield topic, message.header, _pose(message.pose.position, message.pose.orientation)
-
-
-def _of_pose_with_covariance(topic: str, message: Any) -> Iterator[Row]:
-    pose = message.pose.pose
-    yield topic, message.header, _pose(pose.position, pose.orientation)
-
-
-def _of_point(topic: str, message: Any) -> Iterator[Row]:
-    point = message.point
-    yield topic, message.header, (point.x, point.y, point.z)
-
-
-def _of_transform(_: str, message: Any) -> Iterator[Row]:
-    moved = message.transform
-    yield message.child_frame_id, message.header, _pose(moved.translation, moved.rotation)
-
-
-def _of_transforms(topic: str, message: Any) -> Iterator[Row]:
-    for one in message.transforms:
-        yield from _of_transform(topic, one)
-
-
-def _of_rigid_bodies(_: str, message: Any) -> Iterator[Row]:
-    for body in message.rigidbodies:
-        yield body.rigid_body_name, message.header, _pose(body.pose.position, body.pose.orientation)
-
-
-def _of_joints(topic: str, message: Any) -> Iterator[Row]:
-    for name, angles in angles_of(topic, message):
-        yield name, message.header, angles
-
-
-ROWS_OF: dict[str, Callable[[str, Any], Iterator[Row]]] = {
-    POSE: _of_pose,
-    POINT: _of_point,
-    "geometry_msgs/msg/PoseWithCovarianceStamped": _of_pose_with_covariance,
-    "nav_msgs/msg/Odometry": _of_pose_with_covariance,
-    "geometry_msgs/msg/TransformStamped": _of_transform,
-    "tf2_msgs/msg/TFMessage": _of_transforms,
-    "mocap4r2_msgs/msg/RigidBodies": _of_rigid_bodies,
-    JOINT_STATE: _of_joints,
-}
-"""What is read of messages, by their type."""
-NAMED_INSIDE = (
-    "geometry_msgs/msg/TransformStamped",
-    "tf2_msgs/msg/TFMessage",
-    "mocap4r2_msgs/msg/RigidBodies",
-)
-"""Types of messages that name their bodies, whatever the topic."""
+    return Body(name, stamps, places, turns, min(rows.frames))

@@ -20,6 +20,7 @@ METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 EVEN = 0.9  # the median step of all stamps over a body's, at least, where bodies have the same stamps
 SAME_RATE = 1.5  # the largest median step of a body over the smallest, at most, if so
 CLOCK = 10**18  # stamps beyond are those of a clock that counts from 1970 [ns]
+LAST = 1e9  # time within a file [s]
 NO_FRAME = ""  # of a body whose frame is not told: it goes with any
 LONGEST_STEP = 2.5  # that is interpolated, in a body's own median steps
 
@@ -57,6 +58,23 @@ def even_stamps(size: int, rate: float, first: float = 0.0) -> NDArray[np.int64]
     """Of frames that follow each other, from frame number `first` on [ns]."""
     stamps: NDArray[np.int64] = np.rint((np.arange(size) + first) / rate * 1e9).astype(np.int64)
     return stamps
+
+
+def stamps_at(path: Path, times: Floats) -> NDArray[np.int64]:
+    """Of times [s] that a file has [ns]. Raises RecordingError about one that is none."""
+    odd = np.flatnonzero(~(np.abs(times) <= LAST))
+    if len(odd):
+        raise RecordingError(
+            f"{path}, row {odd[0] + 1}: time {times[odd[0]]:g} s; expected one within {LAST:g} s"
+        )
+    stamps: NDArray[np.int64] = np.rint(times * 1e9).astype(np.int64)
+    return stamps
+
+
+def seen_points(places: Floats) -> Floats:
+    """Points that were not seen are NaN, or zero in all three in some programs."""
+    gone = ~np.isfinite(places).all(axis=1) | (places == 0.0).all(axis=1)
+    return np.where(gone[:, None], np.nan, places)
 
 
 def check_names(path: Path, bodies: Sequence[Body], names: Mapping[str, str]) -> None:

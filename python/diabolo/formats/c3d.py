@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from .._core import RecordingError
 from ..checks import shown
-from .bodies import METRES, Body, check_rate, even_stamps, unreadable
+from .bodies import METRES, Body, check_rate, even_stamps, seen_points, unreadable
 
 LONGEST_READ = 60.0  # [s]
 
@@ -34,13 +34,13 @@ def read(path: Path) -> list[Body]:
     points, rotations = found["points"], found["rotations"]
     stamps = even_stamps(points.shape[2], rate, first)
     bodies = [
-        Body(str(label), stamps, _seen(points[:3, i].T * scale))
+        Body(str(label), stamps, seen_points(points[:3, i].T * scale))
         for i, label in enumerate(found["labels"][: points.shape[1]])
     ]
     stamps = even_stamps(rotations.shape[3], rotation_rate, first * rotation_rate / rate)
     for i, label in enumerate(found["rotation_labels"][: rotations.shape[2]]):
         matrices = np.moveaxis(rotations[:, :, i], -1, 0)
-        places, turns = _seen(matrices[:, :3, 3] * scale), quaternions(matrices[:, :3, :3])
+        places, turns = seen_points(matrices[:, :3, 3] * scale), quaternions(matrices[:, :3, :3])
         bodies.append(Body(str(label), stamps, places, turns))
     return bodies
 
@@ -128,9 +128,3 @@ def _rotations(file: Any, rate: float) -> tuple[NDArray[np.float64], list[str], 
         return np.zeros((4, 4, 0, 0)), [], rate
     own = group["RATE"]["value"] if "RATE" in group else []
     return np.asarray(data), list(group["LABELS"]["value"]), float(own[0]) if len(own) else rate
-
-
-def _seen(places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points that were not seen are NaN, or zero in all three in some programs."""
-    gone = ~np.isfinite(places).all(axis=1) | (places == 0.0).all(axis=1)
-    return np.where(gone[:, None], np.nan, places)

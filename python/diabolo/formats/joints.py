@@ -9,14 +9,12 @@ from typing import Any
 import numpy as np
 
 from .._core import RecordingError, StickArm
-from ..arms import JOINTS, SIDES, stick_frame
+from ..arms import JOINTS, LARGEST_ANGLE, SIDES, stick_frame
 from ..checks import shown
 from .bodies import Floats
 from .c3d import quaternions
 
 Angles = tuple[float, ...]
-LARGEST = 6.4
-"""Angle of a joint: a UR5e turns by 2 pi either way [rad]."""
 
 
 def angles_of(topic: str, message: Any) -> Iterator[tuple[str, Angles]]:
@@ -52,7 +50,7 @@ def _angles(topic: str, message: Any, names: list[str]) -> Angles:
             raise RecordingError(f"{topic}: no angle of {name}; expected {names[0]} to {names[-1]}")
         if message.name.count(name) > 1:
             raise RecordingError(f"{topic}: {name} is named twice; expected each joint once")
-        if LARGEST < abs(found[name]) < np.inf:
+        if LARGEST_ANGLE < abs(found[name]) < np.inf:
             raise RecordingError(f"{topic}: {name} is {found[name]:g}; expected rad, within 2 pi")
     return tuple(float(found[name]) for name in names)
 

@@ -36,7 +36,7 @@ def csv_of(path: Path) -> str:
         rows = pyarrow.BufferOutputStream()
         plain = pyarrow.csv.WriteOptions(include_header=False, quoting_style="none")
         pyarrow.csv.write_csv(table, rows, plain)
-    except (pyarrow.ArrowException, OSError) as error:
+    except (pyarrow.ArrowException, OSError, UnicodeDecodeError) as error:
         raise unreadable(path, "Parquet", error) from error
     text: bytes = rows.getvalue().to_pybytes()
     return ",".join(table.column_names) + "\n" + text.decode()

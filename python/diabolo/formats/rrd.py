@@ -23,7 +23,7 @@ GHOST = 0.03
 """Radius of a prediction [m]."""
 TAUT = (-0.02, 0.15)
 """The path over the diabolo may be so much shorter and longer than the string to be drawn over it [m]."""
-WOOD, ROPE, CUPS, AXLE = (190, 150, 100), (120, 120, 130), (204, 38, 25), (60, 60, 60)
+WOOD, ROPE, CUPS, AXLE = (190, 150, 100), (120, 120, 130), (204, 38, 25, 110), (60, 60, 60)
 PREDICTED = {"base": (225, 29, 72), "corrected": (5, 150, 105)}
 """Colours of a replay's predictions, as in the report."""
 
@@ -96,7 +96,12 @@ def _layout(with_errors: bool) -> Any:
 
     units = {"error": "m"} if with_errors else {}
     units |= {"height": "m", "spin": "rad/s"}
-    plots = [rrb.TimeSeriesView(origin=name, name=f"{name} [{unit}]") for name, unit in units.items()]
+    plots = [
+        rrb.TimeSeriesView(
+            origin=name, name=f"{name} [{unit}]", plot_legend=rrb.PlotLegend(visible=name == "error")
+        )
+        for name, unit in units.items()
+    ]
     eye = rrb.EyeControls3D(position=[-1.3, -0.9, 1.2], look_target=[0.0, 0.0, 0.9], eye_up=[0.0, 0.0, 1.0])
     play = rrb.Spatial3DView(origin="world", name="play", eye_controls=eye)
     parts = rrb.Horizontal(play, rrb.Vertical(*plots), column_shares=[2, 1])

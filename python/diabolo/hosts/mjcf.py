@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from .._core import Model, StickArm
 from ..arms import two_arms
 from ..checks import instance_of, number
+from ..player import hang_at_rest
+from ..robot import joints_of
 from .description import ARM, CUP, CUPS_AT, INERTIA, RED, diabolo_inertia, links_of, numbers, tip_pose
 
 __all__ = ["INERTIA", "SENSED", "cell", "scene"]
@@ -23,6 +25,8 @@ ROTOR = 0.1
 """Inertia of a joint's motor behind its gear, estimated [kg m^2]."""
 SHORTEST, LONGEST = 1e-9, 1.0
 """Time step of a scene [s]."""
+READY = (0.6, 0.35, 0.55)
+"""Tips of a cell that is ready: before, beside and above the middle between the arms' bases [m]."""
 
 
 def scene(model: Model | None = None, timestep: float = 1e-3) -> str:
@@ -48,23 +52,41 @@ def cell(arms: Sequence[StickArm] | None = None, model: Model | None = None, tim
     """A diabolo on a string between the sticks of two UR5e, as StickArm has them (default: the paper's).
 
     The joints and their servos are `left_shoulder_pan_joint` to `right_wrist_3_joint`, left first, in the
-    order of the arms: put joint angles into `data.qpos` to begin, and into `data.ctrl` [rad]. The sticks feel
-    the string. Masses are those that Universal Robots publishes; inertias, servos (SERVO, ROTOR) and the
-    shape of the links are estimates. The rest is as in `scene`.
+    order of the arms: put joint angles into `data.qpos` to begin, and into `data.ctrl` [rad]. The key `ready`
+    has some, with the diabolo at rest below the tips (READY), unless an arm does not reach there or the
+    diabolo would be in the floor. The sticks feel the string. Masses are those that Universal Robots
+    publishes; inertias, servos (SERVO, ROTOR) and the shape of the links are estimates. The rest is as in
+    `scene`.
 
     Raises:
         ValueError: there is not one left and one right arm, or the time step is not from 1e-9 to 1 s.
     """
-    arms = two_arms(arms)
+    arms, model = two_arms(arms), Model() if model is None else instance_of("model", model, Model)
     servos = "".join(
         f'<position name="{link.joint}" joint="{link.joint}" kp="{SERVO}" dampratio="1"/>'
         for arm in arms
         for link in links_of(arm)
     )
-    bodies = "".join(map(_arm, arms))
-    return _with_diabolo(
-        bodies, f"<actuator>{servos}</actuator>", Model() if model is None else model, timestep
-    )
+    more = f"<actuator>{servos}</actuator>{_ready(arms, model)}"
+    return _with_diabolo("".join(map(_arm, arms)), more, model, timestep)
+
+
+def _ready(arms: Sequence[StickArm], model: Model) -> str:
+    """The key of that name, or nothing."""
+    forward, aside, up = READY
+    aside *= min(1.0, model.parameters.string_length)
+    middle = 0.5 * (arms[0].base[:3, 3] + arms[1].base[:3, 3])
+    left, right = (middle + np.array([forward, way * aside, up]) for way in (1.0, -1.0))
+    try:
+        angles = [joints_of(arm, tip[None])[0] for arm, tip in zip(arms, (left, right), strict=True)]
+        place = hang_at_rest(model, left, right).position
+    except ValueError:  # out of reach
+        return ""
+    if place[2] < max(CUP):
+        return ""
+    joints = numbers(np.hstack(angles))
+    qpos = f"{joints} {numbers(place)} 1 0 0 0"
+    return f'<keyframe><key name="ready" qpos="{qpos}" ctrl="{joints}"/></keyframe>'
 
 
 _SEEN_ONLY = 'contype="0" conaffinity="0" mass="0"'
