@@ -69,10 +69,8 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         self.observation_space = observation_space(task)
         self.metadata = {**self.metadata, "render_fps": round(1.0 / period)}
         arena = self._arena
-        # Views of memory hand out Python's own numbers, faster than arrays do.
-        self._observation, self._reward = arena.observations[0], memoryview(arena.rewards)
-        self._terminated = memoryview(arena.terminated.view(bool))
-        self._truncated = memoryview(arena.truncated.view(bool))
+        self._observation, self._reward = arena.observations[0], arena.rewards
+        self._terminated, self._truncated = arena.terminated.view(bool), arena.truncated.view(bool)
         self._action = np.zeros((1, 6), np.float32)
         self._begun = False
 
@@ -93,13 +91,22 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     def step(self, action: ArrayLike) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Play a period."""
         self._expect_begun("step")
-        if type(action) is not np.ndarray or action.dtype != np.float32:
-            action = numbers("action", action)
-        if action.shape != (6,):
-            raise ValueError(f"action: {shown(action)}; expected six numbers from -1 to 1")
-        self._action[0] = action
+        given: NDArray[Any]
+        if type(action) is np.ndarray and action.dtype == np.float32:
+            given = action  # as it is, by far the most often
+        else:
+            given = numbers("action", action)
+        if given.shape != (6,):
+            raise ValueError(f"action: {shown(given)}; expected six numbers from -1 to 1")
+        self._action[0] = given
         self._arena.step(self._action)
-        return self._observation.copy(), self._reward[0], self._terminated[0], self._truncated[0], {}
+        return (
+            self._observation.copy(),
+            self._reward.item(),
+            self._terminated.item(),
+            self._truncated.item(),
+            {},
+        )
 
     def pose(self) -> tuple[State, NDArray[np.float64], NDArray[np.float64]]:
         """State of the diabolo, left tip and right tip [m]: exactly, whatever an agent sees."""
