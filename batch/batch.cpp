@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/batch/kernels.hpp"
 
+#include <algorithm>
+
 namespace diabolo {
 
 namespace batch {
@@ -24,5 +26,14 @@ std::vector<BatchKernel> batch_kernels() {
 }
 
 BatchKernel best_batch_kernel() { return batch_kernels().back(); }
+
+BatchKernel batch_kernel_for(std::size_t count) {
+  const std::vector<BatchKernel> kernels = batch_kernels();
+  const auto takes_all = [count](const BatchKernel& one) {
+    return static_cast<std::size_t>(one.lanes) >= count;
+  };
+  const auto narrowest = std::find_if(kernels.begin(), kernels.end(), takes_all);
+  return narrowest == kernels.end() ? kernels.back() : *narrowest;
+}
 
 }  // namespace diabolo

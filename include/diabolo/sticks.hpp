@@ -30,6 +30,22 @@ struct Tips {
   double time = 0.0;  ///< [s], the same in all lanes. Only FormulaLaws look at it.
 };
 
+/// The tips at `share` of a time [s] that begins with `begin` and ends with the velocities of `end`, which
+/// change evenly.
+template <class Scalar>
+Tips<Scalar> tips_between(const Tips<Scalar>& begin, const Tips<Scalar>& end, double share, double time) {
+  Tips<Scalar> tips = begin;
+  const auto move = [&](Vector3<Scalar>& place, Vector3<Scalar>& velocity, const Vector3<Scalar>& last) {
+    const Vector3<Scalar> gained = last - velocity;
+    place = place + (velocity + gained * Scalar(0.5 * share)) * Scalar(time * share);
+    velocity = velocity + gained * Scalar(share);
+  };
+  move(tips.left, tips.left_velocity, end.left_velocity);
+  move(tips.right, tips.right_velocity, end.right_velocity);
+  tips.time = begin.time + time * share;
+  return tips;
+}
+
 /// Whether it may be a stick's direction: of norm one within 1e-6, or zero.
 template <class Scalar>
 bool is_direction(const Vector3<Scalar>& v) {

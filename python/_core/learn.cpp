@@ -42,7 +42,7 @@ std::unique_ptr<Arena> make_arena(const std::string& task, std::vector<Model> mo
                              .starts = std::move(starts),
                              .start_share = start_share,
                              .free_axis = free_axis};
-  return std::make_unique<Arena>(options, std::move(models), best_batch_kernel());
+  return std::make_unique<Arena>(options, std::move(models), batch_kernel_for(count));
 }
 
 /// What an arena writes, an entry for each environment: not copied, and no longer lived than the arena.

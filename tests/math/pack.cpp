@@ -67,9 +67,7 @@ TEMPLATE_TEST_CASE("each lane has the bits of the scalar operation", "", Double2
   for_many<TestType>([](const TestType& x, const TestType& y) {
     using T = Number<TestType>;
     const TestType sum = x + y, difference = x - y, product = x * y, quotient = x / y, negative = -x;
-    const TestType root = sqrt(x), power = exp(x), logarithm = log(x), sine = sin(x), cosine = cos(x),
-                   tangent = tanh(x);
-    const TestType angle = atan2(y, x);
+    const TestType root = sqrt(x), power = exp(x), logarithm = log(x), sine = sin(x), cosine = cos(x);
     TestType added = x, subtracted = x, multiplied = x, divided = x;
     added += y;
     subtracted -= y;
@@ -81,10 +79,9 @@ TEMPLATE_TEST_CASE("each lane has the bits of the scalar operation", "", Double2
       good = good && same<T>(sum[i], a + b) && same<T>(difference[i], a - b) && same<T>(product[i], a * b) &&
              same<T>(quotient[i], a / b) && same<T>(negative[i], -a) && same<T>(root[i], std::sqrt(a)) &&
              same<T>(power[i], std::exp(a)) && same<T>(logarithm[i], std::log(a)) &&
-             same<T>(sine[i], std::sin(a)) && same<T>(cosine[i], std::cos(a)) &&
-             same<T>(tangent[i], std::tanh(a)) && same<T>(angle[i], std::atan2(b, a)) &&
-             same<T>(added[i], sum[i]) && same<T>(subtracted[i], difference[i]) &&
-             same<T>(multiplied[i], product[i]) && same<T>(divided[i], quotient[i]);
+             same<T>(sine[i], std::sin(a)) && same<T>(cosine[i], std::cos(a)) && same<T>(added[i], sum[i]) &&
+             same<T>(subtracted[i], difference[i]) && same<T>(multiplied[i], product[i]) &&
+             same<T>(divided[i], quotient[i]);
     }
     CHECK(good);
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "diabolo/batch/lanes.hpp"
@@ -12,5 +13,8 @@ std::vector<BatchKernel> batch_kernels();
 
 /// The fastest of them.
 BatchKernel best_batch_kernel();
+
+/// That which is fastest for `count` predictions: no wider than they need. All give the same bits.
+BatchKernel batch_kernel_for(std::size_t count);
 
 }  // namespace diabolo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <tuple>
@@ -21,13 +22,15 @@ struct LaneBlock {
   const Parameters<double>* parameters[kMostLanes];  ///< validated; rules equal in all lanes
   const AllEffects<double>* effects[kMostLanes];
   State<double>* states[kMostLanes];       ///< in and out
-  const Tips<double>* tips[kMostLanes];    ///< steps + 1 poses each; lanes may share them
+  const Tips<double>* tips[kMostLanes];    ///< steps + 1 poses each, or two; lanes may share them
   double* records[kMostLanes];             ///< 7 numbers a record: position, velocity, spin; null: none
   double* forces[kMostLanes];              ///< 6 numbers a record: on the left and the right tip; null: none
   double* axles[kMostLanes];               ///< 7 numbers a record: axis, tumble, turns; null: none
   StringState* record_states[kMostLanes];  ///< one a record
   bool shared_tips;                        ///< all lanes have the same tips
   double dt;                               ///< [s]
+  double
+      evenly;  ///< [s] that the block takes, where tips_between() two poses moves the tips; 0: all are given
   std::size_t steps;
   std::size_t first_step;    ///< number of steps done before this block
   std::size_t record_every;  ///< a record after each so many steps; 0: none
@@ -56,19 +59,37 @@ Vector3<Pack> gather3(Get&& get) {
   return v;
 }
 
-/// Copies the numeric fields of a struct of doubles into one lane of a struct of packs.
-template <class From, class To>
-void gather_fields(const From& from, To& to, int lane) {
-  copy_fields(from, to, [lane](auto& field, double value) { field.set(lane, value); });
+/// Whether a pointer of each lane is the same in all.
+template <class Pack, class T>
+bool shared(const T* const (&of)[kMostLanes]) {
+  return std::all_of(of, of + ScalarTraits<Pack>::kLanes, [&](const T* one) { return one == of[0]; });
+}
+
+/// Copies the numeric fields of a struct of doubles for each lane, `from(lane)`, into one of packs; in all
+/// lanes the same where they share it.
+template <class Pack, class From, class To>
+void gather_fields(From&& from, bool share, To& to) {
+  if (share) return copy_fields(from(0), to);
+  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane)
+    copy_fields(from(lane), to, [lane](auto& field, double value) { field.set(lane, value); });
 }
 
 template <class Pack>
 Parameters<Pack> gather_parameters(const LaneBlock& block) {
   Parameters<Pack> packed;
   packed.copy_rules(*block.parameters[0]);
-  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane)
-    gather_fields(*block.parameters[lane], packed, lane);
+  gather_fields<Pack>(
+      [&](int lane) -> const auto& { return *block.parameters[lane]; }, shared<Pack>(block.parameters),
+      packed);
   return packed;
+}
+
+/// Whether no effect is at work in any lane.
+template <class Pack>
+bool neutral(const LaneBlock& block) {
+  const auto at_rest = [](const AllEffects<double>* effects) { return effects->neutral(); };
+  if (shared<Pack>(block.effects)) return at_rest(block.effects[0]);
+  return std::all_of(block.effects, block.effects + ScalarTraits<Pack>::kLanes, at_rest);
 }
 
 template <class Pack>
@@ -76,12 +97,14 @@ AllEffects<Pack> gather_effects(const LaneBlock& block) {
   AllEffects<Pack> packed;
   packed.template get<FormulaLaws>().take_text(block.effects[0]->get<FormulaLaws>());
   packed.template get<ResidualForce>().take_text(block.effects[0]->get<ResidualForce>());
-  for (int lane = 0; lane < ScalarTraits<Pack>::kLanes; ++lane) {
-    const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (gather_fields(std::get<I>(block.effects[lane]->members), std::get<I>(packed.members), lane), ...);
-    };
-    copy(std::make_index_sequence<std::tuple_size_v<decltype(packed.members)>>{});
-  }
+  const bool share = shared<Pack>(block.effects);
+  const auto copy = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (gather_fields<Pack>(
+         [&](int lane) -> const auto& { return std::get<I>(block.effects[lane]->members); }, share,
+         std::get<I>(packed.members)),
+     ...);
+  };
+  copy(std::make_index_sequence<std::tuple_size_v<decltype(packed.members)>>{});
   return packed;
 }
 
@@ -105,6 +128,27 @@ void gather_tips(const LaneBlock& block, std::size_t i, Tips<Pack>& to) {
       return gather<Pack>([&](int lane) { return component(block.tips[lane][i]); });
     });
 }
+
+/// The tips of a block, pose by pose.
+template <class Pack>
+class LaneTips {
+ public:
+  explicit LaneTips(const LaneBlock& block) : block_(block) {
+    if (block.evenly == 0.0) return;
+    gather_tips(block, 0, first_);
+    gather_tips(block, 1, last_);
+  }
+
+  void read(std::size_t i, Tips<Pack>& to) const {
+    if (block_.evenly == 0.0) return gather_tips(block_, i, to);
+    const double share = static_cast<double>(i) / static_cast<double>(block_.steps);
+    to = tips_between(first_, last_, share, block_.evenly);
+  }
+
+ private:
+  const LaneBlock& block_;
+  Tips<Pack> first_, last_;
+};
 
 template <class Pack>
 State<Pack> gather_state(const LaneBlock& block) {
@@ -177,12 +221,13 @@ void scatter_axle(const State<Pack>& state, const LaneBlock& block, std::size_t 
 template <class Pack, class P>
 void run_with(const P& predictor, const LaneBlock& block) {
   State<Pack> state = gather_state<Pack>(block), before;
+  const LaneTips<Pack> given(block);
   Tips<Pack> tips[2];
-  gather_tips(block, 0, tips[0]);
+  given.read(0, tips[0]);
   for (std::size_t i = 1; i <= block.steps; ++i) {
     const Tips<Pack>& now = tips[(i - 1) % 2];
     Tips<Pack>& next = tips[i % 2];
-    gather_tips(block, i, next);
+    given.read(i, next);
     const std::size_t done = block.first_step + i;
     const bool records = block.record_every > 0 && done % block.record_every == 0;
     const bool pulls = records && block.forces[0];
@@ -204,13 +249,13 @@ void run_with(const P& predictor, const LaneBlock& block) {
 template <class Pack>
 void run_lanes(const LaneBlock& block) {
   const Parameters<Pack> parameters = batch_detail::gather_parameters<Pack>(block);
-  const AllEffects<Pack> effects = batch_detail::gather_effects<Pack>(block);
-  if (effects.neutral())
+  if (batch_detail::neutral<Pack>(block))
     batch_detail::run_with<Pack>(Predictor<Pack>(parameters, {}, typename Predictor<Pack>::AlreadyValid{}),
                                  block);
   else
-    batch_detail::run_with<Pack>(
-        FullPredictor<Pack>(parameters, effects, typename FullPredictor<Pack>::AlreadyValid{}), block);
+    batch_detail::run_with<Pack>(FullPredictor<Pack>(parameters, batch_detail::gather_effects<Pack>(block),
+                                                     typename FullPredictor<Pack>::AlreadyValid{}),
+                                 block);
 }
 
 }  // namespace diabolo

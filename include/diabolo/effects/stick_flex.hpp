@@ -67,7 +67,10 @@ struct StickFlex : NeutralEffect<Scalar> {
   /// a bend takes off along its strand is left to spring_at().
   TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& tips,
                              const Parameters<Scalar>& parameters) const {
-    const Scalar pull = parameters.mass * norm(state.string_acceleration);
+    // Exactly none of a slack string, whose norm() would be so small that processors take long for its
+    // square.
+    const Scalar pull = select(squared_norm(state.string_acceleration) > Scalar(0),
+                               Scalar(parameters.mass * norm(state.string_acceleration)), Scalar(0));
     const Vector3<Scalar> weight(Scalar(0), Scalar(0), Scalar(-tip_mass * parameters.gravity));
     TipShift<Scalar> bends, shift;
     for (int i = 0; i < kTurns; ++i) {

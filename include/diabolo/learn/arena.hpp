@@ -42,8 +42,7 @@ class Arena {
         kernel_(kernel),
         workers_(options.threads),
         episodes_((options.validate(), options.count)),
-        free_(free_axis() ? options.count : 0),
-        scratch_(workers_.threads(), std::vector<Tips<double>>(kMostLanes * tip_count())) {
+        free_(free_axis() ? options.count : 0) {
     if (models_.empty()) throw std::invalid_argument("models: none; expected at least one");
     for (const Model& model : models_) {
       if (!model.parameters.same_rules(models_.front().parameters) ||
@@ -106,13 +105,11 @@ class Arena {
     const std::size_t lanes = static_cast<std::size_t>(kernel_.lanes), groups = (count() + lanes - 1) / lanes;
     workers_.run([&](std::size_t thread) {
       for (std::size_t group = thread; group < groups; group += workers_.threads())
-        play_group(group * lanes, std::min(lanes, count() - group * lanes), actions, scratch_[thread]);
+        play_group(group * lanes, std::min(lanes, count() - group * lanes), actions);
     });
   }
 
  private:
-  std::size_t tip_count() const { return static_cast<std::size_t>(options_.steps) + 1; }
-
   /// Where the tips are at first, left over right, but for the shift that each episode draws.
   TipColumn<double> home(const Model& model) const {
     TipColumn<double> tips;
@@ -191,34 +188,29 @@ class Arena {
   }
 
   /// Environments [first, first + used) play a period, a lane each; unused lanes repeat the last one.
-  void play_group(std::size_t first, std::size_t used, const float* actions,
-                  std::vector<Tips<double>>& tips) {
+  void play_group(std::size_t first, std::size_t used, const float* actions) {
     State<double> after[kMostLanes];
+    Tips<double> tips[kMostLanes][2];
     LaneBlock block{};
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(kernel_.lanes); ++lane) {
       const std::size_t i = first + std::min(lane, used - 1);
       Episode& episode = episodes_[i];
-      Tips<double>* path = tips.data() + lane * tip_count();
       if (lane < used) {
-        const Hands begun = episode.hands;
+        const double time = options_.period * episode.periods;
+        tips[lane][0] = tips_of(episode.hands, time);
         if (!episode.over)
           move_hands(episode.hands, actions + 6 * i, limits(),
                      models_[episode.model].parameters.string_length, options_.period);
-        const double end = static_cast<double>(options_.steps);
-        for (std::size_t k = 0; k < tip_count(); ++k) {
-          path[k] = tips_between(begun, episode.hands, static_cast<double>(k) / end, options_.period);
-          path[k].time = options_.period * (episode.periods + static_cast<double>(k) / end);
-        }
-      } else {
-        path = tips.data() + (used - 1) * tip_count();
+        tips[lane][1] = tips_of(episode.hands, time + options_.period);
       }
       after[lane] = episode.state;
       block.parameters[lane] = &models_[episode.model].parameters;
       block.effects[lane] = &effects_of(i);
       block.states[lane] = &after[lane];
-      block.tips[lane] = path;
+      block.tips[lane] = tips[std::min(lane, used - 1)];
     }
     block.dt = options_.period / options_.steps;
+    block.evenly = options_.period;
     block.steps = static_cast<std::size_t>(options_.steps);
     kernel_.run(block);
     for (std::size_t lane = 0; lane < used; ++lane) conclude(first + lane, after[lane]);
@@ -271,8 +263,7 @@ class Arena {
   BatchKernel kernel_;
   WorkerPool workers_;
   std::vector<Episode> episodes_;
-  std::vector<AllEffects<double>> free_;            ///< effects of each environment, where its axle is free
-  std::vector<std::vector<Tips<double>>> scratch_;  ///< of each thread
+  std::vector<AllEffects<double>> free_;  ///< effects of each environment, where its axle is free
 };
 
 }  // namespace diabolo

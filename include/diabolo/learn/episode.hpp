@@ -139,9 +139,9 @@ inline Hands::Pair tip_forces(const State<double>& state, const Hands& hands, co
 /// Writes observation_size(task) numbers, none beyond kMostObserved. With `camera`, what it saw.
 inline void observe(const Episode& episode, const TaskInfo& task, const Vector3<double>& centre, bool camera,
                     float* to) {
-  const auto put = [&to](double x) {
-    *to++ = static_cast<float>(std::clamp(x, -kMostObserved, kMostObserved));
-  };
+  std::array<double, kObservationSize + kAxleSize> seen_numbers;
+  double* next = seen_numbers.data();
+  const auto put = [&next](double x) { *next++ = x; };
   const auto put3 = [&](const Vector3<double>& v) {
     for (const double x : v) put(x);
   };
@@ -165,9 +165,12 @@ inline void observe(const Episode& episode, const TaskInfo& task, const Vector3<
   put(episode.memory.flights);
   for (const Vector3<double>& force : forces) put3(force);
   put(episode.memory.stage);
-  if (!task.axle) return;
-  put3(seen.axis);
-  put3(seen.axis_rate);
+  if (task.axle) {
+    put3(seen.axis);
+    put3(seen.axis_rate);
+  }
+  std::transform(seen_numbers.data(), next, to,
+                 [](double x) { return static_cast<float>(std::clamp(x, -kMostObserved, kMostObserved)); });
 }
 
 /// Whether nobody can catch it any more: it flies far below the tips, or it is far from the box.

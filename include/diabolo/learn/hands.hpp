@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "diabolo/math/pack.hpp"
 #include "diabolo/sticks.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -90,38 +91,97 @@ struct HandLimits {
 
 namespace learn_detail {
 
+/// A number of the left tip and of the right one, in lanes.
+using Both = Pack<double, 2>;
+
+/// A number of both tips along each axis.
+using BothTips = std::array<Both, 3>;
+
+inline Both both(double left, double right) {
+  Both pair;
+  pair.set(0, left);
+  pair.set(1, right);
+  return pair;
+}
+
+inline BothTips both(const Hands::Pair& pair) {
+  BothTips tips;
+  for (int axis = 0; axis < 3; ++axis)
+    tips[static_cast<std::size_t>(axis)] = both(pair[0][axis], pair[1][axis]);
+  return tips;
+}
+
+inline Both clamped(const Both& x, double most) { return minimum(maximum(x, Both(-most)), Both(most)); }
+
 /// The speed at the end of a period, as near to `wanted` as a wall at `distance` ahead allows: what is left
 /// of the way is enough to stop by `brake`, in whole periods too, since
 ///   x + (v + v') T / 2 + v'^2 / 2 b + v' T / 2 <= wall
 /// holds again after a period of braking wherever it holds before.
-inline double before_wall(double wanted, double speed, double distance, double period, double brake) {
-  const double room = std::max(0.0, distance - 0.5 * speed * period);
-  return std::min(wanted, brake * (std::sqrt(period * period + 2.0 * room / brake) - period));
+inline Both before_wall(const Both& wanted, const Both& speed, const Both& distance, double period,
+                        double brake) {
+  const Both room = maximum(Both(0), Both(distance - Both(0.5) * speed * Both(period)));
+  return minimum(wanted, Both(Both(brake) *
+                              (sqrt(Both(period * period) + Both(2) * room / Both(brake)) - Both(period))));
 }
 
-/// The same speed, braked for a period.
-inline double braked(double speed, double period, double brake) {
-  return speed - std::clamp(speed, -brake * period, brake * period);
+/// The speeds that the shares of the acceleration in `action` lead to, and the walls allow.
+template <class Number>
+BothTips wanted_speeds(const BothTips& place, const BothTips& speed, const Number* action,
+                       const HandLimits& limits, double period) {
+  BothTips wanted;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Both& v = speed[axis];
+    const Both share =
+        clamped(both(static_cast<double>(action[axis]), static_cast<double>(action[axis + 3])), 1.0);
+    const Both free = clamped(v + Both(limits.acceleration) * share * Both(period), limits.speed);
+    const auto [left_low, left_high] = limits.room(0, static_cast<int>(axis));
+    const auto [right_low, right_high] = limits.room(1, static_cast<int>(axis));
+    // Only the wall ahead can be in the way.
+    const Both ahead = select(free > Both(0), Both(1), Both(-1));
+    const Both wall = select(free > Both(0), both(left_high, right_high), both(left_low, right_low));
+    wanted[axis] = ahead * before_wall(ahead * free, ahead * v, ahead * (wall - place[axis]), period,
+                                       limits.acceleration);
+  }
+  return wanted;
 }
 
 /// How far apart the tips may come to be at most [m], in the period that changes their velocities to `next`
 /// and while they stop after it, each as fast as it can: from the corners of the boxes that hold their ways.
-inline double farthest_apart(const Hands& hands, const Hands::Pair& next, const HandLimits& limits,
-                             double period) {
+inline double farthest_apart(const BothTips& place, const BothTips& speed, const BothTips& next,
+                             const HandLimits& limits, double period) {
   double square = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::array<std::pair<double, double>, 2> ways;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double x = hands.position[side][axis], v = hands.velocity[side][axis], u = next[side][axis];
-      const double turns = x + 0.5 * v * period, end = turns + 0.5 * u * period;
-      const double stops = end + 0.5 * u * period + 0.5 * u * std::abs(u) / limits.acceleration;
-      ways[side] = std::minmax({x, turns, end, stops});
-    }
-    const auto& [left, right] = ways;
-    const double apart = std::max(left.second - right.first, right.second - left.first);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Both &x = place[axis], &u = next[axis];
+    const Both turns = x + Both(0.5) * speed[axis] * Both(period), end = turns + Both(0.5) * u * Both(period);
+    const Both stops =
+        end + Both(0.5) * u * Both(period) + Both(0.5) * u * absolute(u) / Both(limits.acceleration);
+    const Both lowest = minimum(minimum(x, turns), minimum(end, stops)),
+               highest = maximum(maximum(x, turns), maximum(end, stops));
+    const double apart = std::max(highest[0] - lowest[1], highest[1] - lowest[0]);
     square += apart * apart;
   }
   return std::sqrt(square);
+}
+
+/// As much of `wanted` as the string, up to `farthest` [m], allows, and braking for the rest. Braking is
+/// always possible: what it needs was seen to before.
+inline BothTips within_string(const BothTips& place, const BothTips& speed, const BothTips& wanted,
+                              const HandLimits& limits, double period, double farthest) {
+  if (!(farthest_apart(place, speed, wanted, limits, period) > farthest)) return wanted;
+  const auto between = [&](double share) {
+    BothTips next;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Both slower = speed[axis] - clamped(speed[axis], limits.acceleration * period);
+      next[axis] = slower + Both(share) * (wanted[axis] - slower);
+    }
+    return next;
+  };
+  double possible = 0.0;
+  for (int halving = 1; halving <= 10; ++halving)
+    if (const double more = possible + std::ldexp(1.0, -halving);
+        farthest_apart(place, speed, between(more), limits, period) <= farthest)
+      possible = more;
+  return between(possible);
 }
 
 }  // namespace learn_detail
@@ -132,55 +192,34 @@ inline double farthest_apart(const Hands& hands, const Hands::Pair& next, const 
 template <class Number>
 void move_hands(Hands& hands, const Number* action, const HandLimits& limits, double string_length,
                 double period) {
-  Hands::Pair wanted, slower;
-  const double brake = limits.acceleration;
-  for (std::size_t side = 0; side < 2; ++side)
+  const learn_detail::BothTips place = learn_detail::both(hands.position),
+                               speed = learn_detail::both(hands.velocity);
+  const learn_detail::BothTips next = learn_detail::within_string(
+      place, speed, learn_detail::wanted_speeds(place, speed, action, limits, period), limits, period,
+      string_length - limits.string_margin);
+  for (int side = 0; side < 2; ++side)
     for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] = limits.room(side, axis);
-      const double x = hands.position[side][axis], v = hands.velocity[side][axis];
-      const double share = static_cast<double>(action[3 * static_cast<int>(side) + axis]);
-      double next =
-          std::clamp(v + brake * std::clamp(share, -1.0, 1.0) * period, -limits.speed, limits.speed);
-      next = learn_detail::before_wall(next, v, high - x, period, brake);
-      next = -learn_detail::before_wall(-next, -v, x - low, period, brake);
-      wanted[side][axis] = next;
-      slower[side][axis] = learn_detail::braked(v, period, brake);
+      double& velocity = hands.velocity[static_cast<std::size_t>(side)][axis];
+      const double last = next[static_cast<std::size_t>(axis)][side];
+      hands.position[static_cast<std::size_t>(side)][axis] += 0.5 * period * (velocity + last);
+      velocity = last;
     }
-  const auto between = [&](double share) -> Hands::Pair {
-    return {slower[0] + share * (wanted[0] - slower[0]), slower[1] + share * (wanted[1] - slower[1])};
-  };
-  // Braking is always possible: what it needs was seen to before. As much is done of the rest as is possible.
-  Hands::Pair next = wanted;
-  const double farthest = string_length - limits.string_margin;
-  if (learn_detail::farthest_apart(hands, next, limits, period) > farthest) {
-    double possible = 0.0;
-    for (int halving = 1; halving <= 10; ++halving)
-      if (const double more = possible + std::ldexp(1.0, -halving);
-          learn_detail::farthest_apart(hands, between(more), limits, period) <= farthest)
-        possible = more;
-    next = between(possible);
-  }
-  for (std::size_t side = 0; side < 2; ++side) {
-    hands.position[side] += 0.5 * period * (hands.velocity[side] + next[side]);
-    hands.velocity[side] = next[side];
-  }
+}
+
+/// The hands as tips, at a time [s].
+inline Tips<double> tips_of(const Hands& hands, double time) {
+  Tips<double> tips;
+  tips.left = hands.position[0];
+  tips.right = hands.position[1];
+  tips.left_velocity = hands.velocity[0];
+  tips.right_velocity = hands.velocity[1];
+  tips.time = time;
+  return tips;
 }
 
 /// The tips at `share` of a period [s] from `begin` to `end`.
 inline Tips<double> tips_between(const Hands& begin, const Hands& end, double share, double period) {
-  const auto position = [&](std::size_t side) -> Vector3<double> {
-    const Vector3<double> gained = end.velocity[side] - begin.velocity[side];
-    return begin.position[side] + period * share * (begin.velocity[side] + 0.5 * share * gained);
-  };
-  const auto velocity = [&](std::size_t side) -> Vector3<double> {
-    return begin.velocity[side] + share * (end.velocity[side] - begin.velocity[side]);
-  };
-  Tips<double> tips;
-  tips.left = position(0);
-  tips.right = position(1);
-  tips.left_velocity = velocity(0);
-  tips.right_velocity = velocity(1);
-  return tips;
+  return tips_between(tips_of(begin, 0.0), tips_of(end, period), share, period);
 }
 
 }  // namespace diabolo

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "diabolo/math/scalar.hpp"
+#include "diabolo/math/lane_functions.hpp"
 
 namespace diabolo {
 
@@ -24,10 +24,14 @@ struct PackMask {
   explicit PackMask(const Bits& b) : bits(b) {}
   bool operator[](int lane) const { return bits[lane] != 0; }
 
-  friend PackMask operator&&(PackMask a, PackMask b) { return PackMask(Bits(a.bits & b.bits)); }
-  friend PackMask operator||(PackMask a, PackMask b) { return PackMask(Bits(a.bits | b.bits)); }
-  friend PackMask operator!(PackMask a) { return PackMask(Bits(~a.bits)); }
-  friend bool any(PackMask a) {
+  [[gnu::always_inline]] friend inline PackMask operator&&(PackMask a, PackMask b) {
+    return PackMask(Bits(a.bits & b.bits));
+  }
+  [[gnu::always_inline]] friend inline PackMask operator||(PackMask a, PackMask b) {
+    return PackMask(Bits(a.bits | b.bits));
+  }
+  [[gnu::always_inline]] friend inline PackMask operator!(PackMask a) { return PackMask(Bits(~a.bits)); }
+  [[gnu::always_inline]] friend inline bool any(PackMask a) {
     // Halving keeps the work in vector registers.
     if constexpr (Lanes > 2) {
       typedef typename PackMask<T, Lanes / 2, Tag>::Bits Half;
@@ -41,11 +45,12 @@ struct PackMask {
       return sum != 0;
     }
   }
-  friend bool all(PackMask a) { return !any(!a); }
+  [[gnu::always_inline]] friend inline bool all(PackMask a) { return !any(!a); }
 };
 
 /// `Lanes` numbers that go through the same operations at once. The compiler maps it to whatever vector
-/// registers the translation unit is compiled for; the value of a lane does not depend on the other lanes.
+/// registers the translation unit is compiled for; the value of a lane does not depend on the other lanes. It
+/// is that of a Scalar of one lane to the last bit, but for tanh and atan2 (lane_functions.hpp).
 ///
 /// Code that is compiled for one instruction set inside a program for several gives a `Tag` of its own, so
 /// that the linker never mixes its functions with others.
@@ -69,53 +74,67 @@ struct Pack {
   Pack& operator*=(Pack b) { return *this = *this * b; }
   Pack& operator/=(Pack b) { return *this = *this / b; }
 
-  friend Pack operator-(Pack a) { return Pack(Vector(-a.lanes)); }
-  friend Pack operator+(Pack a, Pack b) { return Pack(Vector(a.lanes + b.lanes)); }
-  friend Pack operator-(Pack a, Pack b) { return Pack(Vector(a.lanes - b.lanes)); }
-  friend Pack operator*(Pack a, Pack b) { return Pack(Vector(a.lanes * b.lanes)); }
-  friend Pack operator/(Pack a, Pack b) { return Pack(Vector(a.lanes / b.lanes)); }
+  [[gnu::always_inline]] friend inline Pack operator-(Pack a) { return Pack(Vector(-a.lanes)); }
+  [[gnu::always_inline]] friend inline Pack operator+(Pack a, Pack b) {
+    return Pack(Vector(a.lanes + b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Pack operator-(Pack a, Pack b) {
+    return Pack(Vector(a.lanes - b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Pack operator*(Pack a, Pack b) {
+    return Pack(Vector(a.lanes * b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Pack operator/(Pack a, Pack b) {
+    return Pack(Vector(a.lanes / b.lanes));
+  }
 
-  friend Mask operator<(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes < b.lanes)); }
-  friend Mask operator>(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes > b.lanes)); }
-  friend Mask operator<=(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes <= b.lanes)); }
-  friend Mask operator>=(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes >= b.lanes)); }
-  friend Mask operator==(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes == b.lanes)); }
-  friend Mask operator!=(Pack a, Pack b) { return Mask(typename Mask::Bits(a.lanes != b.lanes)); }
+  [[gnu::always_inline]] friend inline Mask operator<(Pack a, Pack b) {
+    return Mask(typename Mask::Bits(a.lanes < b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Mask operator>(Pack a, Pack b) {
+    return Mask(typename Mask::Bits(a.lanes > b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Mask operator<=(Pack a, Pack b) {
+    return Mask(typename Mask::Bits(a.lanes <= b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Mask operator>=(Pack a, Pack b) {
+    return Mask(typename Mask::Bits(a.lanes >= b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Mask operator==(Pack a, Pack b) {
+    return Mask(typename Mask::Bits(a.lanes == b.lanes));
+  }
+  [[gnu::always_inline]] friend inline Mask operator!=(Pack a, Pack b) {
+    return Mask(typename Mask::Bits(a.lanes != b.lanes));
+  }
 
-  friend Pack sqrt(Pack x) {
+  [[gnu::always_inline]] friend inline Pack sqrt(Pack x) {
     return each(x, [](T t) { return std::sqrt(t); });
   }
-  friend Pack exp(Pack x) {
+  [[gnu::always_inline]] friend inline Pack exp(Pack x) {
     return each(x, [](T t) { return std::exp(t); });
   }
-  friend Pack log(Pack x) {
+  [[gnu::always_inline]] friend inline Pack log(Pack x) {
     return each(x, [](T t) { return std::log(t); });
   }
-  friend Pack sin(Pack x) {
+  [[gnu::always_inline]] friend inline Pack sin(Pack x) {
     return each(x, [](T t) { return std::sin(t); });
   }
-  friend Pack cos(Pack x) {
+  [[gnu::always_inline]] friend inline Pack cos(Pack x) {
     return each(x, [](T t) { return std::cos(t); });
   }
-  friend Pack tanh(Pack x) {
-    return each(x, [](T t) { return std::tanh(t); });
-  }
-  friend Pack atan2(Pack y, Pack x) {
-    Pack result;
-    for (int i = 0; i < Lanes; ++i) result.lanes[i] = std::atan2(y.lanes[i], x.lanes[i]);
-    return result;
-  }
+  [[gnu::always_inline]] friend inline Pack tanh(Pack x) { return lane_detail::hyperbolic_tangent(x); }
+  [[gnu::always_inline]] friend inline Pack atan2(Pack y, Pack x) { return lane_detail::angle_of(y, x); }
 
-  friend Pack select(Mask condition, Pack a, Pack b) {
+  [[gnu::always_inline]] friend inline Pack select(Mask condition, Pack a, Pack b) {
     return Pack(Vector(condition.bits ? a.lanes : b.lanes));
   }
-  friend Mask is_finite(Pack x) { return (x - x) == Pack(0.0); }
-  friend bool is_constant_zero(Pack x) { return all(x == Pack(0.0)); }
-  friend Pack value_of(Pack x) { return x; }
+  [[gnu::always_inline]] friend inline Mask is_finite(Pack x) { return (x - x) == Pack(0.0); }
+  [[gnu::always_inline]] friend inline bool is_constant_zero(Pack x) { return all(x == Pack(0.0)); }
+  [[gnu::always_inline]] friend inline Pack value_of(Pack x) { return x; }
 
  private:
   template <class Function>
-  static Pack each(Pack x, Function function) {
+  [[gnu::always_inline]] static inline Pack each(Pack x, Function function) {
     Pack result;
     for (int i = 0; i < Lanes; ++i) result.lanes[i] = function(x.lanes[i]);
     return result;

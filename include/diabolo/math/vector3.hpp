@@ -18,33 +18,33 @@ inline constexpr double kStandardGravity = 9.80665;
 // expression outlives its operands whatever the Scalar.
 
 template <class Scalar>
-inline Vector3<Scalar> operator+(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+[[gnu::always_inline]] inline Vector3<Scalar> operator+(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
   return {Scalar(a[0] + b[0]), Scalar(a[1] + b[1]), Scalar(a[2] + b[2])};
 }
 
 template <class Scalar>
-inline Vector3<Scalar> operator-(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+[[gnu::always_inline]] inline Vector3<Scalar> operator-(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
   return {Scalar(a[0] - b[0]), Scalar(a[1] - b[1]), Scalar(a[2] - b[2])};
 }
 
 template <class Scalar>
-inline Vector3<Scalar> operator*(const Vector3<Scalar>& a, const Scalar& s) {
+[[gnu::always_inline]] inline Vector3<Scalar> operator*(const Vector3<Scalar>& a, const Scalar& s) {
   return {Scalar(a[0] * s), Scalar(a[1] * s), Scalar(a[2] * s)};
 }
 
 template <class Scalar>
-inline Scalar dot(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+[[gnu::always_inline]] inline Scalar dot(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 template <class Scalar>
-inline Vector3<Scalar> cross(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+[[gnu::always_inline]] inline Vector3<Scalar> cross(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
   return {Scalar(a[1] * b[2] - a[2] * b[1]), Scalar(a[2] * b[0] - a[0] * b[2]),
           Scalar(a[0] * b[1] - a[1] * b[0])};
 }
 
 template <class Scalar>
-inline Scalar squared_norm(const Vector3<Scalar>& a) {
+[[gnu::always_inline]] inline Scalar squared_norm(const Vector3<Scalar>& a) {
   return dot(a, a);
 }
 

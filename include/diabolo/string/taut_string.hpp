@@ -98,6 +98,19 @@ struct TautIterate {
   }
 };
 
+/// Goes on with Newton's method until all lanes are settled. A lane does not depend on how long its
+/// neighbours take.
+template <bool kElastic, class Scalar>
+[[gnu::always_inline]] inline void settle(const TautSearch<kElastic, Scalar>& search,
+                                          const Mask<Scalar>& may_pull, TautIterate<Scalar>& now) {
+  for (int i = 1; i < 12 && !all(now.settled); ++i) {
+    TautIterate<Scalar> next(search.step, search.free, now.shift);
+    next.improve(search, may_pull);
+    next.keep_where(now.settled, now);
+    now = next;
+  }
+}
+
 /// Whether tension times what the path of a rigid string began too long by, as far as rounding lets it tell,
 /// is energy that counts.
 template <bool kElastic, class Scalar>
@@ -204,12 +217,7 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   if (any(snaps)) return string_detail::advance_from_catch<kElastic>(step, captured, snaps);
   if constexpr (kElastic) search.resolve_spring(now.gradient);
   now.improve(search, may_pull);
-  for (int i = 1; i < 12 && !all(now.settled); ++i) {
-    string_detail::TautIterate<Scalar> next(step, search.free, now.shift);
-    next.improve(search, may_pull);
-    next.keep_where(now.settled, now);  // a lane does not depend on how long its neighbours take
-    now = next;
-  }
+  string_detail::settle(search, may_pull, now);
   StringStepResult<Scalar> result = string_detail::pulled(search, now);
   const Mask<Scalar> gains = search.thrown() && string_detail::may_gain(search, now);
   if (any(gains))
@@ -221,7 +229,7 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
 }
 
 /// The same, bit for bit, for the usual step of captured lanes: the string is taut from beginning to end,
-/// the first step of Newton's method finds its pull, and its energy is beyond doubt. False, and no result,
+/// its pull is found, and its energy is beyond doubt. False, and no result,
 /// where that is not so.
 template <bool kElastic, class Scalar>
 [[gnu::always_inline]] inline bool advance_at_once(const StringStep<Scalar>& step,
@@ -231,6 +239,7 @@ template <bool kElastic, class Scalar>
   string_detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
   if constexpr (kElastic) search.resolve_spring(found.gradient);
   found.improve(search, Mask<Scalar>(true));
+  string_detail::settle(search, Mask<Scalar>(true), found);
   if (!all(found.settled) || any(string_detail::may_gain(search, found)) || !all(found.pull > Scalar(0)))
     return false;
   result = string_detail::pulled(search, found);

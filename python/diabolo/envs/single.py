@@ -70,7 +70,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         self.metadata = {**self.metadata, "render_fps": round(1.0 / period)}
         arena = self._arena
         self._observation, self._reward = arena.observations[0], arena.rewards
-        self._terminated, self._truncated = arena.terminated, arena.truncated
+        self._terminated, self._truncated = arena.terminated.view(bool), arena.truncated.view(bool)
         self._action = np.zeros((1, 6), np.float32)
         self._begun = False
 
@@ -91,16 +91,20 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     def step(self, action: ArrayLike) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Play a period."""
         self._expect_begun("step")
-        given = numbers("action", action)
+        given: NDArray[Any]
+        if type(action) is np.ndarray and action.dtype == np.float32:
+            given = action  # as it is, by far the most often
+        else:
+            given = numbers("action", action)
         if given.shape != (6,):
             raise ValueError(f"action: {shown(given)}; expected six numbers from -1 to 1")
         self._action[0] = given
         self._arena.step(self._action)
         return (
             self._observation.copy(),
-            float(self._reward[0]),
-            bool(self._terminated[0]),
-            bool(self._truncated[0]),
+            self._reward.item(),
+            self._terminated.item(),
+            self._truncated.item(),
             {},
         )
 
