@@ -92,7 +92,8 @@ class Predictor {
   StepStatus<Scalar> dispatch(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                               const Scalar& dt, const StringNow<Scalar>& string) const {
     if (parameters_.string_law != StringLaw::kInextensible) return pull_step(state, begin, end, dt, string);
-    if (usual_string_step(state, begin, end, dt, string)) return {};
+    if constexpr (!kManyDerivatives<Scalar>)  // what is in vain half the time costs more than it saves
+      if (usual_string_step(state, begin, end, dt, string)) return {};
     return string_step(state, begin, end, dt, string);
   }
 

@@ -139,7 +139,7 @@ Eigen::Matrix<double, kOutputs, kFields> dual(const Play& play, const std::array
   Eigen::Matrix<double, kOutputs, kFields> jacobian;
   for (int j = 0; j < kOutputs; ++j) {
     CHECK(is_finite(result[static_cast<std::size_t>(j)]));
-    jacobian.row(j) = result[static_cast<std::size_t>(j)].gradient.matrix().transpose();
+    for (int k = 0; k < kFields; ++k) jacobian(j, k) = result[static_cast<std::size_t>(j)].gradient[k];
   }
   return jacobian;
 }

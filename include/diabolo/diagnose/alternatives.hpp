@@ -180,7 +180,8 @@ inline bool is_known(std::string_view name, const Bank& bank) {
       bank, [&](const Candidate* c) { return c->name == name || c->name == alternative_to(name); });
 }
 
-/// The fit of an alternative. What it does not have stays at its centre.
+/// The fit of an alternative, with derivatives by its own unknowns. What it does not have stays at its
+/// centre.
 template <class D>
 Fit refitted(Fit trial, const Alternative& other, const Model& base, int threads, const FitWatch& watch) {
   trial.delay = other.delay;
@@ -188,7 +189,7 @@ Fit refitted(Fit trial, const Alternative& other, const Model& base, int threads
   trial.centre[index_of(Unknown::kWraps)] = other.at[index_of(Unknown::kWraps)];
   for (int u = 0; u < kUnknowns; ++u)
     if (!other.set[u]) trial.at[u] = trial.centre[u];
-  refine<D>(trial, base, other.set, kMostIterations, threads, watch);
+  approach<D>(trial, base, other.set, kMostIterations, threads, watch);
   return trial;
 }
 
@@ -268,6 +269,7 @@ std::vector<Replacement> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, c
       if (watch.is_enough()) return result;  // it may not have settled
       const std::optional<bool> sure = diagnose_detail::is_sure(trial, other);
       if (!sure) continue;
+      linearize<D>(trial, base, threads, watch);
       const std::ptrdiff_t explanations =
           explanations_of(trial, other.set, exchanged(bank, name, other.name));
       diagnose_detail::add(options, {other.name, std::move(trial), other.set, explanations, *sure});

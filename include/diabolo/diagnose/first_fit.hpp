@@ -65,7 +65,7 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
     if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
   }
   fit.far_window = kFarWindow;
-  reweight(fit);
+  reweight(fit, threads);
   descend<D>(fit, physics, set, kMostIterations, threads, watch);
 }
 

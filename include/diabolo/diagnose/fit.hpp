@@ -100,14 +100,14 @@ inline UnknownVector scales() {
 }
 
 /// Scores of all windows from their systems and the noise, and the cost.
-inline void reweight(Fit& fit) {
-  fit.scores.clear();
+inline void reweight(Fit& fit, int threads) {
+  std::vector<const CameraNoise*> noise;
   for (std::size_t s = 0; s < fit.fit_takes.size(); ++s)
-    for (std::size_t w = 0; w < fit.fit_takes[s].windows.size(); ++w)
-      if (const WindowSystem& system = fit.systems[fit.scores.size()]; system.failed)
-        fit.scores.emplace_back();
-      else
-        fit.scores.push_back(without_start(system, fit.noise[s]));
+    noise.insert(noise.end(), fit.fit_takes[s].windows.size(), &fit.noise[s]);
+  fit.scores.assign(noise.size(), {});
+  for_each_index(noise.size(), threads, {}, [&](std::size_t i) {
+    if (!fit.systems[i].failed) fit.scores[i] = without_start(fit.systems[i], *noise[i]);
+  });
   std::vector<double> sizes;
   for (const WindowScore& score : fit.scores)
     sizes.push_back(std::sqrt(score.chi_square / std::max(1, score.numbers)));
@@ -171,7 +171,7 @@ void linearize_by(Fit& fit, const Model& base, const ActiveSet& carried, int thr
   predict_windows<D>(
       fit, base, carried, threads, watch,
       [&](std::size_t i, std::size_t, WindowSystem system) { fit.systems[i] = std::move(system); });
-  reweight(fit);
+  reweight(fit, threads);
 }
 
 /// The same with as few derivatives as kLengths allow. (A template, as is all that calls it, lest every

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "diabolo/diagnose/fit.hpp"
 #include "diabolo/diagnose/time_budget.hpp"
@@ -51,6 +53,16 @@ inline void move_starts(Fit& fit, const Fit& from, const UnknownVector& scaled_s
     }
 }
 
+/// A copy that takes along what the next look at the windows makes anew.
+inline Fit put_aside(Fit& fit) {
+  std::vector<WindowSystem> systems = std::move(fit.systems);
+  std::vector<WindowScore> scores = std::move(fit.scores);
+  Fit result = fit;
+  result.systems = std::move(systems);
+  result.scores = std::move(scores);
+  return result;
+}
+
 /// Gauss and Newton's method on the active unknowns and all starts, from a `fit` that was looked at with
 /// them, damped where a step leads uphill. Once one has, the next are looked at by their starts alone, which
 /// is enough for their cost; the one that does not is looked at again. It ends early where the watch has
@@ -63,7 +75,7 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
   for (int iteration = 0; iteration < most_iterations && !watch.is_enough(); ++iteration) {
     ++fit.iterations;
     const Normal normal = normal_equations(fit, active);
-    const Fit best = fit;
+    Fit best = put_aside(fit);
     const bool noise_is_known =
         fit.noise_is_known || (iteration >= 3 && std::abs(fit.usual - 1.0) < kNoiseSettled);
     bool found = false;
@@ -84,12 +96,13 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
       found = (!doubtful || downhill(ActiveSet::Constant(false))) && downhill(active);
       if (!found && promise(best, normal, step) < kNothingToGain * best.dispersion) break;
     }
-    if (!found) fit = best;
     damping = damping > 0.01 && found ? 0.1 * damping : 0.0;
-    const bool settled = best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
+    const bool settled = !found || best.cost - fit.cost < 1e-4 * (1.0 + fit.cost) || largest < 0.02;
+    const std::vector<CameraNoise> noise = best.noise;
+    if (!found) fit = std::move(best);
     if (!noise_is_known) update_noise(fit);  // what stands in the way may be that it is wrong
-    if (settled && (noise_is_known || fit.noise == best.noise)) return;
-    if (!noise_is_known) reweight(fit);
+    if (settled && (noise_is_known || fit.noise == noise)) return;
+    if (!noise_is_known) reweight(fit, threads);
   }
 }
 

@@ -46,10 +46,31 @@ class CatchTrials {
   }
 
   /// Each start's errors, recording after recording.
-  std::vector<std::vector<WindowError>> errors(double slack) const {
-    std::vector<std::vector<WindowError>> result;
+  using Errors = std::vector<std::vector<WindowError>>;
+  Errors errors(double slack) const {
+    Errors result;
     for (const HeldOutRecording& held : recordings_)
       std::ranges::move(errors_of(task(held, slack), threads_, watch_), std::back_inserter(result));
+    return result;
+  }
+
+  /// The same by a slack between two others. A start from which these predict alike has the same catches by
+  /// every slack between them, and is not asked again.
+  Errors errors_between(double slack, const Errors& narrower, const Errors& wider) const {
+    const auto alike = [](const WindowError& a, const WindowError& b) {
+      return a.model == b.model && a.failed == b.failed;
+    };
+    Errors result = wider;
+    std::size_t before = 0;
+    for (const HeldOutRecording& held : recordings_) {
+      const HorizonTask starts = task(held, slack);
+      std::vector<std::size_t> asked;
+      for (std::size_t i = 0; i < starts.size(); ++i)
+        if (!std::ranges::equal(narrower[before + i], wider[before + i], alike)) asked.push_back(i);
+      for_each_index(asked.size(), threads_, watch_,
+                     [&](std::size_t k) { result[before + asked[k]] = starts.errors(asked[k]); });
+      before += starts.size();
+    }
     return result;
   }
 
@@ -112,7 +133,7 @@ inline std::optional<CatchRule> slack_catch(const Fit& fit, const Model& physics
   CatchRule found{length, detail::mean_beside(by_given, by_widest), detail::mean_beside(by_widest, by_given)};
   auto best = by_widest;
   for (double slack = 0.5 * length; slack > std::max(given, kNarrowest) && !watch.is_enough(); slack *= 0.5) {
-    auto errors = trials.errors(slack);
+    auto errors = trials.errors_between(slack, by_given, by_widest);
     const double mean = detail::mean_beside(errors, by_given);
     if (kAsWell * mean >= found.error_after_m) continue;
     found.catch_slack_m = slack;

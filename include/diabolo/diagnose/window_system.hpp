@@ -101,7 +101,7 @@ class WindowSums {
  private:
   double add(Eigen::MatrixXd& sums, double seen, const D& predicted) {
     const double residual = seen - predicted.value;
-    line_.head(n_) = predicted.gradient.head(n_).matrix().template cast<double>();
+    for (Eigen::Index i = 0; i < n_; ++i) line_[i] = static_cast<double>(predicted.gradient[i]);
     line_[n_] = residual;
     sums.template selfadjointView<Eigen::Lower>().rankUpdate(line_);
     return residual;

@@ -168,17 +168,22 @@ struct EffectSet {
   TipShift<Scalar> tip_shift(const State<Scalar>& state, const Tips<Scalar>& given,
                              const Parameters<Scalar>& parameters) const {
     TipShift<Scalar> sum;
-    each([&](const auto& effect) {
-      const TipShift<Scalar> own = effect.tip_shift(state, given, parameters);
-      sum.left = sum.left + own.left;
-      sum.right = sum.right + own.right;
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (hides(&Effect::tip_shift, &Neutral::tip_shift)) {
+        const TipShift<Scalar> own = effect.tip_shift(state, given, parameters);
+        sum.left = sum.left + own.left;
+        sum.right = sum.right + own.right;
+      }
     });
     return sum;
   }
   Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted,
                       const Parameters<Scalar>& parameters) const {
     Scalar sum{0};
-    each([&](const auto& effect) { sum += effect.bound_length(state, shifted, parameters); });
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (hides(&Effect::bound_length, &Neutral::bound_length))
+        sum += effect.bound_length(state, shifted, parameters);
+    });
     return sum;
   }
   /// Whether no effect is at work.

@@ -72,6 +72,20 @@ constexpr bool is_constant_zero(Float x) {
   return x == Float(0);
 }
 
+/// Whether a Scalar carries so many derivatives that they cost more than all else.
+template <class Scalar>
+inline constexpr bool kManyDerivatives = false;
+
+/// Without derivatives, for what is only compared.
+template <class Scalar>
+constexpr const Scalar& constant(const Scalar& x) {
+  return x;
+}
+template <class Scalar>
+[[gnu::always_inline]] inline Vector3<Scalar> constant(const Vector3<Scalar>& v) {
+  return {constant(v[0]), constant(v[1]), constant(v[2])};
+}
+
 constexpr bool any(bool condition) { return condition; }
 constexpr bool all(bool condition) { return condition; }
 

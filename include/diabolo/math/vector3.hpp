@@ -32,9 +32,13 @@ template <class Scalar>
   return {Scalar(a[0] * s), Scalar(a[1] * s), Scalar(a[2] * s)};
 }
 
+/// A Scalar may bring its own.
 template <class Scalar>
 [[gnu::always_inline]] inline Scalar dot(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  if constexpr (requires { Scalar::dot(a, b); })
+    return Scalar::dot(a, b);
+  else
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 template <class Scalar>

@@ -54,11 +54,13 @@ struct StringStep {
 
   /// Whether the string is straight from tip to tip at the end, or shorter than their distance.
   [[gnu::always_inline]] inline Mask<Scalar> overstretched() const {
-    return squared_norm<Scalar>(end.left - end.right) >= string_length * string_length;
+    const Scalar length = constant(string_length);
+    return squared_norm<Scalar>(constant(end.left) - constant(end.right)) >= length * length;
   }
 
   /// How far the path length may be from the string's [m].
-  Scalar tolerance() const { return Scalar(constraint_tolerance<Scalar>()) * string_length; }
+  /// (Nothing but a bound: it has no derivatives.)
+  Scalar tolerance() const { return Scalar(constraint_tolerance<Scalar>()) * constant(string_length); }
 
   /// Tips at a fraction of the step, on the straight line.
   Tips<Scalar> tips_at(const Scalar& fraction) const {

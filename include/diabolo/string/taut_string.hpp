@@ -75,11 +75,12 @@ struct TautIterate {
     // What another iteration could still change is about moved * (moved + pull) / strand; the energy per mass
     // that the position and the direction are wrong by is about that times tension / mass, and pull * moved /
     // strand * travel.
-    const Scalar moved = squared_norm<Scalar>(shift - last);
-    const Scalar strand = minimum(path.left_length, path.right_length);
-    const Scalar pull_squared = pull * pull;
+    const Vector3<Scalar> here = constant(shift);
+    const Scalar moved = squared_norm<Scalar>(here - constant(last));
+    const Scalar strand = minimum(constant(path.left_length), constant(path.right_length));
+    const Scalar pull_squared = constant(pull) * constant(pull);
     const Scalar reach = Scalar(2) * (moved + pull_squared);
-    const Scalar travel = squared_norm<Scalar>(search.free + shift - step.position);
+    const Scalar travel = squared_norm<Scalar>(constant(search.free) + here - constant(step.position));
     const Scalar position_limit = step.tolerance() * strand;
     const Scalar energy_limit = energy_tolerance<Scalar>() * search.half_square * strand;
     settled = (moved * reach <= position_limit * position_limit) &&
@@ -116,8 +117,9 @@ template <bool kElastic, class Scalar>
 template <bool kElastic, class Scalar>
 [[gnu::always_inline]] inline Mask<Scalar> may_gain(const TautSearch<kElastic, Scalar>& search,
                                                     const TautIterate<Scalar>& found) {
-  const Scalar longer = search.begin.length() - search.step.string_length + path_rounding(search.step);
-  return (longer * found.pull > energy_tolerance<Scalar>() * search.half_square) &&
+  const Scalar longer = constant(search.begin.length()) - constant(search.step.string_length) +
+                        constant(path_rounding(search.step));
+  return (longer * constant(found.pull) > energy_tolerance<Scalar>() * search.half_square) &&
          (search.resolution == Scalar(0));
 }
 
