@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/evaluate/start_state.hpp"
 
-#include <Eigen/Geometry>
-#include <numbers>
-
 #include "catch.hpp"
 #include "recording/played.hpp"
 #include "recording/support.hpp"
@@ -51,19 +48,6 @@ TEST_CASE("A throw is flying from the string to below the tips, and then on the 
   for (auto state = first; state != last; ++state) CHECK(*state != StringState::kOnString);
   CHECK(recording.diabolo.position(2, first - states.begin()) > 1.0);
   CHECK(recording.diabolo.position(2, last - states.begin()) < 1.0);
-}
-
-TEST_CASE("A body's x shows the axle where it does not turn with the body") {
-  Recording recording = test::thrown();
-  CHECK(shows_axle(recording));
-  const Eigen::Quaterniond across(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3<double>::UnitZ()));
-  for (Eigen::Index row = 0; row < recording.size(); ++row) {
-    auto turn = recording.diabolo_orientation.quaternion.col(row);
-    turn = (Eigen::Quaterniond(Eigen::Vector4d(turn)) * across).coeffs();
-  }
-  CHECK_FALSE(shows_axle(recording));
-  recording.diabolo_orientation = {};
-  CHECK_FALSE(shows_axle(recording));
 }
 
 TEST_CASE("The published start is the published recipe") {

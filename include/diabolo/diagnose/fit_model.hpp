@@ -112,10 +112,8 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
     effects.template get<StringElasticity>() = elasticity;
     effects.template get<StickFlex>() = flex;
   }
-  auto& axle = effects.template get<FiniteAxle>();
-  axle.radius = x(Unknown::kAxleRadius) * scale;
-  if (shows_axle(recording)) axle.follows_axis = D(1.0);
-  p.axle_radius = axle.radius;
+  effects.template get<FiniteAxle>().radius = x(Unknown::kAxleRadius) * scale;
+  p.axle_radius = effects.template get<FiniteAxle>().radius;
   auto& own = effects.template get<FormulaLaws>();
   own.each([&](const Law& law, std::size_t first) {
     for (std::size_t i = 0; i < law.numbers.size(); ++i) {

@@ -14,7 +14,6 @@
 #include "diabolo/diagnose/evidence.hpp"
 #include "diabolo/diagnose/residual_and_noise.hpp"
 #include "diabolo/evaluate/horizon_score.hpp"
-#include "diabolo/evaluate/start_state.hpp"
 
 namespace diabolo {
 
@@ -149,9 +148,7 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
                        const HorizonOptions& options, std::uint64_t seed, const Watch& watch,
                        std::vector<ErrorsAhead>& ahead) {
   const auto task_at = [&](const UnknownVector& at) {
-    Model augmented = augmented_model(physics, at, "augmented");
-    if (shows_axle(held.recording)) augmented.effects.get<FiniteAxle>().follows_axis = 1.0;
-    return HorizonTask(corrected(held.recording, at), augmented, options);
+    return HorizonTask(corrected(held.recording, at), augmented_model(physics, at, "augmented"), options);
   };
   const HorizonTask better = task_at(held.at);
   const std::vector<std::vector<WindowError>> with = errors_of(better, options.threads, watch),

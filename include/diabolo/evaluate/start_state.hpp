@@ -68,9 +68,6 @@ inline std::vector<StringState> guess_string_states(const Recording& recording) 
   return states;
 }
 
-/// Mean cosine of the angle by which an axle turns from row to row, at least.
-inline constexpr double kSteadyAxle = 0.99;
-
 /// Direction of the axle in each row, or in the last row before it where it was seen; forward (x >= 0), as
 /// signed_spin() has it.
 inline Eigen::Matrix3Xd axes(const Recording& recording) {
@@ -85,16 +82,6 @@ inline Eigen::Matrix3Xd axes(const Recording& recording) {
     result.col(i) = axis;
   }
   return result;
-}
-
-/// Whether the axle's direction was seen, and is one: that of a body whose x lies across the axle spins.
-inline bool shows_axle(const Recording& recording) {
-  const OrientationTrack& track = recording.diabolo_orientation;
-  if (track.empty() || !track.valid.any() || recording.size() < 2) return false;
-  const Eigen::Matrix3Xd axis = axes(recording);
-  const Eigen::Index pairs = recording.size() - 1;
-  return axis.leftCols(pairs).cwiseProduct(axis.rightCols(pairs)).sum() >
-         kSteadyAxle * static_cast<double>(pairs);
 }
 
 /// Start states over a recording. A spin that is not known is zero.
