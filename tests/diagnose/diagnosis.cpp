@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "diabolo/diagnose/compiled.hpp"
+#include "diabolo/diagnose/posterior.hpp"
 
 #include "played.hpp"
 
@@ -123,6 +124,7 @@ TEST_CASE("what turns the axle is named, and the model turns it") {
     AllEffects<double> effects;
     effects.get<StringFriction>().coefficient = 0.2;
     effects.get<GyroscopicTilt>().gain = gain;
+    effects.get<FiniteAxle>().follows_axis = 1.0;
     const Diagnosis d = diagnose({played(effects, 14.0, 4)});
     const auto f = std::ranges::find_if(
         d.findings, [](const Finding& one) { return one.candidate->name == "gyroscopic_tilt"; });
@@ -135,6 +137,12 @@ TEST_CASE("what turns the axle is named, and the model turns it") {
     CHECK(d.model.effects.get<GyroscopicTilt>().gain == f->sure * f->estimate[u]);
     REQUIRE(d.heldout.axle);
     CHECK((d.heldout.axle->augmented_error < 0.5 * d.heldout.axle->base_error) == (gain > 0.0));
+    double squares = 0.0;
+    constexpr std::size_t kCount = 1000;
+    for (const Model& model : Posterior(d).draw(kCount, 1))
+      squares +=
+          std::pow(model.effects.get<GyroscopicTilt>().gain - d.model.effects.get<GyroscopicTilt>().gain, 2);
+    CHECK(std::sqrt(squares / kCount) == Approx(f->sure * f->deviation[u]).epsilon(0.1));
   }
 }
 
