@@ -28,7 +28,7 @@ double units_off(T value, double exact) {
 
 /// Of any size that a law has, and a special one now and then.
 template <class T>
-T any_number(Random& random) {
+T argument_of_a_law(Random& random) {
   constexpr double kSpecial[] = {0.0,
                                  -0.0,
                                  1.0,
@@ -51,8 +51,8 @@ TEMPLATE_TEST_CASE("tanh and atan2 of lanes are the C library's to some units in
   for (int n = 0; n < 20'000; ++n) {
     TestType x, y;
     for (int i = 0; i < ScalarTraits<TestType>::kLanes; ++i) {
-      x.set(i, any_number<T>(random));
-      y.set(i, any_number<T>(random));
+      x.set(i, argument_of_a_law<T>(random));
+      y.set(i, argument_of_a_law<T>(random));
     }
     const TestType tangent = tanh(x), angle = atan2(y, x);
     for (int i = 0; i < ScalarTraits<TestType>::kLanes; ++i) {
