@@ -65,10 +65,11 @@ class Meter(Node):
     def _find(self, sender: TipSender | JointSender, begin: int, executor: Executor) -> None:
         """Until the first tips, sent a minute early, are answered: then both ways are open."""
         wait_until_heard(sender.outputs)
+        early = begin - 60_000_000_000
         for attempt in range(1000):
-            sender.send(0, begin - (3000 - attempt) * 20_000_000)
+            sender.send(0, early + attempt * 20_000_000)
             executor.spin_once(0.02)
-            if self.last:
+            if early <= self.last < begin:  # and no pose of another one's tips
                 return
         raise ValueError("no pose is heard; expected a running diabolo_node.py")
 
