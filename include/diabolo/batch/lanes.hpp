@@ -29,8 +29,7 @@ struct LaneBlock {
   StringState* record_states[kMostLanes];  ///< one a record
   bool shared_tips;                        ///< all lanes have the same tips
   double dt;                               ///< [s]
-  double
-      evenly;  ///< [s] that the block takes, where tips_between() two poses moves the tips; 0: all are given
+  double evenly;  ///< [s] that a block of two poses takes, see tips_between(); 0: all poses are given
   std::size_t steps;
   std::size_t first_step;    ///< number of steps done before this block
   std::size_t record_every;  ///< a record after each so many steps; 0: none
