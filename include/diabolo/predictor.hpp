@@ -97,11 +97,12 @@ class Predictor {
     return string_step(state, begin, end, dt, string);
   }
 
-  /// string_step() in fewer instructions, bit for bit, while the string stays taut. False where one may not;
-  /// then the state is as it was.
+  /// string_step() in fewer instructions, bit for bit, while the string stays taut and its turns are not
+  /// followed. False where one may not; then the state is as it was.
   bool usual_string_step(State<Scalar>& state, const Tips<Scalar>& begin, const Tips<Scalar>& end,
                          const Scalar& dt, const StringNow<Scalar>& string) const {
-    if (plane_.active || !all(is(state.string_state, StringState::kOnString))) return false;
+    if (parameters_.follow_turns || plane_.active || !all(is(state.string_state, StringState::kOnString)))
+      return false;
     const PlaneProjector<Scalar> no_plane;
     const Vector3<Scalar> outer = effects_.acceleration(state, begin, dt, parameters_);
     const StringStep<Scalar> step = step_on(string, state, state.velocity, outer, begin, end, dt, no_plane);
@@ -109,7 +110,6 @@ class Predictor {
     StringStepResult<Scalar> result;
     if (!(elastic(string) ? advance_at_once<true>(step, result) : advance_at_once<false>(step, result)))
       return false;
-    if (parameters_.follow_turns) measure_passing(step, result);
     take_over(state, step, result);
     return true;
   }

@@ -24,7 +24,7 @@ struct TautSearch {
   Scalar resolution{0}, end_weight{1}, begin_part{0}, spring{0};
 
   /// `gradient` of the path length near the end of the step.
-  void resolve_spring(const Vector3<Scalar>& gradient) {
+  [[gnu::always_inline]] inline void resolve_spring(const Vector3<Scalar>& gradient) {
     resolution = step.resolution(squared_norm(gradient));
     end_weight = Scalar(1) - Scalar(0.5) * resolution + step.damping_time / step.dt;
     begin_part = (Scalar(1) - end_weight) * (begin.length() - step.string_length);
@@ -32,7 +32,7 @@ struct TautSearch {
   }
 
   /// A diabolo that begins outside a rigid string is put back without being thrown.
-  Mask<Scalar> thrown() const {
+  [[gnu::always_inline]] inline Mask<Scalar> thrown() const {
     return (begin.length() - step.string_length <= Scalar(10) * step.tolerance()) || (resolution > Scalar(0));
   }
 };
@@ -123,12 +123,11 @@ template <bool kElastic, class Scalar>
          (search.resolution == Scalar(0));
 }
 
-/// The step that the search has found.
+/// The step that the search has found, into a new `result`.
 template <bool kElastic, class Scalar>
-[[gnu::always_inline]] inline StringStepResult<Scalar> pulled(const TautSearch<kElastic, Scalar>& search,
-                                                              const TautIterate<Scalar>& found) {
+[[gnu::always_inline]] inline void pull(const TautSearch<kElastic, Scalar>& search,
+                                        const TautIterate<Scalar>& found, StringStepResult<Scalar>& result) {
   const StringStep<Scalar>& step = search.step;
-  StringStepResult<Scalar> result;
   result.taut = found.pull > Scalar(0);
   result.slack = step.string_length - found.path.length();
   result.gradient_squared = squared_norm(found.gradient);
@@ -147,7 +146,6 @@ template <bool kElastic, class Scalar>
   result.position = search.free + found.shift;
   result.string_acceleration = string_impulse * Scalar(-inverse_dt);
   result.tension = maximum(Scalar(impulse + removed), Scalar(0)) * inverse_dt;
-  return result;
 }
 
 /// The step from the instant on at which the string comes taut in the lanes `where`; the whole step in the
@@ -220,7 +218,8 @@ StringStepResult<Scalar> advance_on_string(const StringStep<Scalar>& step, const
   if constexpr (kElastic) search.resolve_spring(now.gradient);
   now.improve(search, may_pull);
   string_detail::settle(search, may_pull, now);
-  StringStepResult<Scalar> result = string_detail::pulled(search, now);
+  StringStepResult<Scalar> result;
+  string_detail::pull(search, now, result);
   const Mask<Scalar> gains = search.thrown() && string_detail::may_gain(search, now);
   if (any(gains))
     keep_energy<Scalar>(step, search.begin, now.path, now.pull * Scalar(step.dt / search.half_square), gains,
@@ -241,10 +240,11 @@ template <bool kElastic, class Scalar>
   string_detail::TautIterate<Scalar> found(step, search.free, step.string_acceleration * search.half_square);
   if constexpr (kElastic) search.resolve_spring(found.gradient);
   found.improve(search, Mask<Scalar>(true));
-  string_detail::settle(search, Mask<Scalar>(true), found);
+  if constexpr (ScalarTraits<Scalar>::kLanes > 1)  // nearly always one number is settled, not all lanes are
+    string_detail::settle(search, Mask<Scalar>(true), found);
   if (!all(found.settled) || any(string_detail::may_gain(search, found)) || !all(found.pull > Scalar(0)))
     return false;
-  result = string_detail::pulled(search, found);
+  string_detail::pull(search, found, result);
   return true;
 }
 
