@@ -27,7 +27,7 @@ struct Tips {
   /// Of the sticks, unit vectors; zero where they are not known. Only StickFlex looks at them.
   Vector3<Scalar> left_direction = Vector3<Scalar>::Constant(Scalar(0)),
                   right_direction = Vector3<Scalar>::Constant(Scalar(0));
-  double time = 0.0;  ///< [s], the same in all lanes. Only FormulaLaws look at it.
+  Scalar time{0};  ///< [s]. Only FormulaLaws look at it.
 };
 
 /// The tips at `share` of a time [s] that begins with `begin` and ends with the velocities of `end`, which
@@ -42,7 +42,7 @@ Tips<Scalar> tips_between(const Tips<Scalar>& begin, const Tips<Scalar>& end, do
   };
   move(tips.left, tips.left_velocity, end.left_velocity);
   move(tips.right, tips.right_velocity, end.right_velocity);
-  tips.time = begin.time + time * share;
+  tips.time = begin.time + Scalar(time * share);
   return tips;
 }
 
@@ -112,7 +112,7 @@ class TipMotion {
   /// What was given for instant number `i`, as tips at rest.
   Tips<Scalar> pose(std::size_t i) const {
     Tips<Scalar> tips;
-    tips.time = times_[i] + clock_;
+    tips.time = Scalar(times_[i] + clock_);
     tips.left = values_[i].template head<3>();
     tips.right = values_[i].template tail<3>();
     if (directions_.empty()) return tips;
@@ -124,7 +124,7 @@ class TipMotion {
   /// Tips at a time [s]. `hint` speeds up sequential reading: pass the same variable again.
   Tips<Scalar> at(double time, std::size_t& hint) const {
     Tips<Scalar> tips = read(time, hint);
-    tips.time = time + clock_;
+    tips.time = Scalar(time + clock_);
     return tips;
   }
 

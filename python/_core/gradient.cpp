@@ -89,6 +89,7 @@ State<D> run(const Inputs& inputs, const TipMotion<double>& tips, const Steps& s
   const FullPredictor<D> predictor(inputs.parameters, inputs.effects);
   TipMotion<D> motion(tips.times(), inputs.left, inputs.right, tips.interpolation());
   motion.point_along(inputs.left_directions, inputs.right_directions);
+  motion.start_clock(tips.clock());
   return diabolo::rollout(predictor, inputs.state, motion, steps,
                           [&](std::size_t, double, const State<D>&, const StepStatus<D>&) {
                             if (cancel) throw Cancelled();

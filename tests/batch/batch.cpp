@@ -224,6 +224,30 @@ TEST_CASE("lanes that differ and hang on taut strings without effects give the b
   }
 }
 
+TEST_CASE("each lane plays a law of time by its own clock") {
+  const std::atomic<bool> cancel = false;
+  AllEffects<double> effects;
+  auto& laws = effects.get<FormulaLaws>();
+  laws = FormulaLaws<double>({Law("gust", "", Acts::kForward, "size * sin(9 * t)", {{"size", "m/s^2"}})});
+  laws.numbers[0] = 2.0;
+  std::vector<TipMotion<double>> motions(7, beat(0.05, 1.0));
+  Batch batch = hanging(motions[0], motions.size());
+  batch.motions.clear();
+  batch.effects = {effects};
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    motions[i].start_clock(0.3 * static_cast<double>(i));
+    batch.motions.push_back(&motions[i]);
+  }
+  const BatchResult result = rollout_batch(batch, portable_batch_kernel(), 1, cancel);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    INFO("rollout " << i);
+    const FullPredictor<double> predictor(batch.parameters[i], effects);
+    const State<double> expected = rollout(predictor, batch.initial[i], motions[i], batch.steps);
+    CHECK((result.final_states[i].position - expected.position).norm() < 1e-11);
+    CHECK((expected.position - result.final_states[(i + 1) % motions.size()].position).norm() > 1e-3);
+  }
+}
+
 TEST_CASE("a batch says what is wrong with it") {
   const std::atomic<bool> cancel = false;
   const auto run = [&](const Batch& batch) {

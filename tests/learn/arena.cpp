@@ -31,16 +31,21 @@ std::vector<float> random_actions(Random& random, std::size_t count) {
 }  // namespace
 
 TEST_CASE("an environment plays the same bits alone and among others, with any number of threads") {
-  Model slow = rubbing();
+  Model fast = rubbing();
+  auto& laws = fast.effects.get<FormulaLaws>();
+  laws = FormulaLaws<double>({Law("gust", "", Acts::kForward, "size * sin(9 * t)", {{"size", "m/s^2"}})});
+  laws.numbers[0] = 0.3;
+  Model slow = fast;
   slow.effects.get<StringFriction>().coefficient = 0.1;
   for (const Task& task : kTasks) {
     const std::string name(task.info->name);
     ArenaOptions options{.task = name, .count = 7, .autoreset = Autoreset::kSameStep, .threads = 3};
-    Arena many = arena(options, {rubbing(), slow});
+    Arena many = arena(options, {fast, slow});
     options.count = 1;
     options.threads = 1;
-    Arena one = arena(options, {rubbing(), slow});
-    constexpr std::size_t kWatched = 4;
+    Arena one = arena(options, {fast, slow});
+    constexpr std::size_t kWatched =
+        5;  // the second of its lanes, which begins at other times than the first
     for (std::size_t i = 0; i < many.count(); ++i) many.seed(i, 100 + i), many.reset(i);
     one.seed(0, 100 + kWatched);
     one.reset(0);

@@ -47,6 +47,27 @@ def test_a_law_by_a_formula_acts_as_that_of_the_library_in_rollouts_of_one_and_o
     assert np.array_equal(a[3].reshape(-1), c.reshape(-1))
 
 
+def test_a_law_of_time_goes_by_the_clock_of_a_part_in_rollouts_and_in_gradients(
+    played: diabolo.Recording,
+) -> None:
+    gust = {
+        "name": "gust",
+        "acts": "left",
+        "formula": "k * sin(9 * t)",
+        "numbers": [{"name": "k", "unit": "m/s^2", "value": 2}],
+    }
+    start = np.array([0.0, 0.05, 0.3, 0.1, 0.0, 0.0, 100.0])
+    model, part = Model(formula_laws=[gust]), TipMotion.of_recording(played.cut(150, 300))
+    unheard = TipMotion(part.times, part.left, part.right, "spline", *part.directions_at(part.times))
+
+    def end(tips: TipMotion) -> np.ndarray:
+        return np.asarray(diabolo.rollout(model, start, tips, steps=500, record_every=500).states)[-1]
+
+    found = diabolo.rollout_gradient(model, start, part, ["mass"], steps=500).state
+    np.testing.assert_allclose(found, end(part), atol=1e-9)
+    assert np.abs(found - end(unheard))[:3].max() > 1e-3
+
+
 def test_the_shipped_example_reads() -> None:
     assert FormulaLaws.load(ROOT / "examples/laws/creep.laws.json").to_list()[0]["name"] == "creep"
 

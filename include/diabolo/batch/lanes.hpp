@@ -109,8 +109,8 @@ AllEffects<Pack> gather_effects(const LaneBlock& block) {
 
 template <class Pack>
 void gather_tips(const LaneBlock& block, std::size_t i, Tips<Pack>& to) {
-  to.time = block.tips[0][i].time;
   const auto fill = [&](auto&& get) {
+    to.time = get([](const Tips<double>& tips) { return tips.time; });
     for (int k = 0; k < 3; ++k) {
       to.left[k] = get([k](const Tips<double>& tips) { return tips.left[k]; });
       to.right[k] = get([k](const Tips<double>& tips) { return tips.right[k]; });

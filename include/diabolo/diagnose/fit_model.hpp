@@ -142,7 +142,7 @@ Tips<D> fit_tips(const FitTips& s, const DualUnknowns<D>& x) {
     return result;
   };
   Tips<D> tips;
-  tips.time = s.tips.time;
+  tips.time = D(s.tips.time);
   tips.left = with(s.tips.left, s.tips.left_velocity, s.left_by_lag, s.left_frame, Unknown::kLeftX);
   tips.right = with(s.tips.right, s.tips.right_velocity, s.right_by_lag, s.right_frame, Unknown::kRightX);
   tips.left_direction = s.tips.left_direction.template cast<D>();

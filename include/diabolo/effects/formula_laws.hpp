@@ -149,7 +149,7 @@ struct FormulaLaws : NeutralEffect<Scalar> {
   /// Number `name` of kLawVariables.
   static Scalar variable(std::size_t name, const State<Scalar>& state, const Tips<Scalar>& tips,
                          const Parameters<Scalar>& parameters) {
-    if (name == 0) return Scalar(tips.time);
+    if (name == 0) return tips.time;
     if (name < 4) return state.position[static_cast<int>(name) - 1];
     if (name < 7) return state.velocity[static_cast<int>(name) - 4];
     switch (name) {

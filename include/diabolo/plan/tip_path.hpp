@@ -81,7 +81,7 @@ class TipPath {
     const Scalar u = before ? Scalar(0) : after ? piece.duration : s;
     const TipColumn<Scalar> value = ((piece.c[3] * u + piece.c[2]) * u + piece.c[1]) * u + piece.c[0];
     Tips<Scalar> tips;
-    tips.time = static_cast<double>(value_of(time));
+    tips.time = time;
     tips.left = value.template head<3>();
     tips.right = value.template tail<3>();
     tips.left_direction = piece.sticks.template head<3>().template cast<Scalar>();
