@@ -13,6 +13,7 @@ from diabolo import load_recording
 from diabolo.cli import main
 
 pytestmark = pytest.mark.hosts
+MOTION = "motion.csv"
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
@@ -43,12 +44,22 @@ def test_the_host_s_body_goes_where_the_predictor_goes(host: str, tmp_path: Path
         (["--picture", "a.wav"], "not supported"),
         (["--picture", "a.png", "motion.csv", "sim.csv"], "expected no MOTION.csv"),
         (["motion.csv"], "MOTION.csv without SIM.csv"),
+        ([MOTION, MOTION], "motion.csv: this file is read; choose another name"),
+        ([MOTION, "nowhere/sim.csv"], "nowhere/sim.csv: there is no folder"),
+        (["none.csv", "sim.csv"], "none.json: No such file or directory; expected what"),
+        ([MOTION, "sim.csv"], "motion.json: no field 'starts'; expected what"),
     ],
 )
-def test_what_cannot_be_drawn_or_played_is_told_in_a_sentence(arguments: list[str], sentence: str) -> None:
+def test_what_cannot_be_drawn_or_played_is_told_in_a_sentence(
+    arguments: list[str], sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path(MOTION).write_text("time,left_x,left_y,left_z,right_x,right_y,right_z\n")
+    Path(MOTION).with_suffix(".json").write_text("{}")
     done = started("dart", *arguments)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1 and sentence in done.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"motion.csv", "motion.json"}
 
 
 def test_two_hosts_play_a_recorded_motion_alike(tmp_path: Path) -> None:

@@ -83,6 +83,28 @@ def test_example_runs_and_draws(tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize(
+    ("program", "arguments", "sentence"),
+    [
+        ("diabolo_in_mujoco", ["--picture", "nowhere/a.png"], "nowhere/a.png: there is no folder"),
+        ("diabolo_in_mujoco", ["--picture", "."], ".: a directory; expected the name of a file to write"),
+        ("what_mujoco_lacks", ["none.csv"], "none.csv: there is no such file"),
+        ("what_mujoco_lacks", ["none.csv", "--out", "none.csv"], "none.csv: this file is read"),
+        ("robot_cell", ["--model", "none.json"], "model none.json: no such file"),
+    ],
+)
+def test_what_an_example_cannot_do_is_told_in_a_sentence(tmp_path, program, arguments, sentence):
+    done = subprocess.run(
+        [sys.executable, str(EXAMPLE.with_name(f"{program}.py")), *arguments],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+    )
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith(f"{program}.py: {sentence}") and done.stderr.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
 def test_two_arms_are_drawn(tmp_path):
     cell, picture = EXAMPLE.with_name("robot_cell.py"), tmp_path / "cell.png"
     done = subprocess.run(
