@@ -16,7 +16,7 @@ from pathlib import Path
 from .. import _core
 from .._core import Calibration, Recording, RecordingError, StickArm
 from ..arms import two_arms
-from ..checks import check_library, instance_of, shown
+from ..checks import check_library, file_name, instance_of, shown
 from . import bodies, qualisys, vicon
 from .bodies import ROLES, Body
 
@@ -54,7 +54,7 @@ def load_recording(
     Raises RecordingError with the file, what was found and what was expected, and ValueError where a library
     is not installed.
     """
-    path, names, used = Path(os.fsdecode(path)), topics_of(topics), two_arms(arms)
+    path, names, used = file_name("path", path), topics_of(topics), two_arms(arms)
     if calibration is not None:
         instance_of("calibration", calibration, Calibration)
     if not isinstance(up, str | None):
@@ -118,7 +118,7 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
         RecordingError: another suffix.
         ValueError: a library is not installed.
     """
-    path = Path(os.fsdecode(path))
+    path = file_name("path", path)
     instance_of("recording", recording, Recording)
     check_writer(path)
     if path.suffix == ".csv":
@@ -144,7 +144,7 @@ def check_writer(path: str | os.PathLike[str]) -> None:
         RecordingError: its suffix is none of WRITTEN.
         ValueError: a library is not installed.
     """
-    path = Path(os.fsdecode(path))
+    path = file_name("path", path)
     if path.suffix not in WRITERS:
         raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
     for library in WRITERS[path.suffix]:

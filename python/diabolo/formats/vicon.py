@@ -71,6 +71,8 @@ class Section:
         if columns[0] == "Frame" and np.isfinite(table[:, 0]).all():
             stamps = stamps_at(self.path, table[:, 0] / rate)
         starts = [at for at, name in enumerate(names) if name]
+        if not starts:
+            self.fail(3, ",".join(names), "the name of a body or point above its columns")
         for at, end in zip(starts, [*starts[1:], len(columns)], strict=True):
             group = Group(self, names[at], columns[at:end], units[at:end], table[:, at:end])
             if self.title in BODIES:
