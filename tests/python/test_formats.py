@@ -481,6 +481,21 @@ def test_a_name_that_no_file_can_have_is_told(
     assert "\\x00.csv': a zero byte in it; expected text" in error and error.count("\n") == 1
 
 
+@pytest.mark.parametrize("name", [b"pl\xe9.csv", b"pl\xe9.parquet", b"pl\xe9.c3d", b"none\xe9.mcap"])
+def test_other_names_in_bytes_that_are_no_text_are_refused(
+    swing: Recording, tmp_path: Path, name: bytes
+) -> None:
+    path = os.fsencode(tmp_path) + b"/" + name
+    if name.startswith(b"pl"):
+        with open(path, "wb") as file:
+            file.write(b"time\n")
+    with pytest.raises(RecordingError, match=r"\\udce9.*not UTF-8; expected a name that is"):
+        load_recording(path)
+    if name.endswith((b".csv", b".parquet")):
+        with pytest.raises(RecordingError, match=r"\\udce9.*not UTF-8; expected a name that is"):
+            save_recording(swing, path)
+
+
 def test_what_is_read_is_not_written_over(swing: Recording, tmp_path: Path) -> None:
     bag = tmp_path / "bag"
     write_bag(bag, swing, TOPICS, {})
@@ -543,6 +558,19 @@ def test_messages_of_all_kinds_are_read(tmp_path: Path) -> None:
         assert name == ("top" if kind.split("/")[-1] in ("TransformStamped", "TFMessage") else "topic")
         assert head.frame_id == "world"
         assert numbers == ((1.0, 2.0, 3.0) if "Point" in kind else (1.0, 2.0, 3.0, 0.0, 0.6, 0.0, 0.8))
+
+
+def test_metadata_that_lack_what_they_promise_say_so(tmp_path: Path) -> None:
+    from diabolo.formats.bag import SCHEMA, setup_of
+    from mcap.writer import Writer
+
+    with open(tmp_path / "take.mcap", "wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.add_metadata(SCHEMA, {})
+        writer.finish()
+    with pytest.raises(RecordingError, match=r"cannot be read as a bag with metadata of .* \(no 'setup'\)"):
+        setup_of(tmp_path / "take.mcap")
 
 
 def test_a_bag_without_poses_says_so(tmp_path: Path) -> None:

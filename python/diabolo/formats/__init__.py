@@ -60,6 +60,8 @@ def load_recording(
     if not isinstance(up, str | None):
         raise ValueError(f"up: {shown(up)}; expected the name of an axis")
     reader = reader_of(path)
+    if reader in (None, *NAMED_IN_TEXT):
+        _check_text(path)
     if names and reader in (None, "parquet"):
         raise RecordingError(f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only")
     if arms is not None and reader != "bag":
@@ -147,8 +149,18 @@ def check_writer(path: str | os.PathLike[str]) -> None:
     path = file_name("path", path)
     if path.suffix not in WRITERS:
         raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
+    if path.suffix in WITH_JSON:
+        _check_text(path)
     for library in WRITERS[path.suffix]:
         check_library(f"writing {path.name}", library, "rerun" if library == "rerun" else "formats")
+
+
+def _check_text(path: Path) -> None:
+    """Raise RecordingError about a name in bytes that are no text."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        raise RecordingError(f"{str(path)!r}: not UTF-8; expected a name that is") from None
 
 
 def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:
@@ -174,6 +186,8 @@ def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:
     return dict(given)
 
 
+NAMED_IN_TEXT = ("c3d", "parquet")
+"""Readers whose libraries take no file with a name in other bytes; nor does the core."""
 LIBRARIES = {"bag": "rosbags", "c3d": "ezc3d", "parquet": "pyarrow"}
 READERS = {".mcap": "bag", ".db3": "bag", ".bag": "bag", ".c3d": "c3d", ".parquet": "parquet"}
 
