@@ -16,7 +16,7 @@ from diabolo.cli import main
 from diabolo.cli.diagnose import input_file
 from diabolo.formats import qualisys, vicon
 from diabolo.formats.bodies import Body, at_common_times
-from diabolo.formats.c3d import quaternions
+from diabolo.formats.rotations import quaternions
 from diabolo.robot import StickArm
 from numpy.typing import NDArray
 
