@@ -73,16 +73,15 @@ def recorded(simulate: Simulate, motion: Path) -> Recording:
 def played(simulate: Simulate, motion: Path) -> Recording:
     """A string without friction or stretch in the host, from each start to the next."""
     told = json.loads(motion.with_suffix(".json").read_text(encoding="utf-8"))
-    if not told["starts"]:
-        raise ValueError("no starts")
-    tips, properties = load_tip_plan(motion), DiaboloProperties(**told["diabolo"])
+    tips, properties, starts = load_tip_plan(motion), DiaboloProperties(**told["diabolo"]), told["starts"]
     body = Parameters(
         mass=properties.mass, axle_radius=properties.axle_radius, string_length=told["string_length"]
     )
-    ends = [start["time"] for start in told["starts"][1:]] + [tips.end]
+    edges = [*(start["time"] for start in starts), tips.end]
+    if not starts or edges[0] < tips.begin or not (np.diff(edges) > 0.0).all():
+        raise ValueError(f"starts at {edges[:-1]} s; expected some, one after another, within the motion")
     pieces = [
-        piece(simulate, Model(body), start, tips, end)
-        for start, end in zip(told["starts"], ends, strict=True)
+        piece(simulate, Model(body), start, tips, end) for start, end in zip(starts, edges[1:], strict=True)
     ]
     time, places = (np.concatenate(part) for part in zip(*pieces, strict=True))
     left, right, *_ = tips.at(time)
