@@ -30,7 +30,13 @@ from diabolo.hosts import mujoco as host
 
 if ctypes.util.find_library("EGL"):
     os.environ.setdefault("MUJOCO_GL", "egl")  # read when MuJoCo is imported
-import mujoco
+try:
+    import mujoco
+except ModuleNotFoundError as error:
+    print(
+        f"{Path(sys.argv[0]).name}: {error}; expected it from: pip install 'diabolo[mujoco]'", file=sys.stderr
+    )
+    sys.exit(2)
 
 START_SPIN = 60.0  # [rad/s]
 PLAY_UNTIL = 2.0  # the floor is out of reach until then [s]

@@ -18,7 +18,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import diabolo
-import mujoco
 import numpy as np
 from diabolo.cli import Parser
 from diabolo.cli.arguments import output_name
@@ -26,6 +25,12 @@ from diabolo.files import check_outputs, write_texts
 from diabolo.report import report_html
 from diabolo.view import replay_of
 from numpy.typing import NDArray
+
+try:
+    import mujoco
+except ModuleNotFoundError as error:
+    print(f"what_mujoco_lacks.py: {error}; expected it from: pip install 'diabolo[mujoco]'", file=sys.stderr)
+    sys.exit(2)
 
 DT = 1e-3  # [s]
 INERTIA = (5.6e-4, 6.6e-4, 6.6e-4)  # of the paper's red diabolo, about and across the axle [kg m^2]

@@ -38,6 +38,21 @@ def test_the_host_s_body_goes_where_the_predictor_goes(host: str, tmp_path: Path
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize(("host", "library"), [("dart", "dartpy"), ("drake", "pydrake")])
+def test_without_its_host_an_example_says_so(host: str, library: str) -> None:
+    folder = EXAMPLES / "hosts"
+    lines = (
+        "import runpy, sys",
+        f"sys.modules[{library!r}] = None",
+        f"sys.path.insert(0, {str(folder)!r})",
+        f"runpy.run_path({str(folder / f'diabolo_in_{host}.py')!r}, run_name='__main__')",
+    )
+    done = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"diabolo_in_{host}.py: ") and done.stderr.count("\n") == 1
+    assert done.stderr.endswith(f"expected it from: pip install 'diabolo[{host}]'\n")
+
+
 def write_motion(told: dict[str, object]) -> None:
     """Of one second, with this JSON file beside it."""
     head = "time,left_x,left_y,left_z,right_x,right_y,right_z"

@@ -42,6 +42,17 @@ EXAMPLE = ROOT / "examples" / "mujoco" / "diabolo_in_mujoco.py"
 BENCHMARK = "benchmarks.speed.mujoco.compare"
 
 
+def without(library, program):
+    """The program, run where there is no such library."""
+    lines = (
+        "import runpy, sys",
+        f"sys.modules[{library!r}] = None",
+        f"sys.path.insert(0, {str(program.parent)!r}); sys.argv = [{str(program)!r}]",
+        f"runpy.run_path({str(program)!r}, run_name='__main__')",
+    )
+    return subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True)
+
+
 @pytest.fixture(scope="module")
 def example():
     spec = importlib.util.spec_from_file_location("diabolo_in_mujoco", EXAMPLE)
@@ -103,6 +114,14 @@ def test_what_an_example_cannot_do_is_told_in_a_sentence(tmp_path, program, argu
     assert done.returncode == 2, done.stderr
     assert done.stderr.startswith(f"{program}.py: {sentence}") and done.stderr.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("program", ["diabolo_in_mujoco", "capstan", "robot_cell", "what_mujoco_lacks"])
+def test_without_mujoco_an_example_says_so(program):
+    done = without("mujoco", EXAMPLE.with_name(f"{program}.py"))
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"{program}.py: ") and done.stderr.count("\n") == 1
+    assert done.stderr.endswith("expected it from: pip install 'diabolo[mujoco]'\n")
 
 
 def test_two_arms_are_drawn(tmp_path):
