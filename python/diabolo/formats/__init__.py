@@ -59,7 +59,6 @@ def load_recording(
         instance_of("calibration", calibration, Calibration)
     if not isinstance(up, str | None):
         raise ValueError(f"up: {shown(up)}; expected the name of an axis")
-    columns = _columns_of(columns)
     reader = reader_of(path)
     if reader in (None, *NAMED_IN_TEXT):
         _check_text(path)
@@ -154,15 +153,6 @@ def check_writer(path: str | os.PathLike[str]) -> None:
         _check_text(path)
     for library in WRITERS[path.suffix]:
         check_library(f"writing {path.name}", library, "rerun" if library == "rerun" else "formats")
-
-
-def _columns_of(given: object) -> str | dict[str, str] | None:
-    """As the core takes them; raises ValueError about anything else."""
-    if isinstance(given, str | None):
-        return given
-    if isinstance(given, Mapping) and all(isinstance(one, str) for one in (*given, *given.values())):
-        return dict(given)
-    raise ValueError(f"columns: {shown(given)}; expected a mapping of names, or left_x=lx[mm],...")
 
 
 def _check_text(path: Path) -> None:
