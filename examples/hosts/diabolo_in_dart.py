@@ -12,12 +12,18 @@ Or it plays what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simula
 from __future__ import annotations
 
 import itertools
+import sys
 
-import dartpy as dart
 import numpy as np
 from diabolo import AttachedString, Model, State, TipMotion
 from diabolo.hosts.mjcf import INERTIA
 from play_motion import main
+
+try:
+    import dartpy as dart
+except ModuleNotFoundError as error:
+    print(f"diabolo_in_dart.py: {error}; expected it from: pip install 'diabolo[dart]'", file=sys.stderr)
+    sys.exit(2)
 
 
 def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int) -> np.ndarray:

@@ -11,18 +11,25 @@ Or it plays what `diabolo motion` wrote, for `diabolo diagnose TAKE.csv --simula
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 from diabolo import AttachedString, Model, State, TipMotion
 from diabolo.hosts.mjcf import INERTIA
 from play_motion import main
-from pydrake.common.value import Value
-from pydrake.math import RigidTransform
-from pydrake.multibody.math import SpatialForce
-from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlant
-from pydrake.multibody.tree import RigidBody, RotationalInertia, SpatialInertia
-from pydrake.systems.analysis import Simulator
-from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
-from pydrake.systems.framework import State as SystemState
+
+try:
+    from pydrake.common.value import Value
+    from pydrake.math import RigidTransform
+    from pydrake.multibody.math import SpatialForce
+    from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlant
+    from pydrake.multibody.tree import RigidBody, RotationalInertia, SpatialInertia
+    from pydrake.systems.analysis import Simulator
+    from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
+    from pydrake.systems.framework import State as SystemState
+except ModuleNotFoundError as error:
+    print(f"diabolo_in_drake.py: {error}; expected it from: pip install 'diabolo[drake]'", file=sys.stderr)
+    sys.exit(2)
 
 
 class StringSystem(LeafSystem):

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from beside_the_predictor import compare, draw
-from diabolo import DiaboloProperties, Model, Parameters, Recording, State, TipMotion
+from diabolo import DiaboloProperties, Model, Parameters, Recording, RecordingError, State, TipMotion
 from diabolo.checks import check_drawing
 from diabolo.cli import Parser
 from diabolo.cli.arguments import output_name
@@ -27,7 +27,7 @@ DT = 1e-3
 def main(simulate: Simulate, host: str) -> None:
     parser = Parser(description=__doc__, allow_abbrev=False)
     parser.add_argument("motion", nargs="?", type=Path, help="what `diabolo motion` wrote; default: compare")
-    parser.add_argument("out", nargs="?", type=Path, help="the recording to write, for --simulated")
+    parser.add_argument("out", nargs="?", type=output_name, help="the recording to write, for --simulated")
     parser.add_argument("--picture", type=output_name, help="draw the comparison")
     arguments = parser.parse_args()
     if arguments.motion is None:
@@ -36,14 +36,10 @@ def main(simulate: Simulate, host: str) -> None:
         parser.error("--picture is of the comparison; expected no MOTION.csv")
     if arguments.out is None:
         parser.error("MOTION.csv without SIM.csv; expected both")
+    out = Path(arguments.out)
     try:
-        recording = played(simulate, arguments.motion)
-    except OSError as error:
-        parser.error(f"{error.filename}: {error.strerror}; expected what `diabolo motion` writes")
-    except (ValueError, KeyError, TypeError, IndexError) as error:
-        parser.error(f"{arguments.motion}: {error}; expected it and its .json from `diabolo motion`")
-    try:
-        recording.save(arguments.out)
+        check_outputs([out, out.with_suffix(".json")], [arguments.motion])
+        recorded(simulate, arguments.motion).save(out)
     except ValueError as error:
         parser.error(str(error))
 
@@ -60,17 +56,32 @@ def compared(simulate: Simulate, host: str, picture: str | None, parser: Parser)
         parser.error(str(error))
 
 
+def recorded(simulate: Simulate, motion: Path) -> Recording:
+    """What is played of a motion; raises ValueError with the file that is none."""
+    expected = "expected what `diabolo motion` writes"
+    try:
+        return played(simulate, motion)
+    except OSError as error:
+        raise ValueError(f"{error.filename}: {error.strerror}; {expected}") from error
+    except RecordingError as error:
+        raise ValueError(f"{error}; {expected}") from error
+    except (ValueError, KeyError, TypeError, IndexError) as error:
+        why = f"no field {error}" if isinstance(error, KeyError) else error
+        raise ValueError(f"{motion.with_suffix('.json')}: {why}; {expected}") from error
+
+
 def played(simulate: Simulate, motion: Path) -> Recording:
     """A string without friction or stretch in the host, from each start to the next."""
     told = json.loads(motion.with_suffix(".json").read_text(encoding="utf-8"))
-    tips, properties = load_tip_plan(motion), DiaboloProperties(**told["diabolo"])
+    tips, properties, starts = load_tip_plan(motion), DiaboloProperties(**told["diabolo"]), told["starts"]
     body = Parameters(
         mass=properties.mass, axle_radius=properties.axle_radius, string_length=told["string_length"]
     )
-    ends = [start["time"] for start in told["starts"][1:]] + [tips.end]
+    edges = [*(start["time"] for start in starts), tips.end]
+    if not starts or edges[0] < tips.begin or not (np.diff(edges) > 0.0).all():
+        raise ValueError(f"starts at {edges[:-1]} s; expected some, one after another, within the motion")
     pieces = [
-        piece(simulate, Model(body), start, tips, end)
-        for start, end in zip(told["starts"], ends, strict=True)
+        piece(simulate, Model(body), start, tips, end) for start, end in zip(starts, edges[1:], strict=True)
     ]
     time, places = (np.concatenate(part) for part in zip(*pieces, strict=True))
     left, right, *_ = tips.at(time)

@@ -26,7 +26,8 @@ from diabolo.hosts.mujoco import load_plugin
 try:
     import mujoco
 except ModuleNotFoundError as error:
-    sys.exit(f"capstan.py: {error}; expected it from: pip install 'diabolo[mujoco]'")
+    print(f"capstan.py: {error}; expected it from: pip install 'diabolo[mujoco]'", file=sys.stderr)
+    sys.exit(2)
 
 DT, SETTLES, SEEN = 1e-3, 0.2, 0.1  # step, and what is waited for and looked at [s]
 WEIGHT, GRAVITY = 0.2, 9.80665  # of the left one [kg], [m/s^2]

@@ -14,7 +14,6 @@ OSMesa (Debian: libosmesa6; MUJOCO_GL=osmesa). Where neither works the picture i
 
 from __future__ import annotations
 
-import argparse
 import ctypes.util
 import itertools
 import os
@@ -23,12 +22,21 @@ from pathlib import Path
 
 import numpy as np
 from diabolo import Model, Parameters, State, TipMotion, rollout
-from diabolo.files import whole_file
+from diabolo.checks import check_drawing
+from diabolo.cli import Parser
+from diabolo.cli.arguments import output_name
+from diabolo.files import check_outputs, whole_file
 from diabolo.hosts import mujoco as host
 
 if ctypes.util.find_library("EGL"):
     os.environ.setdefault("MUJOCO_GL", "egl")  # read when MuJoCo is imported
-import mujoco
+try:
+    import mujoco
+except ModuleNotFoundError as error:
+    print(
+        f"{Path(sys.argv[0]).name}: {error}; expected it from: pip install 'diabolo[mujoco]'", file=sys.stderr
+    )
+    sys.exit(2)
 
 START_SPIN = 60.0  # [rad/s]
 PLAY_UNTIL = 2.0  # the floor is out of reach until then [s]
@@ -133,14 +141,13 @@ def plot(path: np.ndarray, picture: Path) -> None:
         xlabel="left [m]", ylabel="up [m]", aspect="equal", title="Diabolo in MuJoCo, path of the centre"
     )
     axes.invert_xaxis()
-    figure.savefig(picture)
+    with whole_file(picture) as temporary:
+        figure.savefig(temporary, format="png")
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--picture", type=Path, default=Path("diabolo_in_mujoco.png"))
-    picture = parser.parse_args().picture
-
+def compared() -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray]:
+    """Plays by three steps and prints how far they are from the predictor; of the last one the model, its
+    last data, and the path of the centre."""
     fine = predicted(1e-4)
     print(f"{'dt [ms]':>8} {'to predictor, same dt [m]':>26} {'to predictor, 0.1 ms [m]':>25}")
     for dt in (4e-3, 2e-3, 1e-3):
@@ -154,11 +161,25 @@ def main() -> int:
     on_floor = record["contact"] & (record["tension"] == 0.0)
     print(f"On the floor with a slack string for {dt * on_floor.sum():.2f} s; ", end="")
     print(f"the string's tension is {record['tension'][-1]:.2f} N at the end.")
+    return model, data, record["position"]
+
+
+def main() -> int:
+    parser = Parser(description=__doc__.splitlines()[0], allow_abbrev=False)
+    parser.add_argument("--picture", metavar="FILE", type=output_name, default="diabolo_in_mujoco.png")
+    picture = Path(parser.parse_args().picture)
     try:
-        render(model, data, record["position"], picture, take_camera((0, 0, 0.75), 2.4, 150))
+        check_drawing(picture, "matplotlib", "PIL.Image")
+        check_outputs([picture], [])
+        model, data, path = compared()
+    except (ValueError, RuntimeError) as error:
+        print(f"diabolo_in_mujoco.py: {error}", file=sys.stderr)
+        return 2
+    try:
+        render(model, data, path, picture, take_camera((0, 0, 0.75), 2.4, 150))
     except Exception as error:  # whatever a graphics stack may raise
         print(f"Cannot render here ({error}); the picture is a plot.", file=sys.stderr)
-        plot(record["position"], picture)
+        plot(path, picture)
     print(f"Picture: {picture}")
     return 0
 

@@ -24,13 +24,9 @@ from diabolo.evaluation import DEFAULT_MODELS
 from diabolo.files import check_outputs
 from diabolo.hosts import mujoco as host
 from diabolo.robot import StickArm, joints_of
+from diabolo_in_mujoco import render, take_camera
 
-try:
-    from diabolo_in_mujoco import render, take_camera
-
-    import mujoco  # isort: skip (diabolo_in_mujoco says how it draws)
-except ModuleNotFoundError as error:
-    sys.exit(f"robot_cell.py: {error}; expected it from: pip install 'diabolo[mujoco]'")
+import mujoco  # isort: skip (diabolo_in_mujoco says how it draws, and what to do without)
 
 DT, DURATION, LAG = 1e-3, 4.0, 0.02  # step, play, and what the servos take about [s]
 SPIN = 60.0  # to begin with [rad/s]

@@ -13,14 +13,24 @@ law, what reality has and MuJoCo has not, and what MuJoCo has and should not hav
 from __future__ import annotations
 
 import argparse
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import diabolo
-import mujoco
 import numpy as np
+from diabolo.cli import Parser
+from diabolo.cli.arguments import output_name
+from diabolo.files import check_outputs, write_texts
 from diabolo.report import report_html
 from diabolo.view import replay_of
 from numpy.typing import NDArray
+
+try:
+    import mujoco
+except ModuleNotFoundError as error:
+    print(f"what_mujoco_lacks.py: {error}; expected it from: pip install 'diabolo[mujoco]'", file=sys.stderr)
+    sys.exit(2)
 
 DT = 1e-3  # [s]
 INERTIA = (5.6e-4, 6.6e-4, 6.6e-4)  # of the paper's red diabolo, about and across the axle [kg m^2]
@@ -66,14 +76,10 @@ class Tendon:
         return np.column_stack([np.interp(times, steps, column) for column in states.T])
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("recordings", nargs="+", help="of one diabolo and string")
-    parser.add_argument("--out", type=Path, help="the report, an HTML file")
-    arguments = parser.parse_args()
-    takes = [diabolo.load_recording(path) for path in arguments.recordings]
+def compared(paths: Sequence[str], report: Path | None) -> None:
+    """Prints what MuJoCo lacks beside these recordings, and writes the report."""
+    check_outputs([report], paths)
+    takes = [diabolo.load_recording(path) for path in paths]
     tendon = Tendon(takes[0].properties.mass, takes[0].string_length)
     comparison = diabolo.compare_simulator(takes, tendon)
     print(comparison.sentence)
@@ -81,12 +87,26 @@ def main() -> None:
     for ahead, alone, better in zip(fit.horizons_s, fit.base_error_m, fit.augmented_error_m, strict=True):
         if alone is not None and better is not None:
             print(f"  {ahead:4g} s ahead: {1e3 * alone:6.1f} mm -> {1e3 * better:6.1f} mm")
-    if arguments.out:
+    if report:
         base = diabolo.Model.named("consistent")
         replays = [replay_of(take, base, comparison.real.model) for take in takes]
-        report = report_html(comparison.real.to_dict(), comparison.to_dict(), replays)
-        arguments.out.write_text(report, encoding="utf-8")
+        write_texts({report: report_html(comparison.real.to_dict(), comparison.to_dict(), replays)})
+
+
+def main() -> int:
+    parser = Parser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False
+    )
+    parser.add_argument("recordings", nargs="+", help="of one diabolo and string")
+    parser.add_argument("--out", type=output_name, help="the report, an HTML file")
+    arguments = parser.parse_args()
+    try:
+        compared(arguments.recordings, Path(arguments.out) if arguments.out else None)
+    except (ValueError, OSError) as error:
+        print(f"what_mujoco_lacks.py: {error}", file=sys.stderr)
+        return 2
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

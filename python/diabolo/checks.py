@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from importlib import import_module
 from itertools import combinations
+from pathlib import Path
 from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 import numpy as np
@@ -143,18 +144,20 @@ def laws_of(name: str, given: Any) -> FormulaLaws:
     expected = "expected FormulaLaws, a list of laws, or the name of their file"
     try:
         is_file = isinstance(given, str | os.PathLike)
-        return loaded(name, given, FormulaLaws.load) if is_file else FormulaLaws(given)
+        return FormulaLaws.load(file_name(name, given)) if is_file else FormulaLaws(given)
     except (TypeError, RecursionError):
         raise ValueError(f"{name}: {shown(given)}; {expected}") from None
     except ValueError as error:
         raise ValueError(f"{name}: {str(error).removeprefix(f'{name}: ')}") from None
 
 
-def loaded(name: str, given: str | os.PathLike[str], load: Callable[[str | os.PathLike[str]], Kind]) -> Kind:
-    """What is in a file; raises ValueError where no name of one is given, but such as its content."""
-    if len(os.fspath(given)) > LONGEST_PATH:
-        raise ValueError(f"{name}: {shown(given)}; expected the name of a file")
-    return load(given)
+def file_name(name: str, given: Any) -> Path:
+    """The name of a file; else, such as about its content, raises ValueError."""
+    with suppress(TypeError):
+        text = os.fsdecode(given)
+        if "\0" not in text and len(text) <= LONGEST_PATH:
+            return Path(text)
+    raise ValueError(f"{name}: {shown(given)}; expected the name of a file")
 
 
 def check_drawing(path: str | os.PathLike[str], *libraries: str) -> None:
@@ -196,7 +199,7 @@ def _loader() -> Callable[[Any], Recording]:
 def recording_of(name: str, given: AnyRecording) -> Recording:
     """A recording, or what its file holds."""
     if isinstance(given, str | os.PathLike):
-        return loaded(name, given, _loader())
+        return _loader()(file_name(name, given))
     return instance_of(name, given, Recording)
 
 
@@ -208,7 +211,7 @@ def list_of(name: str, given: Any, kinds: tuple[type, ...] = (Recording,), *, le
 
     def one(place: str, item: Any) -> Any:
         if Recording in kinds and isinstance(item, str | os.PathLike):
-            return loaded(place, item, _loader())
+            return _loader()(file_name(place, item))
         if not isinstance(item, kinds):
             raise ValueError(f"{place}: {shown(item)}; expected {expected}")
         return item

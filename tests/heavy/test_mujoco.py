@@ -42,6 +42,17 @@ EXAMPLE = ROOT / "examples" / "mujoco" / "diabolo_in_mujoco.py"
 BENCHMARK = "benchmarks.speed.mujoco.compare"
 
 
+def without(library, program):
+    """The program, run where there is no such library."""
+    lines = (
+        "import runpy, sys",
+        f"sys.modules[{library!r}] = None",
+        f"sys.path.insert(0, {str(program.parent)!r}); sys.argv = [{str(program)!r}]",
+        f"runpy.run_path({str(program)!r}, run_name='__main__')",
+    )
+    return subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True)
+
+
 @pytest.fixture(scope="module")
 def example():
     spec = importlib.util.spec_from_file_location("diabolo_in_mujoco", EXAMPLE)
@@ -81,6 +92,36 @@ def test_example_runs_and_draws(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("program", "arguments", "sentence"),
+    [
+        ("diabolo_in_mujoco", ["--picture", "nowhere/a.png"], "nowhere/a.png: there is no folder"),
+        ("diabolo_in_mujoco", ["--picture", "."], ".: a directory; expected the name of a file to write"),
+        ("what_mujoco_lacks", ["none.csv"], "none.csv: there is no such file"),
+        ("what_mujoco_lacks", ["none.csv", "--out", "none.csv"], "none.csv: this file is read"),
+        ("robot_cell", ["--model", "none.json"], "model none.json: no such file"),
+    ],
+)
+def test_what_an_example_cannot_do_is_told_in_a_sentence(tmp_path, program, arguments, sentence):
+    done = subprocess.run(
+        [sys.executable, str(EXAMPLE.with_name(f"{program}.py")), *arguments],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+    )
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith(f"{program}.py: {sentence}") and done.stderr.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("program", ["diabolo_in_mujoco", "capstan", "robot_cell", "what_mujoco_lacks"])
+def test_without_mujoco_an_example_says_so(program):
+    done = without("mujoco", EXAMPLE.with_name(f"{program}.py"))
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"{program}.py: ") and done.stderr.count("\n") == 1
+    assert done.stderr.endswith("expected it from: pip install 'diabolo[mujoco]'\n")
 
 
 def test_two_arms_are_drawn(tmp_path):

@@ -81,6 +81,11 @@ def meter() -> Iterator[object]:
         peer.destroy_node()
 
 
+def meet(peer: object) -> None:
+    """Wait for the node: a player waits for whom it plays to, and not for who hears the poses."""
+    wait_for(lambda: peer.count_publishers("diabolo/pose") > 0, lambda: time.sleep(0.02))
+
+
 def hear(peer: object, stamp: int = 1) -> None:
     """Wait for a pose of this stamp [ns] or a later one."""
     from session import executor_of
@@ -132,19 +137,18 @@ def test_at_500_hz_nothing_is_lost_and_the_poses_are_the_predictor_s() -> None:
 
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_amidst_play_ends_it_cleanly(by: int, tmp_path: Path) -> None:
-    with (
-        node(tmp_path / "log") as process,
-        running("play.py", SWING, "--rate", RATE) as player,
-        meter() as peer,
-    ):
-        hear(peer)
-        assert player.poll() is None
-        assert end(process, by) == 0
+    with node(tmp_path / "log") as process, meter() as peer:
+        meet(peer)
+        with running("play.py", SWING, "--rate", RATE) as player:
+            hear(peer)
+            assert player.poll() is None
+            assert end(process, by) == 0
     assert (tmp_path / "log").read_text() == ""
 
 
 def test_a_killed_peer_is_survived(tmp_path: Path) -> None:
     with node(tmp_path / "log") as process, meter() as peer:
+        meet(peer)
         with running("play.py", SWING) as killed:
             hear(peer)
             assert killed.poll() is None

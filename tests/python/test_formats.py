@@ -16,7 +16,7 @@ from diabolo.cli import main
 from diabolo.cli.diagnose import input_file
 from diabolo.formats import qualisys, vicon
 from diabolo.formats.bodies import Body, at_common_times
-from diabolo.formats.c3d import quaternions
+from diabolo.formats.rotations import quaternions
 from diabolo.robot import StickArm
 from numpy.typing import NDArray
 
@@ -325,6 +325,10 @@ def test_the_commands_take_them(swing: Recording, tmp_path: Path, capsys: pytest
     assert "bag" in capsys.readouterr().out
     assert main(["convert", str(bag), str(tidy)]) == 0
     same(load_recording(SWING), load_recording(tidy))
+    assert main(["convert", f"{bag}:40-420", str(tidy)]) == 0
+    same(swing, load_recording(tidy))
+    assert main(["convert", f"{tidy}:0-9", str(tidy)]) == 2
+    assert "take.csv: this file is read; choose another name" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -342,6 +346,11 @@ def test_the_commands_take_them(swing: Recording, tmp_path: Path, capsys: pytest
         ("take.csv", b"Objects\nfast\na\nRX\nrad\n1\n", "line 2: found 'fast'; expected the rate"),
         ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad\n1,0,0,0,0\n", "3 cells'; expected 5 units"),
         ("take.csv", b"Objects\n100\n,,a\nF,S,RX,RY,RZ\n,,rad,,\n1,0,0,0,0\n", "expected a column TX of a"),
+        (
+            "take.csv",
+            b"Objects\n100\n,,\nF,S,RX\n,,rad\n1,0,0\n",
+            "line 3: found ',,'; expected the name of a",
+        ),
     ],
 )
 def test_a_broken_file_ends_in_one_sentence(
@@ -365,6 +374,11 @@ def test_a_broken_file_ends_in_one_sentence(
         (lambda _: load_recording(SWING, topics="left"), "topics 'left'; expected left=NAME,right=NAME"),
         (lambda _: load_recording(SWING, topics={"middle": "a"}), "topics: found 'middle'; expected left"),
         (lambda _: load_recording(SWING, topics={"left": 5}), "topics: left: 5; expected a name"),
+        (lambda _: load_recording(5), "path: 5; expected the name of a file"),  # type: ignore[arg-type]
+        (lambda _: load_recording("a\0.mcap"), r"path: 'a\\x00.mcap'; expected the name of a file"),
+        (lambda _: load_recording("a" * 5000), "path: 'aaa.*; expected the name of a file"),
+        (lambda _: save_recording(load_recording(SWING), None), "path: None; expected the name of a file"),
+        (lambda _: save_recording(load_recording(SWING), "a\0.csv"), "path: .*; expected the name of a file"),
         (lambda _: load_recording(SWING, up=5), "up: 5; expected the name of an axis"),
         (lambda _: load_recording(SWING, calibration=5), "calibration: 5; expected a Calibration"),
         (
@@ -457,6 +471,31 @@ def test_a_name_in_bytes_that_are_no_text_is_read(swing: Recording, tmp_path: Pa
     assert again.name == "b\ufffd"
 
 
+@pytest.mark.parametrize("arguments", [["info", "a\0.csv"], ["convert", "a.csv", "b\0.csv"]])
+def test_a_name_that_no_file_can_have_is_told(
+    capsys: pytest.CaptureFixture[str], arguments: list[str]
+) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(arguments)
+    error = capsys.readouterr().err
+    assert "\\x00.csv': a zero byte in it; expected text" in error and error.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", [b"pl\xe9.csv", b"pl\xe9.parquet", b"pl\xe9.c3d", b"none\xe9.mcap"])
+def test_other_names_in_bytes_that_are_no_text_are_refused(
+    swing: Recording, tmp_path: Path, name: bytes
+) -> None:
+    path = os.fsencode(tmp_path) + b"/" + name
+    if name.startswith(b"pl"):
+        with open(path, "wb") as file:
+            file.write(b"time\n")
+    with pytest.raises(RecordingError, match=r"\\udce9.*not UTF-8; expected a name that is"):
+        load_recording(path)
+    if name.endswith((b".csv", b".parquet")):
+        with pytest.raises(RecordingError, match=r"\\udce9.*not UTF-8; expected a name that is"):
+            save_recording(swing, path)
+
+
 def test_what_is_read_is_not_written_over(swing: Recording, tmp_path: Path) -> None:
     bag = tmp_path / "bag"
     write_bag(bag, swing, TOPICS, {})
@@ -465,6 +504,17 @@ def test_what_is_read_is_not_written_over(swing: Recording, tmp_path: Path) -> N
     assert main(["convert", str(bag), str(bag / "take.mcap"), "--topics", GIVEN]) == 2
     assert kept.read_bytes() == before and not (bag / "take.mcap").exists()
     assert len(input_file(bag).sha256) == 64
+
+
+def test_a_table_without_numbers_says_so(tmp_path: Path) -> None:
+    import pyarrow
+    import pyarrow.parquet
+
+    pyarrow.parquet.write_table(
+        pyarrow.table({"time": ["0.0"], "left_x": ["1.0"]}), tmp_path / "take.parquet"
+    )
+    with pytest.raises(RecordingError, match=r"take\.parquet: no column of numbers; it has 'time', 'left_x'"):
+        load_recording(tmp_path / "take.parquet")
 
 
 def test_points_stay_points(swing: Recording, tmp_path: Path) -> None:
@@ -508,6 +558,19 @@ def test_messages_of_all_kinds_are_read(tmp_path: Path) -> None:
         assert name == ("top" if kind.split("/")[-1] in ("TransformStamped", "TFMessage") else "topic")
         assert head.frame_id == "world"
         assert numbers == ((1.0, 2.0, 3.0) if "Point" in kind else (1.0, 2.0, 3.0, 0.0, 0.6, 0.0, 0.8))
+
+
+def test_metadata_that_lack_what_they_promise_say_so(tmp_path: Path) -> None:
+    from diabolo.formats.bag import SCHEMA, setup_of
+    from mcap.writer import Writer
+
+    with open(tmp_path / "take.mcap", "wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.add_metadata(SCHEMA, {})
+        writer.finish()
+    with pytest.raises(RecordingError, match=r"cannot be read as a bag with metadata of .* \(no 'setup'\)"):
+        setup_of(tmp_path / "take.mcap")
 
 
 def test_a_bag_without_poses_says_so(tmp_path: Path) -> None:
@@ -602,6 +665,8 @@ def test_sections_of_vicon_stand_in_one_file(tmp_path: Path) -> None:
         (",,cm,cm,cm", ",,N,N,N", "line 28: found 'N'; expected mm or cm or m below X of Play:right"),
         ("Trajectories\n200", "Trajectories\n", "line 25: found ''; expected the rate"),
         ("2,0,0,0,0,200", "2,0,inf,0,0,0", "line 14, cell 3: found 'inf'; expected a number within 1e\\+12"),
+        ("2,0,0,0,0,200", "2,0,1_0,0,0,0", "line 14, cell 3: found '1_0'; expected a number within 1e\\+12"),
+        ("2,0,0,0,0,200", "2,0,٣,0,0,0", "line 14, cell 3: found '٣'; expected a number within 1e\\+12"),
         ("\n2,0,,,", "\n1e12,0,,,", "row 2: time 5e\\+09 s; expected one within 1e\\+09 s"),
         ("3,0,10,20", "1,0,10,20", "right: stamp 5000000 ns does not come after the one before"),
         ("Model Outputs\n100", "Model Outputs\n0", "0 frames per second; expected 0.001 to 1e6"),

@@ -126,6 +126,8 @@ def test_the_plugin_s_loader_says_what_it_lacks(monkeypatch: pytest.MonkeyPatch,
     for source in ("nope.cpp", Path("nope.cpp")):
         with pytest.raises(RuntimeError, match=r"^nope\.cpp: there is no such file; expected the source"):
             host.build_plugin(source)
+    with pytest.raises(ValueError, match="source: 5; expected the name of a file"):
+        host.build_plugin(5)
 
 
 def test_scenes_are_refused_that_cannot_be() -> None:

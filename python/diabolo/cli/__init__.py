@@ -115,6 +115,8 @@ def _run(arguments: Sequence[str]) -> int:
     for given in arguments:
         if given != given.encode(errors="replace").decode():
             parser.error(f"{given!r}: not UTF-8; rename the file to pass it here")
+        if "\0" in given:
+            parser.error(f"{given!r}: a zero byte in it; expected text, which has none")
     options = arguments[: arguments.index("--")] if "--" in arguments else arguments
     for given in options:
         if re.fullmatch(r"--[^=]+=--", given):

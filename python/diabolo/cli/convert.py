@@ -22,8 +22,10 @@ from .arguments import (
     arms_of,
     check_not_given,
     output_name,
+    read_excerpt,
     read_model,
     reading_of,
+    split_excerpt,
 )
 
 CELLS = (".urdf", ".xml", ".sdf")
@@ -55,7 +57,11 @@ def add_parser(commands: Any) -> None:
         "  diabolo convert take.csv take.mcap\n"
         "  diabolo convert out/model.json cell.sdf",
     )
-    parser.add_argument("recording", metavar="RECORDING|MODEL", help="what to read")
+    parser.add_argument(
+        "recording",
+        metavar="RECORDING|MODEL",
+        help="what to read; NAME.csv:0-180 takes the rows 0 to 180 of a recording only",
+    )
     parser.add_argument("out", metavar="OUT", type=output_name, help="what to write")
     add_calibration(parser)
     parser.add_argument(
@@ -81,12 +87,14 @@ Done = tuple[dict[str, Any], str]
 
 
 def _convert_recording(arguments: argparse.Namespace, target: Path) -> Done:
-    inputs = [arguments.recording] + ([arguments.calibration] if arguments.calibration else [])
+    inputs = [split_excerpt(arguments.recording)[0]]
+    inputs += [arguments.calibration] if arguments.calibration else []
     beside = target.with_suffix(".json") if target.suffix in WITH_JSON else None
     files.check_outputs([target, beside, arguments.json], inputs)
     check_writer(target)
     check_is_recording(Path(arguments.recording))
-    recording = reading_of(arguments).load(arguments.recording)
+    excerpt = read_excerpt(arguments.recording, reading_of(arguments))
+    recording = excerpt.recording.cut(excerpt.first, excerpt.last)
     warn_of([recording])
     save_recording(recording, target)
     dropouts = int(np.count_nonzero(~recording.diabolo_valid))

@@ -16,7 +16,7 @@ from pathlib import Path
 from .. import _core
 from .._core import Calibration, Recording, RecordingError, StickArm
 from ..arms import two_arms
-from ..checks import check_library, instance_of, shown
+from ..checks import check_library, file_name, instance_of, shown
 from . import bodies, qualisys, vicon
 from .bodies import ROLES, Body
 
@@ -54,12 +54,14 @@ def load_recording(
     Raises RecordingError with the file, what was found and what was expected, and ValueError where a library
     is not installed.
     """
-    path, names, used = Path(os.fsdecode(path)), topics_of(topics), two_arms(arms)
+    path, names, used = file_name("path", path), topics_of(topics), two_arms(arms)
     if calibration is not None:
         instance_of("calibration", calibration, Calibration)
     if not isinstance(up, str | None):
         raise ValueError(f"up: {shown(up)}; expected the name of an axis")
     reader = reader_of(path)
+    if reader in (None, *NAMED_IN_TEXT):
+        _check_text(path)
     if names and reader in (None, "parquet"):
         raise RecordingError(f"{path}: topics are given; expected them of bags, C3D, Vicon or Qualisys only")
     if arms is not None and reader != "bag":
@@ -118,7 +120,7 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
         RecordingError: another suffix.
         ValueError: a library is not installed.
     """
-    path = Path(os.fsdecode(path))
+    path = file_name("path", path)
     instance_of("recording", recording, Recording)
     check_writer(path)
     if path.suffix == ".csv":
@@ -144,11 +146,21 @@ def check_writer(path: str | os.PathLike[str]) -> None:
         RecordingError: its suffix is none of WRITTEN.
         ValueError: a library is not installed.
     """
-    path = Path(os.fsdecode(path))
+    path = file_name("path", path)
     if path.suffix not in WRITERS:
         raise RecordingError(f"{path}: expected a name that ends in {', '.join(WRITTEN)}")
+    if path.suffix in WITH_JSON:
+        _check_text(path)
     for library in WRITERS[path.suffix]:
         check_library(f"writing {path.name}", library, "rerun" if library == "rerun" else "formats")
+
+
+def _check_text(path: Path) -> None:
+    """Raise RecordingError about a name in bytes that are no text."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        raise RecordingError(f"{str(path)!r}: not UTF-8; expected a name that is") from None
 
 
 def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:
@@ -174,6 +186,8 @@ def topics_of(given: str | Mapping[str, str] | None) -> dict[str, str]:
     return dict(given)
 
 
+NAMED_IN_TEXT = ("c3d", "parquet")
+"""Readers whose libraries take no file with a name in other bytes; nor does the core."""
 LIBRARIES = {"bag": "rosbags", "c3d": "ezc3d", "parquet": "pyarrow"}
 READERS = {".mcap": "bag", ".db3": "bag", ".bag": "bag", ".c3d": "c3d", ".parquet": "parquet"}
 

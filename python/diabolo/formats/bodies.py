@@ -44,7 +44,8 @@ class Body:
 
 def unreadable(path: Path, kind: str, error: Exception) -> RecordingError:
     """What a library said of a file that it cannot read, in one sentence."""
-    why = " ".join(str(error).split())[:200] or type(error).__name__
+    said = f"no {error}" if isinstance(error, KeyError) else str(error)
+    why = " ".join(said.split())[:200] or type(error).__name__
     return RecordingError(f"{path}: cannot be read as {kind} ({why})")
 
 

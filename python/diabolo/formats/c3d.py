@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from .._core import RecordingError
 from ..checks import shown
 from .bodies import METRES, Body, check_rate, even_stamps, seen_points, unreadable
+from .rotations import quaternions
 
 LONGEST_READ = 60.0  # [s]
 
@@ -100,25 +101,6 @@ def keep_contents(path: str, kept: str) -> None:
         rotation_labels=np.array(labels, str),
         rotation_rate=rate,
     )
-
-
-def quaternions(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Unit quaternions x, y, z, w, shape (n, 4), of matrices, body to world, shape (n, 3, 3); NaN where one
-    is no rotation."""
-    off = np.abs(np.einsum("nij,nkj->nik", matrices, matrices) - np.eye(3)).max(axis=(1, 2))
-    turns = (off < 1e-3) & (np.linalg.det(np.nan_to_num(matrices)) > 0.0)
-    m = np.where(turns[:, None, None], matrices, np.nan)
-    back = np.swapaxes(m, 1, 2) - m
-    trace = np.trace(m, axis1=1, axis2=2)
-    # Four times the outer product of (x, y, z, w) with itself: its longest row is the most exact.
-    product = np.empty((len(m), 4, 4))
-    product[:, :3, :3] = m + np.swapaxes(m, 1, 2) + (1.0 - trace)[:, None, None] * np.eye(3)
-    product[:, :3, 3] = product[:, 3, :3] = back[:, (1, 2, 0), (2, 0, 1)]
-    product[:, 3, 3] = 1.0 + trace
-    longest = np.argmax(np.nan_to_num(np.linalg.norm(product, axis=2)), axis=1)
-    rows = product[np.arange(len(m)), longest]
-    result: NDArray[np.float64] = rows / np.linalg.norm(rows, axis=1, keepdims=True)
-    return result
 
 
 def _rotations(file: Any, rate: float) -> tuple[NDArray[np.float64], list[str], float]:

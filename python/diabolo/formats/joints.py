@@ -12,7 +12,7 @@ from .._core import RecordingError, StickArm
 from ..arms import JOINTS, LARGEST_ANGLE, SIDES, stick_frame
 from ..checks import shown
 from .bodies import Floats
-from .c3d import quaternions
+from .rotations import quaternions
 
 Angles = tuple[float, ...]
 

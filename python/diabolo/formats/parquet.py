@@ -28,6 +28,10 @@ def csv_of(path: Path) -> str:
             )
         table = pyarrow.parquet.read_table(path)
         table = table.select([one.name for one in table.schema if _is_number(one)])
+        if not table.column_names:
+            raise RecordingError(
+                f"{path}: no column of numbers; it has {', '.join(map(shown, names[:12])) or 'none'}"
+            )
         for at, column in enumerate(table.columns):
             if pyarrow.types.is_floating(column.type):
                 empty = pyarrow.scalar(None, column.type)

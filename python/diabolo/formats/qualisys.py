@@ -10,7 +10,7 @@ import numpy as np
 
 from .._core import RecordingError
 from .bodies import Body, check_rate, even_stamps, stamps_at
-from .c3d import quaternions
+from .rotations import quaternions
 from .text import numbers, whole_lines
 
 

@@ -43,8 +43,9 @@ def numbers(path: Path, rows: Sequence[str], first: int, mark: str, size: int) -
 
 
 def _number(path: Path, line: int, at: int, text: str) -> float:
+    plain = text.isascii() and "_" not in text  # as Python's own numbers need not be
     try:
-        found = float(text) if text else np.nan
+        found = float(text if plain else "inf") if text else np.nan
     except ValueError:
         found = np.inf
     if abs(found) > LARGEST:

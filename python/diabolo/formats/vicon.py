@@ -13,6 +13,7 @@ import numpy as np
 from .._core import RecordingError
 from ..checks import shown
 from .bodies import METRES, Body, Floats, check_rate, even_stamps, seen_points, stamps_at
+from .rotations import of_vectors
 from .text import numbers, whole_lines
 
 BODIES, POINTS, OTHERS = ("Objects", "Segments"), ("Trajectories", "Model Outputs"), ("Devices", "Joints")
@@ -71,6 +72,8 @@ class Section:
         if columns[0] == "Frame" and np.isfinite(table[:, 0]).all():
             stamps = stamps_at(self.path, table[:, 0] / rate)
         starts = [at for at, name in enumerate(names) if name]
+        if not starts:
+            self.fail(3, ",".join(names), "the name of a body or point above its columns")
         for at, end in zip(starts, [*starts[1:], len(columns)], strict=True):
             group = Group(self, names[at], columns[at:end], units[at:end], table[:, at:end])
             if self.title in BODIES:
@@ -117,7 +120,7 @@ class Group:
             turned = turns = self._numbers("RX", "RY", "RZ", "RW")
         else:
             turned = self._numbers("RX", "RY", "RZ")
-            turns = _of_vectors(turned * self._scale("RX", RADIANS))
+            turns = of_vectors(turned * self._scale("RX", RADIANS))
         nothing = (places == 0.0).all(axis=1) & (turned == 0.0).all(axis=1)
         gone = (nothing | ~np.isfinite(places).all(axis=1))[:, None]
         return np.where(gone, np.nan, places), np.where(gone, np.nan, turns)
@@ -138,10 +141,3 @@ class Group:
         if unit not in units:
             self.section.fail(5, unit, f"{' or '.join(units)} below {column} of {self.name}")
         return units[unit]
-
-
-def _of_vectors(vectors: Floats) -> Floats:
-    """Quaternions of rotation vectors [rad]."""
-    angle = np.linalg.norm(vectors, axis=1, keepdims=True)
-    half = np.sinc(angle / (2.0 * np.pi)) / 2.0  # sin(angle / 2) / angle
-    return np.concatenate([vectors * half, np.cos(angle / 2.0)], axis=1)

@@ -26,6 +26,7 @@ import tempfile
 from pathlib import Path
 
 from .. import get_include
+from ..checks import file_name
 from .mjcf import INERTIA, SENSED, cell, scene
 
 SOURCE = Path(__file__).with_name("string_plugin.cpp")
@@ -54,7 +55,7 @@ def load_plugin() -> Path:
 
 def build_plugin(source: str | os.PathLike[str] = SOURCE) -> Path:
     """Compiles the plugin, or another of `source`, unless it has been; see `load_plugin`."""
-    source = Path(source)
+    source = file_name("source", source)
     if not source.is_file():
         raise RuntimeError(f"{source}: there is no such file; expected the source of a plugin")
     spec = importlib.util.find_spec("mujoco")
