@@ -393,6 +393,15 @@ def test_a_step_of_no_length_and_a_tip_nowhere_are_told():
         mujoco.mj_step(model, data)
 
 
+@pytest.mark.parametrize("state", [7.0, 0.5, np.nan])
+def test_a_string_state_that_is_none_is_told(state):
+    model, data = loaded(host.scene())
+    mujoco.mj_step(model, data)
+    data.plugin_state[6] = state
+    with pytest.raises(mujoco.FatalError, match=r"plugin_state: a string state of .*; expected 0, 1 or 2"):
+        mujoco.mj_step(model, data)
+
+
 def test_a_cell_that_is_ready_rests():
     host.load_plugin()
     model = mujoco.MjModel.from_xml_string(host.cell())

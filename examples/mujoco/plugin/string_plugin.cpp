@@ -193,6 +193,8 @@ class StringOnBody {
     body.axle_rate = body.axle.dot(Seen(moves));
 
     const bool first = stored.begun == 0.0;
+    if (const double said = stored.now.string_state; !first && said != 0.0 && said != 1.0 && said != 2.0)
+      mju_error("diabolo.string, plugin_state: a string state of %g; expected 0, 1 or 2", said);
     Memory next = stored.now;
     diabolo::TipStep tips[2];
     for (int k = 0; k < 2; ++k) {
