@@ -249,8 +249,9 @@ def _axle(fit: dict[str, Any]) -> list[list[str]]:
 
 def _axle_title(fit: dict[str, Any]) -> str:
     """What the axle's direction was compared on."""
-    held_out = {"recordings": "on whole recordings", "blocks": "on stretches"}.get(fit.get("axle_heldout") or "")
-    return f"The axle's direction, {held_out or 'on data'} that the fit did not see"
+    places = {"recordings": "on whole recordings", "blocks": "on stretches"}
+    held_out = places.get(fit.get("axle_heldout") or "", "on data")
+    return f"The axle's direction, {held_out} that the fit did not see"
 
 
 SPIN_ERRORS = (
