@@ -93,7 +93,7 @@ py::tuple diagnose(const std::vector<Recording>& recordings, const Model& base,
                         draws > 0 ? Posterior(result).draw(draws, seed) : std::vector<Model>());
 }
 
-/// `rows`, shape (N, 3) or (N, 7), positions [m] or states; NaN where the spin is not known.
+/// `rows`, shape (N, 3) or (N, 7), positions [m] or states; NaN where the spin is not known, and of the axle.
 AnyState to_states(const Array& rows) {
   const bool whole = rows.ndim() == 2 && rows.shape(1) == 7;
   if (!whole) expect_shape(rows, "simulate", {kAny, 3});
@@ -104,6 +104,7 @@ AnyState to_states(const Array& rows) {
     state.position = {numbers[0], numbers[1], numbers[2]};
     if (whole) state.velocity = {numbers[3], numbers[4], numbers[5]};
     state.spin = whole ? numbers[6] : kNaN;
+    state.axis.setConstant(kNaN);
   }
   return states;
 }
@@ -140,6 +141,7 @@ py::tuple compare(const std::vector<Recording>& recordings, std::vector<Recordin
     takes = takes_to_play(real, holdout);
     played = play(takes, simulate_by(simulate));
     simulated = played_takes(takes, played);
+    options.axle = knows_axle(played);
   }
   options.holdout.clear();
   SimulatorComparison result;

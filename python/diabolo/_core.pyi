@@ -1523,17 +1523,23 @@ class HeldOutErrors:
   def axle_ahead_s(self) -> float | None:
     """How long after the axle was seen its direction is compared, a mean; null where it was not seen."""
   @property
+  def axle_heldout(self) -> str | None:
+    """recordings, or blocks of one, on which the axle is compared; null where it was not seen."""
+  @property
   def axle_improvement_ci95_rad(self) -> Interval | None:
     """95 % interval of base less augmented."""
   @property
   def base_axle_error_rad(self) -> float | None:
-    """Mean angle that the base is off then."""
+    """The same of the base."""
   @property
   def base_error_m(self) -> list[float | None]:
     """Mean position error of the base."""
   @property
   def base_spin_error_radps(self) -> list[float | None]:
     """Mean spin error of the base; null where no spin was seen."""
+  @property
+  def constant_axle_error_rad(self) -> float | None:
+    """Mean angle that an axle which keeps its direction is off then."""
   @property
   def fitted_windows(self) -> int:
     """Windows that were fitted."""
@@ -1823,6 +1829,9 @@ class ComparedLaw:
   def __eq__(self, other: typing.Any) -> bool: ...
   def to_dict(self) -> dict:
     """The same as its file has it."""
+  @property
+  def axle_1s_rad(self) -> float | None:
+    """How far the difference turns the axle in 1 s; null where it does not act so."""
   @property
   def difference(self) -> list[Estimate]:
     """Real less simulated: what the simulator has to get."""

@@ -199,6 +199,7 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
             "rows": [],
             "spin": [],
             "axle": _axle(fit),
+            "axle_title": _axle_title(fit),
         }
     horizon, base, augmented, interval, start = rows[-1]
     held_out = {
@@ -227,6 +228,7 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         "rows": _error_table(rows, _millimetres),
         "spin": _error_table(_held_out(fit, SPIN_ERRORS), _radians_per_second),
         "axle": _axle(fit),
+        "axle_title": _axle_title(fit),
         "tile": tile,
         "tile_label": tile_label,
         "figure": figures.error_figure(rows),
@@ -234,14 +236,22 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
 
 
 def _axle(fit: dict[str, Any]) -> list[list[str]]:
-    """Of the axle's direction: a row as of an error table, less the noise of starts."""
+    """Of the axle's direction: a row of a table."""
     ahead, base, augmented = (
         fit.get(name) for name in ("axle_ahead_s", "base_axle_error_rad", "augmented_axle_error_rad")
     )
     if not (isinstance(base, int | float) and isinstance(augmented, int | float)):
         return []
     gain = quantity(base - augmented, "rad", fit.get("axle_improvement_ci95_rad"))
-    return [[quantity(ahead, "s"), quantity(base, "rad"), quantity(augmented, "rad"), gain]]
+    constant = quantity(fit.get("constant_axle_error_rad"), "rad")
+    return [[quantity(ahead, "s"), constant, quantity(base, "rad"), quantity(augmented, "rad"), gain]]
+
+
+def _axle_title(fit: dict[str, Any]) -> str:
+    """What the axle's direction was compared on."""
+    places = {"recordings": "on whole recordings", "blocks": "on stretches"}
+    held_out = places.get(fit.get("axle_heldout") or "", "on data")
+    return f"The axle's direction, {held_out} that the fit did not see"
 
 
 SPIN_ERRORS = (
@@ -384,7 +394,7 @@ def _simulator(comparison: dict[str, Any]) -> dict[str, Any]:
             numbers(law, "real"),
             numbers(law, "simulated"),
             [] if law["verdict"] in ("agrees", "cannot_tell") else numbers(law, "difference"),
-            quantity(law.get("size_m"), "m") if law.get("size_m") is not None else "-",
+            _sizes(law) or ["-"],
         ]
         for law in _rows(comparison, "laws")
     ]

@@ -17,14 +17,18 @@ constexpr double kGain = 3.8, kRadiusShare = 0.05;
 
 /// What the recorded axles of plays say, where place and spin are explained.
 AxleAnswer answer_on(const std::vector<Recording>& recordings, const std::vector<std::string>& names = {},
-                     Model model = {}) {
+                     Model model = {}, const std::vector<Recording>& holdout = {}) {
   model.effects.get<StringFriction>().coefficient = 0.2;
   Fit fit = diagnose_detail::prepared(recordings, model);
   // What a diagnosis would find; sizes along the axle count in its radius.
   fit.at[index_of(Unknown::kAxleRadius)] = Recording{}.properties.axle_radius + 7e-4;
-  approach<diagnose_detail::CompiledDual<0>>(fit, model, ActiveSet::Constant(false), 3, 2);
+  using D = diagnose_detail::CompiledDual<0>;
+  approach<D>(fit, model, ActiveSet::Constant(false), 3, 2);
+  const Fit held = fit_starts<D>(holdout, fit, model, 2, {});
   model = augmented_model(model, fit.at, "found");
-  return diagnose_detail::AxleInquiry(fit, model, axle_bank(names), kRadiusShare, 2, {}).answer(1);
+  return diagnose_detail::AxleInquiry(AxleStretches(fit), AxleStretches(held), model, axle_bank(names),
+                                      kRadiusShare, 2, {})
+      .answer(1);
 }
 
 Recording rubbing(AllEffects<double> effects, double seconds = 14.0, std::uint64_t seed = 4) {
@@ -121,6 +125,49 @@ TEST_CASE("what the base says of the axle is not asked again") {
   CHECK(answer.ahead->base_error < 0.5 * kDegree);
 }
 
+TEST_CASE("a base that turns its axle too much is told so, and too little as well") {
+  for (const double own : {2.0 * kGain, 0.1 * kGain}) {
+    Model base;
+    base.effects.get<GyroscopicTilt>().gain = own;
+    base.effects.get<FiniteAxle>().follows_axis = 1.0;
+    const AxleAnswer answer = answer_on({rubbing(turning(kGain))}, {}, base);
+    CAPTURE(own);
+    check_size(finding(answer, "gyroscopic_tilt"), kGain - own);
+    CHECK(finding(answer, "gyroscopic_tilt").claimed);
+    CHECK(answer.helps);
+    CHECK(answer.at[index_of(Unknown::kGyroscopicGain)] == Approx(kGain - own).epsilon(0.015));
+    CHECK_FALSE(answer.ahead->lets_strands_follow);
+  }
+}
+
+TEST_CASE("a base whose axle turns though that of reality does not loses its gain") {
+  Model base;
+  base.effects.get<GyroscopicTilt>().gain = kGain;
+  const AxleAnswer answer = answer_on({rubbing(turning(0.0))}, {}, base);
+  CHECK(finding(answer, "gyroscopic_tilt").claimed);
+  const double left = kGain + answer.at[index_of(Unknown::kGyroscopicGain)];
+  CHECK(left >= 0.0);
+  CHECK(left == Approx(0.0).margin(0.1));
+}
+
+TEST_CASE("strands that ignore the axle that a base turns are judged so, and follow it in what is found") {
+  const Recording recording = rubbing(turning(kGain));
+  for (const double follows : {0.0, 1.0})
+    for (const double own : {kGain, 2.0 * kGain}) {
+      Model base;
+      base.effects.get<GyroscopicTilt>().gain = own;
+      base.effects.get<FiniteAxle>().follows_axis = follows;
+      const AxleAnswer answer = answer_on({recording}, {}, base);
+      CAPTURE(follows, own);
+      REQUIRE(answer.ahead);
+      CHECK(answer.helps == (own > kGain));
+      CHECK(answer.ahead->lets_strands_follow == (answer.helps && follows == 0.0));
+      // Without a law of its own, what is found differs from the base by the strands alone.
+      if (own == kGain)
+        CHECK((answer.ahead->base_error == answer.ahead->augmented_error) == (follows == 1.0));
+    }
+}
+
 TEST_CASE("a base that turns its axle is asked for what it lacks") {
   Model base;
   base.effects.get<GyroscopicTilt>().gain = kGain;
@@ -155,6 +202,33 @@ TEST_CASE("several recordings judge each other, and one without an axle is no ob
     REQUIRE(answer.ahead);
     CHECK(answer.ahead->augmented_error < 0.5 * kDegree);
   }
+}
+
+TEST_CASE("recordings that are held out judge, where they show their axle") {
+  const AllEffects<double> effects = turning(kGain, 0.006);
+  const Recording fitted = rubbing(effects);
+  Recording other = rubbing(effects, 12.0, 5), still = rubbing(turning(0.0), 12.0, 5);
+  const AxleAnswer alone = answer_on({fitted}), good = answer_on({fitted}, {}, {}, {other}),
+                   bad = answer_on({fitted}, {}, {}, {still});
+  other.diabolo_orientation = {};
+  const AxleAnswer blind = answer_on({fitted}, {}, {}, {other});
+  REQUIRE(alone.ahead);
+  CHECK_FALSE(alone.ahead->whole_recordings);
+  REQUIRE(good.ahead);
+  CHECK(good.ahead->whole_recordings);
+  CHECK(finding(good, "gyroscopic_tilt").claimed);
+  CHECK(good.ahead->augmented_error < 0.5 * kDegree);
+  CHECK(good.ahead->base_error == good.ahead->constant_error);
+  CHECK(good.ahead->base_error != alone.ahead->base_error);
+  // What is fitted is the same: only the judges differ.
+  CHECK(finding(good, "groove").estimate == finding(alone, "groove").estimate);
+  REQUIRE(bad.ahead);
+  CHECK_FALSE(finding(bad, "gyroscopic_tilt").claimed);
+  CHECK_FALSE(bad.helps);
+  CHECK(bad.ahead->constant_error < 0.5 * kDegree);
+  REQUIRE(blind.ahead);
+  CHECK_FALSE(blind.ahead->whole_recordings);
+  CHECK(blind.ahead->augmented_error == alone.ahead->augmented_error);
 }
 
 TEST_CASE("no axle that was never seen is told of") {

@@ -2,6 +2,7 @@
 #include "diabolo/diagnose/simulator.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,13 @@ bool covers(const std::vector<Estimate>& numbers, double truth) {
   return !numbers.empty() && numbers.front().ci90->low < truth && truth < numbers.front().ci90->high;
 }
 
+/// Within four standard deviations: intervals of what turns the axle are of the camera's noise alone.
+bool is_near(const std::vector<Estimate>& numbers, double truth) {
+  const Estimate& number = numbers.at(0);
+  const double deviation = (number.ci90->high - number.ci90->low) / (2.0 * diagnose_detail::kNormal95);
+  return std::abs(number.value - truth) < 4.0 * deviation;
+}
+
 }  // namespace
 
 TEST_CASE("a recording of a simulator tells what it lacks, and what it has and reality has not") {
@@ -58,6 +66,47 @@ TEST_CASE("half of a law is too little, twice of it too much, the same agrees") 
     REQUIRE(law_of(c, "string_friction") != nullptr);
     CHECK(law_of(c, "string_friction")->verdict == std::string_view(verdict));
   }
+}
+
+TEST_CASE("what turns the axle is compared as any other law is") {
+  const auto turning = [](double gain, double offset) {
+    AllEffects<double> effects = rubbing(0.2);
+    effects.get<FiniteAxle>().follows_axis = 1.0;
+    effects.get<GyroscopicTilt>().gain = gain;
+    effects.get<Unbalance>().offset = offset;
+    return std::vector<Recording>{played(effects, 14.0, 4)};
+  };
+  const auto compared = [](std::vector<Recording> real, std::vector<Recording> theirs, bool seen = true) {
+    DiagnosisOptions options;
+    options.bank = {"string_friction", "gyroscopic_tilt", "unbalance"};
+    if (!seen) theirs.front().diabolo_orientation = {};
+    return compare_simulator(real, theirs, options);
+  };
+  const auto verdict = [](const SimulatorComparison& c, std::string_view name) {
+    CAPTURE(c.sentence);
+    const ComparedLaw* const law = law_of(c, name);
+    REQUIRE(law != nullptr);
+    return law->verdict;
+  };
+  const std::vector<Recording> real = turning(3.8, 0.0), leaning = turning(3.8, 2e-3);
+
+  const SimulatorComparison still = compared(leaning, turning(0.0, 0.0));
+  CHECK(verdict(still, "gyroscopic_tilt") == "lacks");
+  CHECK(is_near(law_of(still, "gyroscopic_tilt")->difference, 3.8));
+  CHECK(law_of(still, "gyroscopic_tilt")->axle_1s_rad.value() > kSmallestTurn);
+  CHECK_FALSE(law_of(still, "gyroscopic_tilt")->size_m);
+  CHECK(verdict(still, "unbalance") == "lacks");
+  CHECK(is_near(law_of(still, "unbalance")->difference, 2e-3));
+
+  const SimulatorComparison same = compared(real, leaning);
+  CHECK(verdict(same, "gyroscopic_tilt") == "agrees");
+  CHECK(verdict(same, "unbalance") == "should_not_have");
+  CHECK(verdict(compared(real, turning(9.0, 0.0)), "gyroscopic_tilt") == "too_much");
+
+  const SimulatorComparison blind = compared(real, leaning, false);
+  CHECK(law_of(blind, "gyroscopic_tilt") == nullptr);
+  CHECK_THAT(blind.sentence,
+             Contains("What turns the axle is not compared: it could be told of the recordings alone."));
 }
 
 TEST_CASE("a simulator that can be asked is corrected by what it lacks") {
@@ -127,6 +176,12 @@ TEST_CASE("what a simulator gives is checked, and spins that it does not know ar
   std::vector<std::vector<State<double>>> states;
   for (const Stretch& stretch : take.stretches) states.push_back(states_of(stretch));
   CHECK(with_diabolo(take, states).diabolo_orientation.empty());
+  CHECK(knows_axle({states}));
+  states.front().back().axis.setConstant(kNaN);
+  CHECK_FALSE(knows_axle({states}));
+  for (auto& stretch : states)
+    for (State<double>& state : stretch) state.spin = 0.0;
+  CHECK(with_diabolo(take, states).diabolo_orientation.quaternion.allFinite());
   states.front().pop_back();
   CHECK_THROWS_WITH(check_played(states.front(), take, take.stretches.front()),
                     Contains("one for each time"));

@@ -243,6 +243,32 @@ def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
         diagnose([played.cut(0, 40), copy.cut(30, 80)])
 
 
+def test_a_holdout_that_shows_its_axle_judges_it(plant: list[Recording]) -> None:
+    fitted, *holdout = plant
+    base = diabolo.model_for("consistent", fitted)
+    turning = diabolo.Model(base.parameters, gyroscopic_tilt=diabolo.GyroscopicTilt(gain=40.0))
+    for held, heldout in (([], "blocks"), (holdout, "recordings")):
+        for model, turns in ((base, False), (turning, True)):
+            fit = diagnose(fitted, model, holdout=held, bank=["gyroscopic_tilt"]).result.fit
+            assert fit.axle_heldout == heldout
+            constant, alone = fit.constant_axle_error_rad, fit.base_axle_error_rad
+            assert constant is not None and alone is not None
+            assert (alone > 1.1 * constant) == turns
+            assert turns or alone == constant
+
+
+def test_the_strands_of_a_base_stay_as_they_are_without_an_axle(plant: list[Recording]) -> None:
+    base = diabolo.model_for("consistent", plant[0])
+    turning = diabolo.Model(base.parameters, gyroscopic_tilt=diabolo.GyroscopicTilt(gain=3.0))
+    take = plant[0]
+    blind = Recording(
+        take.time, take.left, take.right, take.diabolo, take.rate, string_length=take.string_length
+    )
+    found = diagnose(blind, turning, bank=["string_friction"])
+    assert found.result.fit.axle_heldout is None
+    assert found.model.finite_axle.follows_axis == 0.0
+
+
 @pytest.mark.filterwarnings("ignore::diabolo.RecordingWarning")
 def test_a_holdout_without_windows_is_told(played: Recording) -> None:
     other = make_recording("throw")

@@ -204,7 +204,9 @@ INVENTED: dict[str, Any] = {
         "augmented_spin_error_radps": [0.2, 0.3, None, 0.5],
         "spin_improvement_ci95_radps": [[-0.05, 0.05], [0.04, 0.16], None, [0.9, 1.3]],
         "start_spin_error_radps": [0.1, 0.1, None, 0.1],
+        "axle_heldout": "recordings",
         "axle_ahead_s": 1.0,
+        "constant_axle_error_rad": 0.2,
         "base_axle_error_rad": 0.1,
         "augmented_axle_error_rad": 0.01,
         "axle_improvement_ci95_rad": [0.07, 0.11],
@@ -590,7 +592,18 @@ def test_the_size_of_what_turns_the_axle_is_an_angle() -> None:
     size = {"acceleration_mps2": None, "position_1s_m": None, "axle_1s_rad": 0.1}
     text = Page(report_html(invented(effects=[{"name": "groove", "size": size}]))).text
     assert "String climbs the groove's flanks groove" in text and "turns the axle by 5.73 deg in 1 s" in text
-    assert "1 s 5.73 deg 0.573 deg 5.2 [4.0, 6.3] deg" in text
+    assert "The axle's direction, on whole recordings that the fit did not see" in text
+    assert "1 s 11.5 deg 5.73 deg 0.573 deg 5.2 [4.0, 6.3] deg" in text
+
+
+def test_a_compared_law_has_the_size_of_its_difference() -> None:
+    law = {"name": "gyroscopic_tilt", "what": "the tilt of the axle by the string", "verdict": "lacks"}
+    turned = {**law, "size_m": None, "axle_1s_rad": 0.1}
+    moved = {**law, "name": "wind", "what": "wind", "size_m": 0.004, "axle_1s_rad": None}
+    comparison = {"sentence": "The simulator lacks them.", "laws": [turned, moved]}
+    text = Page(report_html(invented(), comparison)).text
+    assert "lacks it none none none turns the axle by 5.73 deg in 1 s" in text
+    assert "lacks it none none none 4 mm after 0.5 s" in text
 
 
 def test_says_what_a_claim_is_worth_on_data_that_was_not_fitted() -> None:

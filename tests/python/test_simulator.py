@@ -53,6 +53,9 @@ def test_what_a_simulator_lacks_is_named_and_taken_off_its_errors(take: diabolo.
     alone, better = fit.base_error_m[-1], fit.augmented_error_m[-1]
     assert alone is not None and better is not None and better < 0.3 * alone
     assert "friction" in found.sentence
+    assert found.sentence.endswith("not compared: it could be told of the recordings alone.")
+    assert found.real.result.fit.axle_heldout == "blocks"
+    assert found.simulated.result.fit.axle_heldout is None  # it gave no axle
 
 
 def test_a_simulator_as_reality_is_agrees(take: diabolo.Recording) -> None:

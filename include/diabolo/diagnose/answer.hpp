@@ -72,11 +72,13 @@ struct ErrorsByHorizon {
 };
 
 /// How far the axle's direction is off a while after it was seen, on stretches that were not fitted: angles
-/// [rad], means, of the base and with what was found.
+/// [rad], means, of an axle that keeps its direction, of the base and with what was found.
 struct AxleAhead {
-  double seconds = 0.0;  ///< that while, a mean
-  double base_error = 0.0, augmented_error = 0.0;
+  bool whole_recordings = false;  ///< held out, or left out one by one; else blocks of rows
+  double seconds = 0.0;           ///< that while, a mean
+  double constant_error = 0.0, base_error = 0.0, augmented_error = 0.0;
   std::optional<Interval> improvement_ci95;  ///< of base less augmented
+  bool lets_strands_follow = false;  ///< the model has them leave the axle square to it, the base has not
 };
 
 /// Errors on data that the model was not fitted to.

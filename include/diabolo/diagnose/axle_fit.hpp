@@ -54,11 +54,11 @@ struct AxleFit {
     return result;
   }
 
-  /// The free ones within their search bounds.
-  UnknownVector in_bounds(UnknownVector x) const {
+  /// The free ones as far as they may be added to a model.
+  UnknownVector in_bounds(UnknownVector x, const Model& model) const {
     for (const int u : free) {
-      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
-      x[u] = std::clamp(x[u], info.minimum, info.maximum);
+      const Interval bounds = addition_to_axle(model, u);
+      x[u] = std::clamp(x[u], bounds.low, bounds.high);
     }
     return x;
   }
@@ -151,7 +151,7 @@ inline AxleFit fit_axle(const AxleStretches& stretches, const Model& model, std:
   for (int iteration = 0; iteration < kMost; ++iteration) {
     const diagnose_detail::AxleResiduals residuals(seen, here);
     diagnose_detail::linearize_axle(fit, stretches, model, here, residuals, threads, watch);
-    const UnknownVector step = fit.in_bounds(fit.estimate(fit.free, every_stretch)) - fit.at;
+    const UnknownVector step = fit.in_bounds(fit.estimate(fit.free, every_stretch), model) - fit.at;
     double gained = -1.0;
     for (int halves = 0; halves <= kMostHalves && !(gained > 0.0); ++halves) {
       const UnknownVector there = fit.at + std::ldexp(1.0, -halves) * step;

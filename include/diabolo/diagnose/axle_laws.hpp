@@ -2,16 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <vector>
 
+#include "diabolo/diagnose/axle_left_out.hpp"
 #include "diabolo/diagnose/axle_selection.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/time_budget.hpp"
@@ -19,65 +18,53 @@
 
 namespace diabolo {
 
-/// A law of the axle is claimed only where it turns it by so much in a second, in the most affected tenth of
-/// the stretches [rad].
-inline constexpr double kSmallestTurn = 3.0 * kDegree;
-
 /// What the axle's recorded direction says of the laws that turn it.
 struct AxleAnswer {
   std::vector<Finding> findings;
   UnknownVector at = UnknownVector::Zero(), deviation = at;  ///< of the laws that are sure and help
+  bool helps = false;                                        ///< all of it, so that it belongs in the model
   std::optional<AxleAhead> ahead;                            ///< nothing where the axle was not seen
 };
 
 namespace diagnose_detail {
 
-/// Half a turn where a prediction came to nothing.
-inline double angle_between(const Vector3<double>& predicted, const Vector3<double>& seen) {
-  const double angle = std::atan2(predicted.cross(seen).norm(), predicted.dot(seen));
-  return std::isfinite(angle) ? angle : std::numbers::pi;
-}
-
 /// Asks for the laws of the axle, keeps those that are sure, and judges them on stretches that were left out.
 class AxleInquiry {
  public:
-  /// `radius_share` is how well the axle's radius is known, a standard deviation over its size: what lies
-  /// along the axle is seen as a share of it.
-  AxleInquiry(const Fit& fit, const Model& model, const Bank& laws, double radius_share, int threads,
-              const FitWatch& watch)
-      : stretches_(fit),
+  /// `stretches` are fitted, and judged unless `heldout` are; both have to outlive it. `radius_share` is how
+  /// well the axle's radius is known, a standard deviation over its size: what lies along the axle is seen as
+  /// a share of it.
+  AxleInquiry(const AxleStretches& stretches, const AxleStretches& heldout, const Model& model,
+              const Bank& laws, double radius_share, int threads, const FitWatch& watch)
+      : stretches_(&stretches),
+        left_out_(stretches, heldout),
         model_(model),
         laws_(laws),
         radius_share_(radius_share),
         threads_(threads),
-        watch_(watch) {
-    double longest = 0.0;
-    for (const AxleStretch& stretch : stretches_.all()) longest = std::max(longest, stretch.seconds);
-    far_enough_ = kFarEnough * std::min(longest, 1.0);
-    std::vector<std::size_t> takes;
-    for (const AxleStretch& stretch : stretches_.all()) takes.push_back(stretch.fit_take);
-    several_ = !takes.empty() && takes.front() != takes.back();
-  }
+        watch_(watch) {}
 
   /// Nothing where time is up.
   AxleAnswer answer(std::uint64_t seed) {
     AxleAnswer result;
-    if (stretches_.all().empty() || laws_.empty()) return result;
-    const AxleFit everything = fit_all_axle_laws(stretches_, model_, laws_, threads_, watch_);
-    kept_ = keep_sure_axle_laws(everything, stretches_, model_, laws_, threads_, watch_);
+    if (stretches_->all().empty() || laws_.empty()) return result;
+    const AxleFit everything = fit_all_axle_laws(*stretches_, model_, laws_, threads_, watch_);
+    kept_ = keep_sure_axle_laws(everything, *stretches_, model_, laws_, threads_, watch_);
     if (watch_.is_enough()) return {};
     std::mt19937_64 generator(seed);
-    const std::vector<double> found = errors_left_out(kept_.free);
+    const std::vector<double> found = errors_with(kept_.free);
     for (const Candidate* law : laws_) {
       if (watch_.is_enough()) return {};
       result.findings.push_back(finding_of(*law, everything, found, generator));
     }
     keep_what_helps(result.findings);
     result.ahead = compared(generator);
-    const bool better = result.ahead && helps(result.ahead->improvement_ci95);
-    for (Finding& f : result.findings) f.claimed = f.claimed && better && is_free(kept_, *f.candidate);
-    if (!better) return result;
+    result.helps = result.ahead && helps(result.ahead->improvement_ci95);
+    for (Finding& f : result.findings) f.claimed = f.claimed && result.helps && is_free(kept_, *f.candidate);
+    if (!result.helps) return result;
     result.at = kept_.at;
+    result.ahead->lets_strands_follow =
+        !needs_gain(model_) && strands_follow_axle(with_axle(model_, kept_.at)) > strands_follow_axle(model_);
     for (const Finding& f : result.findings)
       if (is_free(kept_, *f.candidate))
         result.deviation[number_of(*f.candidate)] = f.deviation[number_of(*f.candidate)];
@@ -86,39 +73,17 @@ class AxleInquiry {
 
  private:
   static bool helps(const std::optional<Interval>& gain) { return gain && gain->low > 0.0; }
-  bool is_far_enough(std::size_t i) const { return stretches_.all()[i].seconds >= far_enough_; }
 
-  /// Angles at the ends of stretches that count between what such unknowns predict and what was seen [rad].
-  template <class Counts>
-  std::vector<double> errors(const UnknownVector& at, const Counts& counts) const {
-    const auto asked = [&](std::size_t i) { return is_far_enough(i) && counts(i); };
-    const std::vector<Eigen::Matrix3Xd> seen = stretches_.seen(),
-                                        here = stretches_.predicted(with_axle(model_, at), threads_, watch_,
-                                                                    asked);
-    std::vector<double> result;
-    for (std::size_t i = 0; i < seen.size(); ++i)
-      if (asked(i)) result.push_back(angle_between(here[i].rightCols<1>(), seen[i].rightCols<1>()));
-    return result;
-  }
-
-  /// Angles for each part of the stretches by unknowns that the others say, in the order of all.
-  std::vector<double> errors_left_out(const std::vector<int>& free) const {
-    if (free.empty()) return errors(UnknownVector::Zero(), every_stretch);
-    std::vector<double> result;
-    for (std::size_t part = 0; part <= part_of(stretches_.all().size() - 1); ++part) {
-      const auto left_out = [&](std::size_t i) { return part_of(i) == part; };
-      const UnknownVector others =
-          kept_.in_bounds(kept_.estimate(free, [&](std::size_t i) { return !left_out(i); }));
-      const std::vector<double> own = errors(others, left_out);
-      result.insert(result.end(), own.begin(), own.end());
-    }
-    return result;
-  }
-
-  /// Whole recordings where several show their axle; else thirds of the stretches.
-  std::size_t part_of(std::size_t i) const {
-    constexpr std::size_t kParts = 3;
-    return several_ ? stretches_.all()[i].fit_take : i * kParts / stretches_.all().size();
+  /// Errors of stretches that were left out, by such laws as the others say they are.
+  std::vector<double> errors_with(const std::vector<int>& free) const {
+    const auto model_of = [&](const AxlePart& part) {
+      if (free.empty()) return with_axle(model_, UnknownVector::Zero());
+      const bool all = free == kept_.free && std::ranges::count(part.others, false) == 0;
+      const UnknownVector at =
+          all ? kept_.at : kept_.estimate(free, [&](std::size_t i) { return part.others[i]; });
+      return with_axle(model_, kept_.in_bounds(at, model_));
+    };
+    return left_out_.errors(model_of, threads_, watch_);
   }
 
   /// The unknowns that are free without a law.
@@ -146,7 +111,7 @@ class AxleInquiry {
       return f;
     }
     measure(f);
-    f.axle_worsening_ci95 = interval_of(errors_left_out(free_without(law)), found, generator);
+    f.axle_worsening_ci95 = interval_of(errors_with(free_without(law)), found, generator);
     f.claimed = f.material && helps(f.axle_worsening_ci95);
     f.confidence = f.claimed ? confidence_of(std::abs(f.z)) : 0.0;
     f.reason = !f.axle_worsening_ci95          ? "the axle was seen for too short a time to judge"
@@ -160,16 +125,16 @@ class AxleInquiry {
   void measure(Finding& f) const {
     UnknownVector without = UnknownVector::Zero();
     for (const int u : free_without(*f.candidate)) without[u] = kept_.at[u];
-    const std::vector<Eigen::Matrix3Xd> with = stretches_.predicted(with_axle(model_, kept_.at), threads_,
-                                                                    watch_),
-                                        rest = stretches_.predicted(with_axle(model_, without), threads_,
-                                                                    watch_);
+    const std::vector<Eigen::Matrix3Xd> with = stretches_->predicted(with_axle(model_, kept_.at), threads_,
+                                                                     watch_),
+                                        rest = stretches_->predicted(with_axle(model_, without), threads_,
+                                                                     watch_);
     std::vector<double> turns;
     for (std::size_t i = 0; i < with.size(); ++i) {
-      const AxleStretch& stretch = stretches_.all()[i];
+      const AxleStretch& stretch = stretches_->all()[i];
       const double turn =
           angle_between(with[i].rightCols<1>(), rest[i].rightCols<1>()) / std::max(stretch.seconds, 0.1);
-      if (is_far_enough(i)) turns.push_back(turn);
+      if (stretches_->is_far_enough(i)) turns.push_back(turn);
       if (turn > kSmallestTurn)
         for (std::size_t w = stretch.first; w <= stretch.last; ++w) f.windows.push_back(stretch.windows + w);
     }
@@ -182,7 +147,7 @@ class AxleInquiry {
   void keep_what_helps(const std::vector<Finding>& findings) {
     for (const Finding& f : findings)
       if (is_free(kept_, *f.candidate) && !helps(f.axle_worsening_ci95))
-        kept_ = without_law(kept_, *f.candidate, stretches_, model_, threads_, watch_);
+        kept_ = without_law(kept_, *f.candidate, *stretches_, model_, threads_, watch_);
   }
 
   /// Of the mean difference. Stretches share no data; how long they depend on each other is asked as far as
@@ -195,23 +160,27 @@ class AxleInquiry {
     return mean_interval(differences, std::min(most, dependence_length(differences)), generator);
   }
 
+  /// Nothing where there is nothing to compare.
   std::optional<AxleAhead> compared(std::mt19937_64& generator) const {
-    const std::vector<double> base = errors(UnknownVector::Zero(), every_stretch),
-                              found = errors_left_out(kept_.free);
-    std::vector<double> seconds;
-    for (std::size_t i = 0; i < stretches_.all().size(); ++i)
-      if (is_far_enough(i)) seconds.push_back(stretches_.all()[i].seconds);
-    return AxleAhead{mean_of(seconds), mean_of(base), mean_of(found), interval_of(base, found, generator)};
+    const auto base_of = [&](const AxlePart&) { return model_; };
+    const std::vector<double> base = left_out_.errors(base_of, threads_, watch_),
+                              found = errors_with(kept_.free);
+    if (base.empty()) return std::nullopt;
+    return AxleAhead{left_out_.whole_recordings(),
+                     mean_of(left_out_.seconds()),
+                     mean_of(left_out_.errors_of_constant()),
+                     mean_of(base),
+                     mean_of(found),
+                     interval_of(base, found, generator)};
   }
 
-  AxleStretches stretches_;
+  const AxleStretches* stretches_;
+  AxleLeftOut left_out_;
   Model model_;
   Bank laws_;
   double radius_share_;
   int threads_;
   FitWatch watch_;
-  double far_enough_ = 0.0;  ///< [s]
-  bool several_ = false;     ///< recordings whose axle was seen
   AxleFit kept_;
 };
 

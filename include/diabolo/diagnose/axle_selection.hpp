@@ -21,6 +21,11 @@ inline double z_of(const Candidate& law, const UnknownVector& at, const UnknownV
   return deviation[u] > 0.0 ? at[u] / deviation[u] : 0.0;
 }
 
+/// Whether it speaks for itself; of a law that the model has there may be less, too.
+inline bool is_sure(const Candidate& law, double z, const Model& model) {
+  return speaks_for(law, own_of_axle(model, number_of(law)) > 0.0 ? std::abs(z) : z);
+}
+
 /// All of them together. Without a gain no other law turns the axle, nor would anything be seen of it: where
 /// the model has none, a usual one is where the fit begins.
 inline AxleFit fit_all_axle_laws(const AxleStretches& stretches, const Model& model, const Bank& laws,
@@ -44,7 +49,7 @@ inline const Candidate* weakest_of(const AxleFit& fit, const Model& model, const
     const bool bears = is_gain(*law) && needs_gain(model) && fit.free.size() > 1;
     if (!is_free(fit, *law) || bears) continue;
     const double z = z_of(*law, fit.at, deviation);
-    if (speaks_for(*law, z) || (weakest != nullptr && std::abs(z) >= least)) continue;
+    if (is_sure(*law, z, model) || (weakest != nullptr && std::abs(z) >= least)) continue;
     weakest = law;
     least = std::abs(z);
   }

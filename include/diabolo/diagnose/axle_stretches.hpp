@@ -9,6 +9,7 @@
 
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/fit.hpp"
+#include "diabolo/diagnose/folds.hpp"
 #include "diabolo/full_predictor.hpp"
 #include "diabolo/math/parallel.hpp"
 
@@ -43,6 +44,26 @@ class AxleStretches {
   }
 
   const std::vector<AxleStretch>& all() const { return stretches_; }
+
+  /// Whether a stretch is long enough to be compared.
+  bool is_far_enough(std::size_t i) const {
+    return stretches_[i].seconds >= kFarEnough * std::min(longest_, 1.0);
+  }
+
+  /// Its rows.
+  Fold rows(const AxleStretch& stretch) const {
+    return {stretch.fit_take, first_row(stretch), last_row(stretch)};
+  }
+
+  /// Of each recording that shows its axle, the rows from the first stretch to the last.
+  std::vector<Fold> recordings() const {
+    std::vector<Fold> result;
+    for (const AxleStretch& stretch : stretches_) {
+      if (result.empty() || result.back().fit_take != stretch.fit_take) result.push_back(rows(stretch));
+      result.back().last = last_row(stretch);
+    }
+    return result;
+  }
 
   /// The axle in all rows of all stretches where it was seen, each 3 x rows.
   std::vector<Eigen::Matrix3Xd> seen() const {
@@ -112,6 +133,7 @@ class AxleStretches {
              explained(last + 1) && seconds(w, last) < kAxleAhead)
         ++last;
       stretches_.push_back({s, w, last, before, seconds(w, last)});
+      longest_ = std::max(longest_, seconds(w, last));
       w = last;
     }
   }
@@ -161,6 +183,7 @@ class AxleStretches {
   std::vector<Recording> recordings_;
   std::vector<std::shared_ptr<const TipMotion<double>>> motions_;
   std::vector<AxleStretch> stretches_;
+  double longest_ = 0.0;  ///< [s]
 };
 
 }  // namespace diabolo

@@ -20,6 +20,10 @@ namespace diabolo {
 /// tenth of the windows [m]; the spin by this share within this time [s].
 inline constexpr double kSmallestReach = 1e-3, kSmallestSpinShare = 0.05, kSpinTime = 10.0;
 
+/// A law of the axle is claimed only where it turns it by so much in a second, in the most affected tenth of
+/// the stretches [rad].
+inline constexpr double kSmallestTurn = 3.0 * kDegree;
+
 namespace diagnose_detail {
 
 inline Candidate candidate_for(const NamedLaw& law) {

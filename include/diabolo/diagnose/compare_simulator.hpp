@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/compare_axle.hpp"
 #include "diabolo/diagnose/compare_learnt.hpp"
 #include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/differing.hpp"
@@ -31,12 +32,12 @@ inline const Finding* claim_of(const Diagnosis& d, std::string_view name) {
   return found == d.findings.end() ? nullptr : &*found;
 }
 
-/// What is claimed of either, of the first in its order; less what turns the axle, which is fitted apart.
+/// What is claimed of either, of the first in its order; less what turns the axle where one cannot tell.
 inline std::vector<const Candidate*> claimed_of_either(const Diagnosis& real, const Diagnosis& simulated) {
   std::vector<const Candidate*> result;
   for (const Diagnosis* d : {&real, &simulated})
     for (const Finding& f : d->findings)
-      if (f.claimed && f.swapped == 0 && !is_of_axle(*f.candidate) &&
+      if (f.claimed && f.swapped == 0 && (!is_of_axle(*f.candidate) || both_tell_axle(real, simulated)) &&
           (d == &real || claim_of(real, f.candidate->name) == nullptr))
         result.push_back(f.candidate);
   return result;
@@ -46,7 +47,8 @@ inline std::vector<const Candidate*> claimed_of_either(const Diagnosis& real, co
 inline Estimates estimates_beside(const FinalFit& final_fit, const std::vector<const Candidate*>& claimed) {
   ActiveSet free = final_fit.free;
   for (const Candidate* candidate : claimed)
-    if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kWraps)
+    if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kWraps &&
+        !is_of_axle(*candidate))  // which are fitted apart
       free = with(free, *candidate);
   Estimates result = estimates_of(Evidence(final_fit.fit), free);
   for (const Unknown tried : {Unknown::kWraps, Unknown::kLag})  // and never free
@@ -69,7 +71,7 @@ inline bool has_always(const Candidate& candidate) {
 
 /// What the simulator has of it, where the two differ.
 inline const char* verdict_of(const Candidate& candidate, const Estimates& real, const Estimates& simulated,
-                              bool is_real, bool is_simulated) {
+                              bool is_real, bool is_simulated, bool always) {
   const auto length = [&](const Estimates& estimates) {
     double square = 0.0;
     for (const Unknown u : candidate.unknowns)
@@ -77,7 +79,6 @@ inline const char* verdict_of(const Candidate& candidate, const Estimates& real,
     return candidate.unknowns.size() == 1 ? estimates.estimate[index_of(first_of(candidate))]
                                           : std::sqrt(square);
   };
-  const bool always = has_always(candidate);
   if (is_real && !is_simulated && !always) return "lacks";
   if (!is_real && is_simulated && !always) return "should_not_have";
   const double a = length(real), b = length(simulated);
@@ -108,14 +109,17 @@ inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, c
   const Estimates difference = less(in_real, in_simulated);
   const Finding *const claim = claim_of(real, candidate.name), *const same =
                                                                    claim_of(simulated, candidate.name);
-  const double size = size_of(candidate, difference.estimate, real.final_fit->fit.systems);
+  const bool of_axle = is_of_axle(candidate);
+  const double size = of_axle ? turn_of(claim != nullptr ? *claim : *same, difference)
+                              : size_of(candidate, difference.estimate, real.final_fit->fit.systems);
+  const bool always = has_always(candidate) || base_turns_axle_by(candidate, real);
   ComparedLaw law;
   law.name = candidate.name;
   law.kind = kind_of(candidate);
   law.what = candidate.plain;
   const bool in_one = claim == nullptr || same == nullptr;
   law.verdict = differs(candidate, difference, size)
-                    ? verdict_of(candidate, in_real, in_simulated, claim != nullptr, same != nullptr)
+                    ? verdict_of(candidate, in_real, in_simulated, claim != nullptr, same != nullptr, always)
                 : in_one ? "cannot_tell"
                          : "agrees";
   law.tied_with = (claim != nullptr ? claim : same)->tied_with;
@@ -125,7 +129,8 @@ inline ComparedLaw compared(const Candidate& candidate, const Diagnosis& real, c
                                 simulated.base_gravity);
   law.difference = difference_of(candidate, difference, law.real, law.simulated);
   law.where = claim != nullptr ? place_of(*claim, real.windows) : place_of(*same, simulated.windows);
-  if (!is_of_spin(candidate) && candidate.kind == CandidateKind::kPhysics) law.size_m = size;
+  if (of_axle) law.axle_1s_rad = size;
+  if (!is_of_spin(candidate) && !of_axle && candidate.kind == CandidateKind::kPhysics) law.size_m = size;
   return law;
 }
 
@@ -194,7 +199,7 @@ inline std::string sentence_of(const SimulatorComparison& c, const Diagnosis& re
              : real_left                 ? "reality"
                                          : "the simulator") +
             ".";
-  return text;
+  return text + axle_not_compared(real, simulated);
 }
 
 }  // namespace diagnose_detail
@@ -214,7 +219,10 @@ SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& si
     const Estimates in_real = in::estimates_beside(*real.final_fit, claimed),
                     in_simulated = in::estimates_beside(*simulated.final_fit, claimed);
     for (const Candidate* candidate : claimed) {
-      ComparedLaw law = in::compared(*candidate, real, simulated, in_real, in_simulated);
+      ComparedLaw law = is_of_axle(*candidate)
+                            ? in::compared(*candidate, real, simulated, in::axle_estimate(real, *candidate),
+                                           in::axle_estimate(simulated, *candidate))
+                            : in::compared(*candidate, real, simulated, in_real, in_simulated);
       const bool in_real_alone = in::claim_of(simulated, candidate->name) == nullptr;
       if (law.kind == "measurement" && in_real_alone && !in::has_always(*candidate))
         result.recording_faults.push_back(law.what);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/adequacy_words.hpp"
+#include "diabolo/diagnose/axle_words.hpp"
 #include "diabolo/diagnose/differing_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
@@ -214,31 +215,26 @@ inline void conclude(Diagnosis& d) {
   const bool only_leftover =
       !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
   const bool beyond_noise = !d.adequacy.adequate.value_or(true);
-  const auto names = [](const std::vector<const Finding*>& list) {
-    std::string text;
-    for (std::size_t i = 0; i < list.size(); ++i)
-      text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + std::string(list[i]->candidate->plain);
-    return text;
-  };
+  bool axle_leads = false;
   if (!d.reason.empty()) {
     d.headline = Headline::kInsufficientData;
     d.sentence = "Nothing can be concluded: " + d.reason + ".";
   } else if (tied != leading.end()) {
     d.headline = Headline::kTie;
     d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
-                 names(leading) + " would explain it, and so would " +
+                 plainly(leading) + " would explain it, and so would " +
                  plainly(d, (*tied)->tied_with.front()) + " in place of " +
                  std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
-                 (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + names(faults)) +
+                 (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + plainly(faults)) +
                  (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
-    d.sentence = "The simulator leaves out " + names(physics) +
-                 (faults.empty() ? "" : "; the measurement is off by " + names(faults)) +
+    d.sentence = "The simulator leaves out " + plainly(physics) +
+                 (faults.empty() ? "" : "; the measurement is off by " + plainly(faults)) +
                  (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!faults.empty()) {
     d.headline = Headline::kMeasurementFault;
-    d.sentence = "The measurement is off by " + names(faults) +
+    d.sentence = "The measurement is off by " + plainly(faults) +
                  (has_law        ? "; and a" + left_plainly(d)
                   : axle.empty() ? "; no physics that has a name is missing."
                                  : "; no other physics that has a name is missing.");
@@ -261,8 +257,8 @@ inline void conclude(Diagnosis& d) {
                  " % of the windows are off by more than five times what the others are.";
   } else if (!axle.empty()) {
     d.headline = Headline::kNamed;
-    d.sentence = "The simulator leaves out " + names(axle) + ".";
-    axle.clear();
+    d.sentence = "The simulator " + axle_claims_in_words(axle) + ".";
+    axle_leads = true;
   } else {
     d.headline = Headline::kNothingMissing;
     d.sentence = d.catch_rule ? "No physics is missing that this recording could show."
@@ -271,7 +267,8 @@ inline void conclude(Diagnosis& d) {
   const bool of_motion = leading.size() + d.learnt.size() > 0 || d.headline == Headline::kUnnamedStructure;
   if (d.reason.empty() && of_motion && d.headline != Headline::kNumerical)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
-  if (!axle.empty()) d.sentence += " What turns the axle is left out, too: " + names(axle) + ".";
+  if (!axle_leads) d.sentence += axle_claims_behind(axle);
+  d.sentence += axle_ahead_in_words(d.heldout.axle, !axle.empty());
   d.sentence += catch_in_words(d.catch_rule);
   d.sentence += differing_in_words(d);
   for (std::size_t i = 0; i < d.not_done.size(); ++i)

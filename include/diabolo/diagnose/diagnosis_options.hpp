@@ -18,6 +18,7 @@ struct DiagnosisOptions {
   std::vector<Recording> holdout;   ///< to compare on; else recordings, or blocks, are left out in turn
   std::vector<std::string> bank;    ///< names of the candidates; empty: all but placebos
   std::vector<Law> laws;            ///< of one's own, which are candidates too
+  bool axle = true;                 ///< ask what turns the recorded axle
   double budget = 1e9;              ///< it ends about then, and tells what it left [s]
   std::uint64_t seed = 1;           ///< of the bootstrap
   int threads = 0;                  ///< 0: one for every processor; the result is the same

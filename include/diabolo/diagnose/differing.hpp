@@ -29,7 +29,9 @@ inline bool differs(const Candidate& candidate, const Estimates& difference, dou
   if (!(difference.deviation(index_of(first)) > 0.0)) return difference.estimate[index_of(first)] != 0.0;
   if (candidate.floor > 0.0) return is_beyond_floor(candidate, difference);
   return std::abs(significance(candidate, difference)) > kSignificance &&
-         size > (is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach);
+         size > (is_of_spin(candidate)   ? kSmallestSpinShare
+                 : is_of_axle(candidate) ? kSmallestTurn
+                                         : kSmallestReach);
 }
 
 namespace diagnose_detail {

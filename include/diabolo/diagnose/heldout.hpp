@@ -12,38 +12,11 @@
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/evidence.hpp"
+#include "diabolo/diagnose/folds.hpp"
 #include "diabolo/diagnose/residual_and_noise.hpp"
 #include "diabolo/evaluate/horizon_score.hpp"
 
 namespace diabolo {
-
-/// Rows of a recording that a model is fitted without.
-struct Fold {
-  std::size_t fit_take;
-  Eigen::Index first, last;
-};
-
-/// Whole recordings where there are several; else three blocks of the only one.
-inline std::vector<Fold> folds_of(const std::vector<FitTake>& fit_takes) {
-  constexpr Eigen::Index kBlocks = 3;
-  std::vector<Fold> folds;
-  for (std::size_t s = 0; s < fit_takes.size(); ++s) {
-    const Eigen::Index size = fit_takes[s].take->recording.size(),
-                       blocks = fit_takes.size() > 1 ? 1 : kBlocks;
-    for (Eigen::Index b = 0; b < blocks; ++b)
-      folds.push_back({s, size * b / blocks, size * (b + 1) / blocks - 1});
-  }
-  return folds;
-}
-
-/// Which windows touch a fold.
-inline std::vector<bool> windows_in(const Fold& fold, const std::vector<FitTake>& fit_takes) {
-  std::vector<bool> result;
-  for (std::size_t s = 0; s < fit_takes.size(); ++s)
-    for (const FitWindow& window : fit_takes[s].windows)
-      result.push_back(s == fold.fit_take && window.first <= fold.last && window.last >= fold.first);
-  return result;
-}
 
 /// A recording and the unknowns that others say it has, and that they would say without this or that claim.
 struct HeldOutRecording {

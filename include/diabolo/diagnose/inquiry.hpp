@@ -207,17 +207,22 @@ class Inquiry : public ClaimSearch<D> {
   /// Asks what turns the axle, with place and spin as they were found.
   void ask_axle() {
     const char* const asking = "asking what turns the axle";
-    if (!budget_.allows(asking, kRulesShare)) return;
+    if (!options_.axle || !budget_.allows(asking, kRulesShare)) return;
     const FitWatch looking = step(asking, 0.965, 0.967, kRulesShare);
     const int radius = index_of(Unknown::kAxleRadius);
     const double radius_share = result_.deviation[radius] / std::max(fit_.at[radius], 1e-3);
-    axle_ = AxleInquiry(fit_, augmented_model(physics_, fit_.at, "diagnosed", bank_),
-                        axle_bank(options_.bank), radius_share, options_.threads, looking)
+    std::vector<Recording> showing;
+    std::ranges::copy_if(options_.holdout, std::back_inserter(showing),
+                         [](const Recording& r) { return !r.diabolo_orientation.empty(); });
+    const Fit held = fit_starts<D>(showing, fit_, physics_, options_.threads, looking);
+    axle_ = AxleInquiry(AxleStretches(fit_), AxleStretches(held),
+                        augmented_model(physics_, fit_.at, "diagnosed", bank_), axle_bank(options_.bank),
+                        radius_share, options_.threads, looking)
                 .answer(options_.seed);
     if (looking.is_enough()) budget_.leave(asking);
     std::ranges::move(axle_.findings, std::back_inserter(result_.findings));
     surest_first(result_.findings);
-    result_.model = with_axle(result_.model, axle_.at);
+    if (axle_.helps) result_.model = with_axle(result_.model, axle_.at);
     result_.heldout.axle = axle_.ahead;
   }
 

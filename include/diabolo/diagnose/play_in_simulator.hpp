@@ -23,7 +23,7 @@
 namespace diabolo {
 
 /// What a simulator gives: the states at some times [s] of a motion of the tips, from a start at time zero. A
-/// spin of NaN is not known.
+/// spin of NaN is not known, nor is such an axis.
 using Simulate = std::function<std::vector<State<double>>(
     const State<double>& start, const TipMotion<double>& tips, const Eigen::VectorXd& times)>;
 
@@ -149,6 +149,8 @@ inline Recording with_diabolo(const TakeToPlay& take, const std::vector<std::vec
   const bool turns = std::ranges::none_of(states, [](const auto& state) { return std::isnan(state.spin); });
   if (!turns)
     for (State<double>& state : states) state.spin = 0.0;
+  for (State<double>& state : states)
+    if (!state.axis.allFinite()) state.axis = State<double>().axis;
   const auto columns = [](const std::vector<Vector3<double>>& points) {
     Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(points.size()));
     for (std::size_t i = 0; i < points.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = points[i];
@@ -164,6 +166,15 @@ inline Recording with_diabolo(const TakeToPlay& take, const std::vector<std::vec
 
 /// The states of each stretch of each take.
 using Played = std::vector<std::vector<std::vector<State<double>>>>;
+
+/// Whether the simulator says where the axle points.
+inline bool knows_axle(const Played& played) {
+  for (const auto& take : played)
+    for (const auto& states : take)
+      if (!std::ranges::all_of(states, [](const auto& state) { return state.axis.allFinite(); }))
+        return false;
+  return true;
+}
 
 /// Lets a simulator play all of it.
 inline Played play(const std::vector<TakeToPlay>& takes, const Simulate& simulate) {

@@ -60,6 +60,7 @@ class Posterior {
       } else {
         models.push_back(augmented_model(physics_, unknowns(generator), best_.name, bank_));
         models.back() = with_axle(models.back(), axle_numbers(generator));
+        models.back().effects.get<FiniteAxle>().follows_axis = best_.effects.get<FiniteAxle>().follows_axis;
       }
       models.back().name.append(" ").append(std::to_string(i + 1));
     }
@@ -107,8 +108,8 @@ class Posterior {
     std::normal_distribution<double> normal;
     for (int u = 0; u < kUnknowns; ++u) {
       if (axle_[u] == 0.0) continue;
-      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
-      at[u] = std::clamp(axle_[u] + axle_deviation_[u] * normal(generator), info.minimum, info.maximum);
+      const Interval bounds = addition_to_axle(physics_, u);
+      at[u] = std::clamp(axle_[u] + axle_deviation_[u] * normal(generator), bounds.low, bounds.high);
     }
     return at;
   }

@@ -114,7 +114,25 @@ void approach(Fit& fit, const Model& base, const ActiveSet& active, int most_ite
   descend<D>(fit, base, active, most_iterations, threads, watch);
 }
 
-/// The same, and a last look with derivatives by all unknowns.
+/// Other recordings where a fit is: each window's start is fitted, nothing else.
+template <class D>
+Fit fit_starts(const std::vector<Recording>& recordings, const Fit& fit, const Model& base, int threads,
+               const FitWatch& watch) {
+  Fit result;
+  result.at = fit.at;
+  result.centre = fit.centre;
+  result.delay = fit.delay;
+  result.bounces = fit.bounces;
+  for (const Recording& recording : recordings) {
+    result.fit_takes.push_back(make_fit_take(recording));
+    result.noise.emplace_back();
+  }
+  if (window_count(result.fit_takes) > 0)
+    approach<D>(result, base, ActiveSet::Constant(false), 3, threads, watch);
+  return result;
+}
+
+/// As approach(), and a last look with derivatives by all unknowns.
 template <class D = diagnose_detail::FitDual>
 void refine(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
             const FitWatch& watch = {}) {

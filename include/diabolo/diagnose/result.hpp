@@ -207,7 +207,8 @@ struct HeldOutErrors {
   NumberByHorizon base_spin_error_radps, augmented_spin_error_radps;
   IntervalByHorizon spin_improvement_ci95_radps;
   NumberByHorizon start_spin_error_radps;
-  std::optional<double> axle_ahead_s, base_axle_error_rad, augmented_axle_error_rad;
+  std::optional<std::string> axle_heldout;
+  std::optional<double> axle_ahead_s, constant_axle_error_rad, base_axle_error_rad, augmented_axle_error_rad;
   std::optional<Interval> axle_improvement_ci95_rad;
   std::size_t windows = 0;
   std::vector<std::string> holdout_unused;
@@ -229,10 +230,13 @@ struct HeldOutErrors {
           "95 % interval of base less augmented.");
     visit("start_spin_error_radps", &HeldOutErrors::start_spin_error_radps,
           "By how much the spins of the starts are off those around them.");
+    visit("axle_heldout", &HeldOutErrors::axle_heldout,
+          "recordings, or blocks of one, on which the axle is compared; null where it was not seen.");
     visit("axle_ahead_s", &HeldOutErrors::axle_ahead_s,
           "How long after the axle was seen its direction is compared, a mean; null where it was not seen.");
-    visit("base_axle_error_rad", &HeldOutErrors::base_axle_error_rad,
-          "Mean angle that the base is off then.");
+    visit("constant_axle_error_rad", &HeldOutErrors::constant_axle_error_rad,
+          "Mean angle that an axle which keeps its direction is off then.");
+    visit("base_axle_error_rad", &HeldOutErrors::base_axle_error_rad, "The same of the base.");
     visit("augmented_axle_error_rad", &HeldOutErrors::augmented_axle_error_rad,
           "The same with what was found.");
     visit("axle_improvement_ci95_rad", &HeldOutErrors::axle_improvement_ci95_rad,

@@ -223,7 +223,8 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
   for (const Learnt& learnt : d.learnt) result.learnt.push_back(diagnose_detail::learnt_of(learnt));
   for (const Differing& differing : d.differing)
     result.differing.push_back(diagnose_detail::differing_of(differing, d));
-  result.fit = {d.heldout.whole_recordings ? "recordings" : "blocks",
+  const auto heldout = [](bool whole_recordings) { return whole_recordings ? "recordings" : "blocks"; };
+  result.fit = {heldout(d.heldout.whole_recordings),
                 d.heldout.horizons,
                 d.heldout.position.base_error,
                 d.heldout.position.augmented_error,
@@ -237,12 +238,16 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
                 {},
                 {},
                 {},
+                {},
+                {},
                 d.heldout.windows,
                 std::move(unused),
                 d.windows.size(),
                 d.windows_seen};
   if (d.heldout.axle) {
+    result.fit.axle_heldout = heldout(d.heldout.axle->whole_recordings);
     result.fit.axle_ahead_s = d.heldout.axle->seconds;
+    result.fit.constant_axle_error_rad = d.heldout.axle->constant_error;
     result.fit.base_axle_error_rad = d.heldout.axle->base_error;
     result.fit.augmented_axle_error_rad = d.heldout.axle->augmented_error;
     result.fit.axle_improvement_ci95_rad = d.heldout.axle->improvement_ci95;

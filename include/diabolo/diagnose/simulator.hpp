@@ -36,6 +36,7 @@ SimulatorComparison compare_simulator(const std::vector<Recording>& recordings, 
   const Played played = play(takes, simulate);
   const std::vector<Recording> simulated = played_takes(takes, played);
   options.holdout.clear();
+  options.axle = knows_axle(played);
   const Diagnosis theirs = simulated.empty() ? nothing_played() : diagnose<D>(simulated, options, watch);
   SimulatorComparison result =
       compare_simulator<D>(real, theirs, result_of(real, recordings), result_of(theirs, simulated),

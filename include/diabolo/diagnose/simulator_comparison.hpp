@@ -20,7 +20,7 @@ struct ComparedLaw {
   std::optional<double> p_value;
   std::vector<Estimate> real, simulated, difference;
   EffectPlace where;
-  std::optional<double> size_m;
+  std::optional<double> size_m, axle_1s_rad;
 
   template <class Visit>
   static void for_each_field(const Visit& visit) {
@@ -39,6 +39,8 @@ struct ComparedLaw {
     visit("where", &ComparedLaw::where, "Where it matters.");
     visit("size_m", &ComparedLaw::size_m,
           "How far the difference moves a free diabolo in 0.5 s; null where it does not act so.");
+    visit("axle_1s_rad", &ComparedLaw::axle_1s_rad,
+          "How far the difference turns the axle in 1 s; null where it does not act so.");
   }
 };
 

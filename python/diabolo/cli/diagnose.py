@@ -276,12 +276,13 @@ def text_of(diagnosis: Diagnosis) -> str:
         ]
         if shown:
             lines.append(f"  mean {what} on held-out {fit.heldout}, after " + "; ".join(shown))
-    axle = fit.base_axle_error_rad, fit.augmented_axle_error_rad
+    axle = fit.constant_axle_error_rad, fit.base_axle_error_rad, fit.augmented_axle_error_rad
     if fit.axle_ahead_s is not None and None not in axle:
-        before, after = np.degrees(np.array(axle, float))
+        constant, before, after = np.degrees(np.array(axle, float))
         lines.append(
-            "  mean error of the axle's direction on stretches left out,"
+            f"  mean error of the axle's direction on held-out {fit.axle_heldout},"
             f" after {fit.axle_ahead_s:.2g} s: {before:.1f} -> {after:.1f} deg"
+            f" (a constant axle: {constant:.1f} deg)"
         )
     if fit.holdout_unused:
         names = ", ".join(fit.holdout_unused)
