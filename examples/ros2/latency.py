@@ -51,16 +51,20 @@ class Meter(Node):
             self.poses[stamp] = message
 
     def measure(self, sender: TipSender | JointSender, times: Floats, begin: int) -> None:
-        """times: the sender's [s]; begin: the first stamp [ns]. Ends when all is heard, or given up."""
-        with executor_of(self) as executor:
-            self._find(sender, begin, executor)
-            for i in in_time(times.tolist(), executor.spin_once):
-                stamp = begin + round(1e9 * times[i])
-                self.sent[stamp] = time.perf_counter()
-                sender.send(i, stamp)
-            end = time.monotonic() + PATIENCE
-            while len(self.poses) < len(self.sent) and time.monotonic() < end:
-                executor.spin_once(0.01)
+        """times: the sender's [s]; begin: the first stamp [ns]. Ends when all is heard, or given up.
+
+        Within executor_of(self), once for a node's life: a second executor is not told of what came to the
+        first and waits there, and lags behind by that many poses.
+        """
+        executor = self.executor
+        self._find(sender, begin, executor)
+        for i in in_time(times.tolist(), executor.spin_once):
+            stamp = begin + round(1e9 * times[i])
+            self.sent[stamp] = time.perf_counter()
+            sender.send(i, stamp)
+        end = time.monotonic() + PATIENCE
+        while len(self.poses) < len(self.sent) and time.monotonic() < end:
+            executor.spin_once(0.01)
 
     def _find(self, sender: TipSender | JointSender, begin: int, executor: Executor) -> None:
         """Until the first tips, sent a minute early, are answered: then both ways are open."""
@@ -119,7 +123,8 @@ def work(arguments: list[str]) -> None:
     meter = Meter()
     gc.freeze()
     sender = TipSender(meter, swing(times), times)
-    meter.measure(sender, times, meter.get_clock().now().nanoseconds)
+    with executor_of(meter):
+        meter.measure(sender, times, meter.get_clock().now().nanoseconds)
     if not meter.delays:
         raise ValueError(
             f"none of {len(times)} tips was answered in {PATIENCE:g} s; expected a running diabolo_node.py"

@@ -73,10 +73,12 @@ def end(process: subprocess.Popen[bytes], by: int = signal.SIGTERM) -> int:
 @contextmanager
 def meter() -> Iterator[object]:
     from latency import Meter
+    from session import executor_of
 
     peer = Meter()
     try:
-        yield peer
+        with executor_of(peer):
+            yield peer
     finally:
         peer.destroy_node()
 
@@ -88,10 +90,7 @@ def meet(peer: object) -> None:
 
 def hear(peer: object, stamp: int = 1) -> None:
     """Wait for a pose of this stamp [ns] or a later one."""
-    from session import executor_of
-
-    with executor_of(peer) as executor:
-        wait_for(lambda: peer.last >= stamp, lambda: executor.spin_once(0.02))
+    wait_for(lambda: peer.last >= stamp, lambda: peer.executor.spin_once(0.02))
 
 
 def swing(seconds: float) -> tuple[TipMotion, np.ndarray]:
