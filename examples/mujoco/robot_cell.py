@@ -16,7 +16,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from diabolo import Model, hang_at_rest
+from diabolo import Model, hang_at_rest, load_recording, model_for
 from diabolo.checks import check_drawing
 from diabolo.cli import Parser
 from diabolo.cli.arguments import output_name, read_model
@@ -80,13 +80,24 @@ def main() -> int:
         default="consistent",
         help="published, paper, consistent (default) or a model file",
     )
+    parser.add_argument(
+        "--recording",
+        metavar="TAKE",
+        help="a take of the set-up: its string length, mass and axle radius, which a diagnosed model "
+        "leaves open",
+    )
     parser.add_argument("--picture", metavar="FILE", type=output_name, default="robot_cell.png")
     arguments = parser.parse_args()
     picture = Path(arguments.picture)
     try:
         check_drawing(picture, "PIL.Image")
-        check_outputs([picture], [] if arguments.model in DEFAULT_MODELS else [arguments.model])
-        physics, data, path, off = play(read_model(arguments.model))
+        read = [] if arguments.model in DEFAULT_MODELS else [arguments.model]
+        takes = [] if arguments.recording is None else [arguments.recording]
+        check_outputs([picture], [*read, *takes])
+        model = read_model(arguments.model)
+        for take in takes:
+            model = model_for(model, load_recording(take))
+        physics, data, path, off = play(model)
     except (ValueError, OSError, RuntimeError) as error:
         print(f"robot_cell.py: {error}", file=sys.stderr)
         return 2

@@ -138,12 +138,12 @@ py::tuple to_tuple(const Recording& r) {
                         numbers(r.diabolo.position), r.rate, known(r.diabolo_orientation),
                         known(r.left_orientation), known(r.right_orientation), r.name, r.properties.mass,
                         r.properties.diameter, r.properties.length, r.properties.axle_radius, r.string_length,
-                        r.frame, r.notes, r.clock);
+                        r.frame, r.notes, r.clock, r.assumed);
 }
 
 Recording from_tuple(const py::tuple& t) {
-  if (t.size() != 17)
-    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 17");
+  if (t.size() != 18)
+    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 18");
   const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
   const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
   Recording recording =
@@ -154,6 +154,7 @@ Recording from_tuple(const py::tuple& t) {
   recording.frame = t[14].cast<std::vector<long>>();
   recording.notes = t[15].cast<std::vector<std::string>>();
   recording.clock = t[16].cast<double>();
+  recording.assumed = t[17].cast<std::vector<std::string>>();
   check_recording(recording);
   return recording;
 }
@@ -198,13 +199,14 @@ ReadOptions read_options(const std::optional<std::string>& up, const GivenColumn
   return options;
 }
 
-Recording load(const std::filesystem::path& path, const Calibration& calibration,
+Recording load(const std::filesystem::path& path, const std::optional<Calibration>& calibration,
                const std::optional<std::string>& up, const GivenColumns& columns) {
   return load_recording(path, calibration, read_options(up, columns));
 }
 
-Recording read(const std::string& text, const std::filesystem::path& path, const Calibration& calibration,
-               const std::optional<std::string>& up, const GivenColumns& columns) {
+Recording read(const std::string& text, const std::filesystem::path& path,
+               const std::optional<Calibration>& calibration, const std::optional<std::string>& up,
+               const GivenColumns& columns) {
   return read_recording(text, path, calibration, read_options(up, columns));
 }
 
@@ -244,10 +246,13 @@ Recording read_bodies(const std::string& file, const Array& time, const std::vec
   return recording;
 }
 
-Calibration of_setup(Calibration calibration, const DiaboloProperties& properties, double string_length) {
+Calibration of_setup(Calibration calibration, const DiaboloProperties& properties, double string_length,
+                     const std::vector<std::string>& assumed) {
   check_properties(properties, string_length, "setup");
+  check_assumed(assumed, "setup");
   calibration.properties = properties;
   calibration.string_length = string_length;
+  calibration.assumed = assumed;
   return calibration;
 }
 
@@ -267,14 +272,14 @@ std::pair<std::vector<Recording>, std::vector<std::string>> trimmed(std::vector<
 }
 
 constexpr const char* kLoadDoc =
-    R"(Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.
+    R"(Reads a Motive export (CSV), to which the calibration is applied (default: the published one), or a tidy recording.
 
 up: which axis of the file points up, "y" for Motive's default, "-z", or "y-mirrored" where left and right are
 exchanged, too. Without it that is z, and a file whose motion clearly says otherwise is refused.
 
 columns: maps a CSV of your own, {"time": "t[ms]", "left_x": "lx[mm]", ...} or "time=t[ms],left_x=lx[mm],...".
 Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
-it, string and diabolo are the calibration's.)";
+it, string and diabolo are the calibration's, or assumed.)";
 
 Array spin(const Recording& recording, bool with_sign) {
   const Spin spin = with_sign ? signed_spin(recording) : unsigned_spin(recording);
@@ -351,7 +356,8 @@ void bind_calibration(py::module_& module) {
                   "Of bodies that are the tips and the diabolo themselves, in the world frame.")
       .def("renamed", &renamed, "left"_a = "", "right"_a = "", "diabolo"_a = "",
            "The same for bodies of these names, where one is given.")
-      .def("of", &of_setup, "properties"_a, "string_length"_a, "The same for a diabolo and a string [m].")
+      .def("of", &of_setup, "properties"_a, "string_length"_a, "assumed"_a = std::vector<std::string>{},
+           "The same for a diabolo and a string [m]; assumed: as that of a Recording.")
       .def_static("blue", &blue_calibration, "Of the blue diabolo; its tips are only estimates.")
       .def_static("load", &load_calibration, "path"_a, Unlocked(),
                   "Reads a file of the schema diabolo.calibration/1.")
@@ -378,9 +384,8 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
           "diabolo_orientation"_a = py::none(), "left_orientation"_a = py::none(),
           "right_orientation"_a = py::none(), "name"_a = "recording", "properties"_a = kRedDiabolo,
           "string_length"_a = kPublishedStringLength);
-  cls.def_static("load", &load, "path"_a,
-                 py::arg_v("calibration", published_calibration(), "Calibration.published()"), py::kw_only(),
-                 "up"_a = py::none(), "columns"_a = py::none(), Unlocked(), kLoadDoc);
+  cls.def_static("load", &load, "path"_a, "calibration"_a = py::none(), py::kw_only(), "up"_a = py::none(),
+                 "columns"_a = py::none(), Unlocked(), kLoadDoc);
   cls.def("save", &save_tidy, "path"_a, Unlocked(),
           "Writes a tidy recording, NAME.csv and NAME.json beside it, whole or not at all.");
   cls.def("cut", &cut, "first"_a, "last"_a, "Rows first to last, both included.");
@@ -397,6 +402,8 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   cls.def_readonly("name", &Recording::name);
   cls.def_readonly("rate", &Recording::rate, "Nominal sampling rate [Hz].");
   cls.def_readonly("string_length", &Recording::string_length, "[m]");
+  cls.def_readonly("assumed", &Recording::assumed,
+                   "Those of \"string_length\" and \"diabolo\" (its mass and sizes) that no file told.");
   cls.def_property_readonly("properties", [](const Recording& r) { return r.properties; });
   cls.def_property_readonly(
       "frame",
@@ -439,8 +446,7 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
       "[m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin about the "
       "axle's "
       "`axis`, unit vectors, shape (N, 3), by default world x.");
-  module.def("load_recording", &load, "path"_a,
-             py::arg_v("calibration", published_calibration(), "Calibration.published()"), py::kw_only(),
+  module.def("load_recording", &load, "path"_a, "calibration"_a = py::none(), py::kw_only(),
              "up"_a = py::none(), "columns"_a = py::none(), Unlocked(), "The same as Recording.load.");
   module.def("read_recording", &read, "text"_a, "path"_a, "calibration"_a, "up"_a, "columns"_a, Unlocked(),
              "The same of a text, as if it stood in a file.");

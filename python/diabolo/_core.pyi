@@ -756,8 +756,8 @@ class Calibration:
   @staticmethod
   def published() -> Calibration:
     """Of the red diabolo with the sticks of July 2020; the default."""
-  def of(self, properties: DiaboloProperties, string_length: _Real) -> Calibration:
-    """The same for a diabolo and a string [m]."""
+  def of(self, properties: DiaboloProperties, string_length: _Real, assumed: collections.abc.Sequence[str] = []) -> Calibration:
+    """The same for a diabolo and a string [m]; assumed: as that of a Recording."""
   def renamed(self, left: str = '', right: str = '', diabolo: str = '') -> Calibration:
     """The same for bodies of these names, where one is given."""
   def save(self, path: os.PathLike | str | bytes) -> None:
@@ -797,16 +797,16 @@ class Recording:
   orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or along the stick outwards.
   """
   @staticmethod
-  def load(path: os.PathLike | str | bytes, calibration: Calibration = ..., *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
+  def load(path: os.PathLike | str | bytes, calibration: Calibration | None = None, *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
     """
-    Reads a Motive export (CSV), to which the calibration is applied, or a tidy recording.
+    Reads a Motive export (CSV), to which the calibration is applied (default: the published one), or a tidy recording.
     
     up: which axis of the file points up, "y" for Motive's default, "-z", or "y-mirrored" where left and right are
     exchanged, too. Without it that is z, and a file whose motion clearly says otherwise is refused.
     
     columns: maps a CSV of your own, {"time": "t[ms]", "left_x": "lx[mm]", ...} or "time=t[ms],left_x=lx[mm],...".
     Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
-    it, string and diabolo are the calibration's.
+    it, string and diabolo are the calibration's, or assumed.
     """
   def __init__(self, time: _Reals, left: _Reals, right: _Reals, diabolo: _Reals, rate: _Real, *, diabolo_orientation: _Reals | None = None, left_orientation: _Reals | None = None, right_orientation: _Reals | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: _Real = 1.46) -> None: ...
   def __len__(self) -> int: ...
@@ -820,6 +820,11 @@ class Recording:
     """Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the published rule, which counts turning of the axle too."""
   def warnings(self) -> list[str]:
     """What its reader changed, and what is odd about it although it is well formed, such as other units, tips that are long unseen or rows that are missing; a sentence each."""
+  @property
+  def assumed(self) -> list[str]:
+    """
+    Those of "string_length" and "diabolo" (its mass and sizes) that no file told.
+    """
   @property
   def clock(self) -> float:
     """What laws in time go by, at the first sample [s]: a part keeps that of the whole."""
@@ -2462,7 +2467,7 @@ def lessons() -> list:
   """Tasks that the player teaches."""
 def limit_uses(path: TipPath, limits: TipLimits, string_length: _Real) -> list[LimitUse]:
   """How much a path uses of each limit, from its exact maxima."""
-def load_recording(path: os.PathLike | str | bytes, calibration: Calibration = ..., *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
+def load_recording(path: os.PathLike | str | bytes, calibration: Calibration | None = None, *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
   """The same as Recording.load."""
 def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
   """The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's."""
@@ -2482,7 +2487,7 @@ def played_recording(name: str, time: _Reals, left: _Reals, right: _Reals, state
   """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin about the axle's `axis`, unit vectors, shape (N, 3), by default world x."""
 def predict(recording: Recording, model: Model, row: _Whole | None, start: str) -> tuple:
   """See diabolo.predict."""
-def read_recording(text: str, path: os.PathLike | str | bytes, calibration: Calibration, up: str | None, columns: None | str | collections.abc.Mapping[str, str]) -> Recording:
+def read_recording(text: str, path: os.PathLike | str | bytes, calibration: Calibration | None, up: str | None, columns: None | str | collections.abc.Mapping[str, str]) -> Recording:
   """The same of a text, as if it stood in a file."""
 def read_text(path: os.PathLike | str | bytes) -> str:
   """A text file in UTF-8, without its byte order mark. Raises RecordingError."""

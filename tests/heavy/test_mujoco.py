@@ -102,6 +102,7 @@ def test_example_runs_and_draws(tmp_path):
         ("what_mujoco_lacks", ["none.csv"], "none.csv: there is no such file"),
         ("what_mujoco_lacks", ["none.csv", "--out", "none.csv"], "none.csv: this file is read"),
         ("robot_cell", ["--model", "none.json"], "model none.json: no such file"),
+        ("robot_cell", ["--recording", "none.csv"], "none.csv: there is no such file"),
     ],
 )
 def test_what_an_example_cannot_do_is_told_in_a_sentence(tmp_path, program, arguments, sentence):

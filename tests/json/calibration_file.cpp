@@ -40,6 +40,7 @@ TEST_CASE("A calibration file is read as it stands") {
   CHECK(calibration.world_offset == Eigen::Vector3d(0.1, -0.2, 0.3));
   CHECK(calibration.properties.mass == kRedDiabolo.mass);
   CHECK(calibration.string_length == kPublishedStringLength);
+  CHECK(calibration.assumed == std::vector<std::string>{"string_length", "diabolo"});
 }
 
 TEST_CASE("What may be left out is read where it is there") {
@@ -53,6 +54,7 @@ TEST_CASE("What may be left out is read where it is there") {
   CHECK(calibration.string_length == 1.7);
   CHECK(calibration.properties.diameter == 0.2);
   CHECK(calibration.properties.axle_radius == 0.04);
+  CHECK(calibration.assumed.empty());
 }
 
 TEST_CASE("Calibrations that are written read back") {
@@ -66,6 +68,7 @@ TEST_CASE("Calibrations that are written read back") {
     CHECK(read.world_offset == calibration.world_offset);
     CHECK(read.string_length == calibration.string_length);
     CHECK(read.properties.mass == calibration.properties.mass);
+    CHECK(read.assumed == calibration.assumed);
   }
 }
 

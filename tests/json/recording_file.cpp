@@ -50,6 +50,8 @@ TEST_CASE("Missing and wrong metadata are named") {
   CHECK(metadata_complaint("0.2845", "-1") ==
         "play.json: field \"diabolo.mass\" is -1; expected a number > 0");
   CHECK(metadata_complaint("\"mass\": 0.2845, ", "") == "play.json: field \"diabolo.mass\" is missing");
+  CHECK(metadata_complaint("\"rate\"", "\"assumed\": \"mass\", \"rate\"") ==
+        "play.json: assumed: \"mass\"; expected \"string_length\" or \"diabolo\"");
   CHECK(metadata_complaint("\"mass\"", "\"length\": 1, \"mass\"") ==
         "play.json: field \"length\" is there twice");
   CHECK(complaint([] {
@@ -103,8 +105,11 @@ TEST_CASE("What is saved loads again, bit for bit") {
     Recording recording = test::random_recording(seed + k);
     recording.properties = kGreenDiabolo;
     recording.string_length = 1.0 / 3.0;
+    if (k % 2 == 1) recording.assumed = {"string_length"};
     save_tidy(recording, folder / "random.csv");
-    CHECK(test::same(load_recording(folder / "random.csv"), recording));
+    const Recording again = load_recording(folder / "random.csv");
+    CHECK(test::same(again, recording));
+    CHECK(again.assumed == recording.assumed);
     CHECK(folder.entries() == 2);
   }
 }

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from diabolo import MagnusLift, Model, Parameters
+from diabolo import DiaboloProperties, MagnusLift, Model, Parameters, Recording, load_recording
 from diabolo.cli import main
 from diabolo.hosts import mjcf, sdf, urdf
 from diabolo.robot import JOINTS, StickArm
@@ -109,3 +109,25 @@ def test_what_cannot_be_written_is_one_sentence(
     error = capsys.readouterr().err
     assert complaint in error and error.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_a_cell_may_be_of_the_set_up_of_a_take(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    played = load_recording(SWING)
+    green = {"properties": DiaboloProperties.green(), "string_length": 1.2}
+    take = Recording(played.time, played.left, played.right, played.diabolo, played.rate, **green)
+    take.save(tmp_path / "take.csv")
+    Model(name="open").save(tmp_path / "model.json")
+    for suffix in ("xml", "sdf"):
+        cell = ["convert", str(tmp_path / "model.json"), str(tmp_path / f"cell.{suffix}")]
+        assert main([*cell, "--arms", "0.7", "1", "0", "--recording", str(tmp_path / "take.csv")]) == 0
+    assert "a diabolo of 0.1415 kg on a string of 1.2 m" in capsys.readouterr().out
+    world = ElementTree.parse(tmp_path / "cell.sdf")
+    assert world.findtext(".//plugin/string_length") == "1.2"
+    assert world.findtext(".//plugin/axle_radius") == "0.0065"
+    scene = ElementTree.parse(tmp_path / "cell.xml")
+    [model] = [one.get("value") for one in scene.iter("config") if one.get("key") == "model"]
+    assert json.loads(model or "")["parameters"]["string_length"] == 1.2
+    assert scene.find(".//body[@name='diabolo']/inertial").get("mass") == "0.1415"  # type: ignore[union-attr]
+    assert main(["convert", str(SWING), str(tmp_path / "a.csv"), "--recording", str(SWING)]) == 2
+    complaint = "--recording: it says of which set-up a model is; a.csv is of a recording"
+    assert complaint in capsys.readouterr().err

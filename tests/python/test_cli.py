@@ -230,6 +230,19 @@ def test_info_tells_what_is_there(command: Command, played: Recording, tmp_path:
     assert "diabolo_red" in text.stdout and "spin: " in text.stdout
 
 
+def test_a_gap_is_as_long_as_the_time_in_which_nothing_was_seen(
+    command: Command, played: Recording, tmp_path: Path
+) -> None:
+    kept = np.r_[0:100, 160 : len(played)]
+    diabolo = played.diabolo[kept]
+    diabolo[100] = np.nan
+    rows = Recording(played.time[kept], played.left[kept], played.right[kept], diabolo, 120.0)
+    rows.save(tmp_path / "rows.csv")
+    found = json_of(command("info", "rows.csv", "--json").stdout)
+    gaps = {body["name"]: body["longest_gap_s"] for body in found["bodies"]}
+    assert gaps == pytest.approx({"left": 60 / 120, "right": 60 / 120, "diabolo": 61 / 120})
+
+
 def test_calibrations_of_the_authors_go_by_name(command: Command, motive_file: Path) -> None:
     published = command("info", motive_file, "--calibration", "published")
     assert published.stdout == command("info", motive_file).stdout

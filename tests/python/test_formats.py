@@ -11,7 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from diabolo import Calibration, Recording, RecordingError, load_recording, save_recording
+from diabolo import (
+    Calibration,
+    DiaboloProperties,
+    Recording,
+    RecordingError,
+    load_recording,
+    save_recording,
+)
 from diabolo.cli import main
 from diabolo.cli.diagnose import input_file
 from diabolo.formats import qualisys, vicon
@@ -61,8 +68,9 @@ def write_bag(
     recording: Recording,
     topics: dict[str, str],
     shift: Mapping[str, int | NDArray[np.int64]],
+    stamped: Callable[[int], int] = int,
 ) -> None:
-    """A folder of rosbag2 whose bodies have stamps of their own."""
+    """A folder of rosbag2 whose bodies have stamps of their own, which `stamped` makes of ns."""
     from rosbags.rosbag2 import StoragePlugin, Writer
     from rosbags.typesys import Stores, get_typestore
 
@@ -74,7 +82,7 @@ def write_bag(
             places, turns = getattr(recording, role), getattr(recording, f"{role}_orientation")
             late = np.broadcast_to(shift.get(role, 0), len(recording)).tolist()
             for i in np.flatnonzero(np.isfinite(places[:, 0])):
-                stamp = 1_700_000_000 * 10**9 + round(recording.time[i] * 1e9) + late[i]
+                stamp = stamped(1_700_000_000 * 10**9 + round(recording.time[i] * 1e9) + late[i])
                 message = types["geometry_msgs/msg/PoseStamped"](
                     types["std_msgs/msg/Header"](
                         types["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9), "world"
@@ -102,14 +110,46 @@ def test_a_bag_of_rosbag2_is_read_by_its_topics(swing: Recording, tmp_path: Path
     found = load_recording(bag, topics=TOPICS)
     same(swing, found, places=1e-6)
     told = " ".join(found.warnings())
-    assert "stamps of a clock" in told and "nothing in it says how long the string is" in told
-    calibrated = load_recording(bag, Calibration.plain(), topics=TOPICS)
-    assert "nothing in it says" not in " ".join(calibrated.warnings())
+    assert "stamps of a clock" in told and "the string's length (1.46 m) and the diabolo (0.2845 kg)" in told
     part = load_recording(next(bag.glob("*.db3")), topics=TOPICS)
     same(found, part, places=0.0)
     for topics in ({**TOPICS, "left": "/nobody"}, dict.fromkeys(TOPICS, "/nobody")):
         with pytest.raises(RecordingError, match=r"no body '/nobody' for left; the file has '/mocap/hand_a'"):
             load_recording(bag, topics=topics)
+
+
+@pytest.mark.parametrize("suffix", [".mcap", ".parquet", ".csv"])
+def test_what_was_assumed_stays_told(swing: Recording, tmp_path: Path, suffix: str) -> None:
+    write_bag(tmp_path / "bag", swing, TOPICS, {})
+    found = load_recording(tmp_path / "bag", topics=TOPICS)
+    for path in (tmp_path / f"once{suffix}", tmp_path / f"twice{suffix}"):
+        save_recording(found, path)
+        found = load_recording(path)
+        assert found.assumed == ["string_length", "diabolo"]
+        assert len([one for one in found.warnings() if "assumed" in one]) == 1
+    measured = Calibration.plain().of(DiaboloProperties.green(), 1.3)
+    save_recording(load_recording(tmp_path / "bag", measured, topics=TOPICS), path)
+    found = load_recording(path)
+    assert (found.assumed, found.string_length, found.properties.mass) == ([], 1.3, 0.1415)
+
+
+@pytest.mark.parametrize(
+    "stamped",
+    [
+        lambda ns: ns // 10**3,
+        lambda ns: ns // 10**6,
+        lambda ns: ns - ns % 10**9 + ns % 10**9 // 10**3,  # us in the field of ns
+    ],
+)
+def test_stamps_in_other_units_are_refused_with_their_topic(
+    swing: Recording, tmp_path: Path, stamped: Callable[[int], int]
+) -> None:
+    write_bag(tmp_path / "bag", swing, TOPICS, {}, stamped)
+    with pytest.raises(
+        RecordingError,
+        match=r"/mocap/hand_a: \S+ samples a second by its stamps; expected 10000 at most",
+    ):
+        load_recording(tmp_path / "bag", topics=TOPICS)
 
 
 def test_bodies_with_stamps_of_their_own_are_interpolated_to_the_diabolo(
@@ -215,6 +255,62 @@ def test_stamps_of_no_clock_are_refused(tmp_path: Path) -> None:
 
     with pytest.raises(RecordingError, match=f"bag, left: stamp {2**63} ns; expected one within"):
         _body(Path("bag"), "left", Rows([0], [2**63], [(0.0,) * 3], {"world"}), {})
+
+
+def in_small_chunks(path: Path, out: Path) -> None:
+    """A bag as a recorder writes it: in the order of time, a chunk every few messages."""
+    from mcap.reader import make_reader
+    from mcap.writer import Writer
+
+    with path.open("rb") as file, out.open("wb") as kept:
+        writer = Writer(kept, chunk_size=4096)
+        writer.start(profile="ros2")
+        channels: dict[str, int] = {}
+        for schema, channel, message in make_reader(file).iter_messages():
+            if channel.topic not in channels:
+                assert schema is not None
+                kind = writer.register_schema(schema.name, schema.encoding, schema.data)
+                channels[channel.topic] = writer.register_channel(channel.topic, "cdr", kind)
+            writer.add_message(channels[channel.topic], message.log_time, message.data, message.log_time)
+        writer.finish()
+
+
+def test_a_bag_that_is_cut_off_is_read_up_to_there(swing: Recording, tmp_path: Path) -> None:
+    save_recording(swing, tmp_path / "swing.mcap")
+    in_small_chunks(tmp_path / "swing.mcap", tmp_path / "take.mcap")
+    content = (tmp_path / "take.mcap").read_bytes()
+    for share in (0.5, 0.6, 0.7):
+        (tmp_path / "cut.mcap").write_bytes(content[: int(share * len(content))])
+        found = load_recording(tmp_path / "cut.mcap")
+        assert 0.3 * len(swing) < len(found) < len(swing)
+        same(swing.cut(0, len(found) - 2), found.cut(0, len(found) - 2))  # the last row may lack a body
+        assert len([one for one in found.warnings() if "cut off" in one]) == 1
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "complaint"),
+    [
+        (b'"mass": 0.2', b'"mass": 0.3', "are not what their checksum says"),  # the set-up
+        (b"/left_tip\3\0\0\0cdr", b"/left_tep\3\0\0\0cdr", "are not what their checksum says"),  # the summary
+        (b"zstd", b"zst\0", "cannot be read as a bag of ROS"),  # a chunk
+    ],
+)
+def test_a_bag_that_is_damaged_ends_in_one_sentence(
+    swing: Recording,
+    tmp_path: Path,
+    was: bytes,
+    now: bytes,
+    complaint: str,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    path = tmp_path / "take.mcap"
+    save_recording(swing, path)
+    content = path.read_bytes()
+    assert was in content
+    path.write_bytes(now.join(content.rsplit(was, 1)))
+    assert main(["info", str(path)]) == 2
+    error = capsys.readouterr().err
+    assert complaint in error and "take.mcap" in error and error.count("\n") == 1
 
 
 def test_points_of_c3d_are_tips_without_directions(swing: Recording, tmp_path: Path) -> None:
@@ -422,7 +518,7 @@ def test_stamps_that_go_back_are_refused_with_the_body() -> None:
 
 
 def test_bodies_of_other_rates_are_interpolated_and_others_left_alone() -> None:
-    fast, slow = np.arange(0, 101, 10), np.arange(0, 101, 20)
+    fast, slow = np.arange(0, 101, 10) * 10**6, np.arange(0, 101, 20) * 10**6
     ramp = np.linspace(0.0, 1.0, len(slow))[:, None] * np.ones(3)
     bodies = [
         Body("left", slow, ramp),
@@ -517,6 +613,24 @@ def test_a_table_without_numbers_says_so(tmp_path: Path) -> None:
         load_recording(tmp_path / "take.parquet")
 
 
+@pytest.mark.parametrize("unit", ["us", "ns"])
+def test_a_column_of_date_and_time_is_counted_from_the_first_row(
+    swing: Recording, tmp_path: Path, unit: str
+) -> None:
+    import pyarrow
+    import pyarrow.parquet
+
+    path = tmp_path / "take.parquet"
+    save_recording(swing, path)
+    table = pyarrow.parquet.read_table(path)
+    ticks = np.rint((1.7e9 + table["time"].to_numpy()) * {"us": 1e6, "ns": 1e9}[unit]).astype(np.int64)
+    stamps = pyarrow.array(ticks).cast(pyarrow.timestamp(unit, "UTC"))
+    pyarrow.parquet.write_table(table.set_column(0, "zeit", stamps), path)
+    same(swing, load_recording(path, columns="time=zeit"), times=5e-7)
+    with pytest.raises(RecordingError, match="column 'zeit' has stamps of date and time; expected no unit"):
+        load_recording(path, columns="time=zeit[ms]")
+
+
 def test_points_stay_points(swing: Recording, tmp_path: Path) -> None:
     bare = Recording(swing.time, swing.left, swing.right, swing.diabolo, swing.rate)
     save_recording(bare, tmp_path / "bare.mcap")
@@ -526,10 +640,12 @@ def test_points_stay_points(swing: Recording, tmp_path: Path) -> None:
 
 
 def test_messages_of_all_kinds_are_read(tmp_path: Path) -> None:
+    from diabolo.formats.cdr import FLOATS, read_alike
     from diabolo.formats.messages import ROWS_OF
     from rosbags.typesys import Stores, get_typestore
 
-    types = get_typestore(Stores.ROS2_HUMBLE).types
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    types = store.types
     header = types["std_msgs/msg/Header"](types["builtin_interfaces/msg/Time"](1, 2), "world")
     point, vector = (types[f"geometry_msgs/msg/{name}"](1.0, 2.0, 3.0) for name in ("Point", "Vector3"))
     turn = types["geometry_msgs/msg/Quaternion"](0.0, 0.6, 0.0, 0.8)
@@ -555,6 +671,11 @@ def test_messages_of_all_kinds_are_read(tmp_path: Path) -> None:
     }
     for kind, message in messages.items():
         [(name, head, numbers)] = ROWS_OF[kind]("topic", message)
+        raw = bytes(store.serialize_cdr(message, kind))
+        if (alike := read_alike(kind, [raw, raw])) is not None:
+            assert alike == ([10**9 + 2] * 2, [numbers] * 2, {"world"})
+            assert read_alike(kind, [raw, raw[:-8]]) is None and read_alike(kind, [b"\0\0" + raw[2:]]) is None
+        assert (alike is None) == (kind not in FLOATS)
         assert name == ("top" if kind.split("/")[-1] in ("TransformStamped", "TFMessage") else "topic")
         assert head.frame_id == "world"
         assert numbers == ((1.0, 2.0, 3.0) if "Point" in kind else (1.0, 2.0, 3.0, 0.0, 0.6, 0.0, 0.8))
@@ -570,7 +691,7 @@ def test_metadata_that_lack_what_they_promise_say_so(tmp_path: Path) -> None:
         writer.add_metadata(SCHEMA, {})
         writer.finish()
     with pytest.raises(RecordingError, match=r"cannot be read as a bag with metadata of .* \(no 'setup'\)"):
-        setup_of(tmp_path / "take.mcap")
+        setup_of(tmp_path / "take.mcap", tmp_path / "take.mcap")
 
 
 def test_a_bag_without_poses_says_so(tmp_path: Path) -> None:

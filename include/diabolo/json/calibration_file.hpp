@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -24,8 +25,8 @@ namespace diabolo {
 ///    "world": {"yaw_deg": -90, "offset": [x, y, z]}}
 /// with points [m] and axes (of any length) in the rigid bodies' frames; "body" may be a list of names tried
 /// in order. These may be left out: "axis" of a stick (then stick_axis_towards() its tip), "string_length"
-/// [m], and "properties" of the diabolo (then the published ones of the red diabolo). Throws RecordingError
-/// with file and field about unknown, missing and wrong fields.
+/// [m], and "properties" of the diabolo (then the published ones of the red diabolo are assumed). Throws
+/// RecordingError with file and field about unknown, missing and wrong fields.
 inline Calibration read_calibration(std::string_view text, const std::string& file_name) {
   const nlohmann::json json = parse_json(text, file_name);
   const JsonFields file(json, file_name);
@@ -59,6 +60,8 @@ inline Calibration read_calibration(std::string_view text, const std::string& fi
     result.properties = properties_from_json(diabolo.object("properties"));
   }
   if (file.has("string_length")) result.string_length = file.positive("string_length");
+  if (!file.has("string_length")) result.assumed.push_back("string_length");
+  if (!diabolo.has("properties")) result.assumed.push_back("diabolo");
   check_calibration(result, file_name);
   return result;
 }
@@ -68,8 +71,8 @@ inline Calibration load_calibration(const std::filesystem::path& path) {
   return read_calibration(read_file(path), path.string());
 }
 
-/// The text of a calibration file, with every optional field. The yaw goes through degrees: it reads back
-/// within rounding. Throws RecordingError where the calibration is unusable.
+/// The text of a calibration file, with every optional field but what is assumed. The yaw goes through
+/// degrees: it reads back within rounding. Throws RecordingError where the calibration is unusable.
 inline std::string write_calibration(const Calibration& calibration) {
   check_calibration(calibration, "calibration");
   const auto vector = [](const Eigen::Vector3d& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
@@ -85,9 +88,10 @@ inline std::string write_calibration(const Calibration& calibration) {
                               {"diabolo", part(calibration.diabolo)},
                               {"world",
                                {{"yaw_deg", calibration.world_yaw * 180.0 / std::numbers::pi},
-                                {"offset", vector(calibration.world_offset)}}},
-                              {"string_length", calibration.string_length}};
-  json["diabolo"]["properties"] = to_json(calibration.properties);
+                                {"offset", vector(calibration.world_offset)}}}};
+  const auto is_told = [&](const char* what) { return std::ranges::count(calibration.assumed, what) == 0; };
+  if (is_told("string_length")) json["string_length"] = calibration.string_length;
+  if (is_told("diabolo")) json["diabolo"]["properties"] = to_json(calibration.properties);
   return json_text(json, "calibration");
 }
 

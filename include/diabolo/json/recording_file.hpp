@@ -33,7 +33,8 @@ inline constexpr const char* kRecordingFrame = "x forward, y left, z up";
 ///   {"schema": "diabolo.recording/1",
 ///    "diabolo": {"mass": kg, "diameter": m, "length": m, "axle_radius": m},
 ///    "string_length": m, "rate": Hz, "units": "SI", "frame": "x forward, y left, z up"}
-/// Every field is required; further ones are left alone. Throws RecordingError with file and field.
+/// Every field is required. "assumed" may list those of kAssumable that nobody told. Further fields are left
+/// alone. Throws RecordingError with file and field.
 inline TidyMetadata read_metadata(std::string_view text, const std::string& file_name) {
   const nlohmann::json json = parse_json(text, file_name);
   const JsonFields fields(json, file_name);
@@ -41,7 +42,9 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
   fields.expect_text("units", "SI");
   fields.expect_text("frame", kRecordingFrame);
   const TidyMetadata metadata{properties_from_json(fields.object("diabolo")),
-                              fields.positive("string_length"), fields.positive("rate")};
+                              fields.positive("string_length"), fields.positive("rate"),
+                              fields.has("assumed") ? fields.names("assumed") : std::vector<std::string>{}};
+  check_assumed(metadata.assumed, file_name);
   check_properties(metadata.properties, metadata.string_length, file_name);
   return metadata;
 }
@@ -50,13 +53,14 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
 inline std::string write_metadata(const TidyMetadata& metadata) {
   check_properties(metadata.properties, metadata.string_length, "recording");
   check_rate(metadata.rate, {}, "recording");
-  return json_text({{"schema", kRecordingSchema},
-                    {"diabolo", to_json(metadata.properties)},
-                    {"string_length", metadata.string_length},
-                    {"rate", metadata.rate},
-                    {"units", "SI"},
-                    {"frame", kRecordingFrame}},
-                   "recording");
+  nlohmann::ordered_json json{{"schema", kRecordingSchema},
+                              {"diabolo", to_json(metadata.properties)},
+                              {"string_length", metadata.string_length},
+                              {"rate", metadata.rate},
+                              {"units", "SI"},
+                              {"frame", kRecordingFrame}};
+  if (!metadata.assumed.empty()) json["assumed"] = metadata.assumed;
+  return json_text(json, "recording");
 }
 
 /// What a file does not say of itself.
@@ -66,9 +70,11 @@ struct ReadOptions {
 };
 
 /// Reads a CSV in the world frame. One whose columns are mapped needs no JSON file beside it: the string's
-/// length and the diabolo are then the calibration's, the rate is that of the times.
+/// length and the diabolo are then the calibration's, or assumed without one, and the rate is that of the
+/// times.
 inline Recording load_tidy(const std::filesystem::path& path, std::string_view text,
-                           const Calibration& calibration, const std::vector<MappedColumn>& columns) {
+                           const std::optional<Calibration>& calibration,
+                           const std::vector<MappedColumn>& columns) {
   const std::string file_name = path.string();
   const std::filesystem::path metadata = std::filesystem::path(path).replace_extension(".json");
   if (std::filesystem::exists(metadata))
@@ -76,13 +82,8 @@ inline Recording load_tidy(const std::filesystem::path& path, std::string_view t
   if (columns.empty())
     throw RecordingError(file_name + ": expected " + metadata.string() +
                          " beside it, which says the string's length, the rate and what the diabolo is like");
-  Recording result =
-      read_tidy(text, file_name, {calibration.properties, calibration.string_length, 0.0}, columns);
-  result.notes.push_back("no " + metadata.filename().string() + " beside it: the string is taken to be " +
-                         shown(result.string_length) + " m long, the diabolo to weigh " +
-                         shown(result.properties.mass) + " kg, the rate to be " + shown_rounded(result.rate) +
-                         " Hz");
-  return result;
+  const Calibration used = calibration.value_or(plain_calibration());
+  return read_tidy(text, file_name, {used.properties, used.string_length, 0.0, used.assumed}, columns);
 }
 
 /// Throws RecordingError where the motion says clearly that another axis of the file than z points up; the
@@ -125,10 +126,10 @@ inline Recording recording_of(MotiveTake take, const Calibration& calibration, c
 }
 
 /// Reads the text of a recording of either kind, told apart by content: a Motive export, to which
-/// `calibration` is applied, or a tidy CSV with its JSON file beside `path`, which is in the world frame
-/// already. Throws RecordingError.
+/// `calibration` (the published one by default) is applied, or a tidy CSV with its JSON file beside `path`,
+/// which is in the world frame already. Throws RecordingError.
 inline Recording read_recording(const std::string& text, const std::filesystem::path& path,
-                                const Calibration& calibration = published_calibration(),
+                                const std::optional<Calibration>& calibration = {},
                                 const ReadOptions& options = {}) {
   const std::string file_name = path.string();
   const std::string_view content = utf8_text(text, file_name);
@@ -139,7 +140,7 @@ inline Recording read_recording(const std::string& text, const std::filesystem::
     if (!options.columns.empty())
       throw RecordingError(file_name +
                            ": columns are mapped, but it is a Motive export; expected another CSV");
-    return recording_of(read_motive(text, file_name), calibration, options);
+    return recording_of(read_motive(text, file_name), calibration.value_or(published_calibration()), options);
   }
   for (const char* const other : {";", "\t"})
     if (first_line.find(',') == std::string_view::npos && first_line.find(other) != std::string_view::npos)
@@ -157,7 +158,7 @@ inline Recording read_recording(const std::string& text, const std::filesystem::
 
 /// The same of a file.
 inline Recording load_recording(const std::filesystem::path& path,
-                                const Calibration& calibration = published_calibration(),
+                                const std::optional<Calibration>& calibration = {},
                                 const ReadOptions& options = {}) {
   return read_recording(read_file(path), path, calibration, options);
 }
@@ -167,8 +168,9 @@ inline Recording load_recording(const std::filesystem::path& path,
 inline void save_tidy(const Recording& recording, const std::filesystem::path& path) {
   if (path.extension() != ".csv") throw RecordingError(path.string() + ": expected a name that ends in .csv");
   FilesToWrite files;
-  files.add(std::filesystem::path(path).replace_extension(".json"),
-            write_metadata({recording.properties, recording.string_length, recording.rate}));
+  files.add(
+      std::filesystem::path(path).replace_extension(".json"),
+      write_metadata({recording.properties, recording.string_length, recording.rate, recording.assumed}));
   files.add(path, write_tidy(recording));
   files.commit();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "diabolo/parameters.hpp"
 #include "diabolo/recording/recording.hpp"
@@ -78,6 +79,14 @@ inline void check_properties(const DiaboloProperties& properties, double string_
     check(owner + std::string(info.name) + " [" + std::string(info.unit) + "]", value, info.minimum,
           info.maximum);
   });
+}
+
+/// Throws RecordingError unless each of these names is one of kAssumable.
+inline void check_assumed(const std::vector<std::string>& names, const std::string& where) {
+  for (const std::string& name : names)
+    if (std::ranges::count(kAssumable, name) == 0)
+      throw RecordingError(where + ": assumed: " + shown(name) +
+                           "; expected \"string_length\" or \"diabolo\"");
 }
 
 /// Throws RecordingError unless the track has `size` samples: believable where valid, NaN in dropouts.

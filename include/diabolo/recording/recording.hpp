@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -55,6 +56,9 @@ inline constexpr DiaboloProperties kGreenDiabolo{0.1415, 0.082, 0.093, 0.0065};
 /// String length of the published evaluation [m].
 inline constexpr double kPublishedStringLength = 1.46;
 
+/// What of a set-up may be assumed, as fields of a recording's JSON file name it.
+inline constexpr std::array kAssumable{"string_length", "diabolo"};
+
 /// A recorded play: stick tips and diabolo over N samples in the world frame.
 struct Recording {
   std::string name;
@@ -67,6 +71,7 @@ struct Recording {
   OrientationTrack left_orientation, right_orientation;  ///< body x runs along the stick, outwards
   DiaboloProperties properties = kRedDiabolo;
   double string_length = kPublishedStringLength;  ///< [m]
+  std::vector<std::string> assumed;               ///< those of kAssumable that no file told
   double clock = 0.0;              ///< of laws in time, at sample 0 [s]: a part keeps that of the whole
   std::vector<std::string> notes;  ///< what its reader changed or took for granted, a clause each
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from ..checks import warn_of
 from ..evaluation import DEFAULT_MODELS
 from ..formats import READERS, WITH_JSON, WRITTEN, check_writer, save_recording
 from ..hosts import mjcf, sdf, urdf
+from ..player import model_for
 from .arguments import (
     OF_RECORDINGS,
     add_calibration,
@@ -48,14 +50,15 @@ def add_parser(commands: Any) -> None:
         "  .parquet  the tidy table, and OUT.json beside it\n"
         "  .rrd      the play in three dimensions, height and spin, to look at in rerun\n\n"
         "Of a model (a file, or consistent, paper or published) it writes the cell of two UR5e with sticks\n"
-        "and the diabolo (docs/hosts.md); --arms says where they stand:\n\n"
+        "and the diabolo (docs/hosts.md); --arms says where they stand, --recording what the\n"
+        "set-up is like:\n\n"
         "  .xml      MJCF, with our string as MuJoCo's plugin and the model in it\n"
         "  .sdf      a world of SDF, with the name of the model's file\n"
         "  .urdf     the arms and sticks alone",
         example="  diabolo convert throw_1.csv tidy/throw_1.csv\n"
         "  diabolo convert bag/ take.csv --topics left=/stick_l/pose,right=/stick_r/pose,diabolo=/d/pose\n"
         "  diabolo convert take.csv take.mcap\n"
-        "  diabolo convert out/model.json cell.sdf",
+        "  diabolo convert out/model.json cell.sdf --recording take.csv",
     )
     parser.add_argument(
         "recording",
@@ -63,6 +66,13 @@ def add_parser(commands: Any) -> None:
         help="what to read; NAME.csv:0-180 takes the rows 0 to 180 of a recording only",
     )
     parser.add_argument("out", metavar="OUT", type=output_name, help="what to write")
+    parser.add_argument(
+        "--recording",
+        dest="take",
+        metavar="TAKE",
+        help="a take of the set-up: its string length, mass and axle radius, which a diagnosed model "
+        "leaves open",
+    )
     add_calibration(parser)
     parser.add_argument(
         "--json", metavar="FILE", help="write what was converted as JSON; - is standard output"
@@ -87,6 +97,8 @@ Done = tuple[dict[str, Any], str]
 
 
 def _convert_recording(arguments: argparse.Namespace, target: Path) -> Done:
+    if arguments.take is not None:
+        raise ValueError(f"--recording: it says of which set-up a model is; {target.name} is of a recording")
     inputs = [split_excerpt(arguments.recording)[0]]
     inputs += [arguments.calibration] if arguments.calibration else []
     beside = target.with_suffix(".json") if target.suffix in WITH_JSON else None
@@ -112,12 +124,17 @@ def check_is_recording(path: Path) -> None:
 
 def _convert_model(arguments: argparse.Namespace, target: Path) -> Done:
     name = arguments.recording
-    check_not_given(arguments, OF_RECORDINGS, f"{target.name} is of a model")
+    takes = [] if arguments.take is None else [arguments.take]
+    if not takes:
+        check_not_given(arguments, OF_RECORDINGS, f"{target.name} is of a model")
     is_file = name not in DEFAULT_MODELS and Path(name).exists()
-    files.check_outputs([target, arguments.json], [name] if is_file else [])
+    files.check_outputs([target, arguments.json], [*([name] if is_file else []), *takes])
     if is_file and (Path(name).suffix in RECORDED or Path(name).is_dir()):
         raise ValueError(f"{name}: a recording; expected OUT to end in {', '.join(WRITTEN)}")
     arms, model = arms_of(arguments), read_model(name)
+    for take in takes:
+        model = model_for(model, replace(reading_of(arguments), arms=None).load(take))
+        model.own_string_length = model.own_axle_radius = True
     if target.suffix == ".urdf":
         text = urdf.urdf(arms)
     elif target.suffix == ".xml":

@@ -94,7 +94,7 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
             "right": recording.right_valid,
             "diabolo": recording.diabolo_valid,
         }
-    seen = [_body(name, valid, rate) for name, valid in bodies.items()]
+    seen = [_body(name, valid, time, rate) for name, valid in bodies.items()]
     return {
         "schema": SCHEMA,
         "file": path,
@@ -161,7 +161,8 @@ def _unseen(bodies: list[dict[str, Any]]) -> list[str]:
         f"{b['name']}: not seen in {100.0 * b['dropouts'] / b['samples']:.1f} % of the samples, "
         f"for up to {b['longest_gap_s']:.3f} s at a time"
         for b in bodies
-        if b["dropouts"] > MOST_DROPOUTS * b["samples"] or b["longest_gap_s"] > LONGEST_GAP
+        if b["dropouts"] > MOST_DROPOUTS * b["samples"]
+        or (b["dropouts"] and b["longest_gap_s"] > LONGEST_GAP)
     ]
 
 
@@ -172,14 +173,16 @@ def _motive_take(path: str) -> MotiveTake | None:
     return MotiveTake.load(path)
 
 
-def _body(name: str, valid: NDArray[np.bool_], rate: float) -> dict[str, Any]:
-    edges = np.flatnonzero(np.diff(np.concatenate(([True], valid, [True])).astype(np.int8)))
-    gaps = edges[1::2] - edges[::2]
+def _body(name: str, valid: NDArray[np.bool_], time: NDArray[np.float64], rate: float) -> dict[str, Any]:
+    """Its gaps are of time: dropouts, and rows that are missing."""
+    period = 1.0 / rate
+    seen = np.concatenate(([time[0] - period], time[valid], [time[-1] + period]))
+    longest = float(np.diff(seen).max()) - period
     return {
         "name": name,
         "samples": len(valid),
         "dropouts": int(np.count_nonzero(~valid)),
-        "longest_gap_s": float(gaps.max() / rate) if len(gaps) else 0.0,
+        "longest_gap_s": longest if longest > 0.5 * period else 0.0,
     }
 
 

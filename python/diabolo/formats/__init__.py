@@ -21,10 +21,6 @@ from . import bodies, qualisys, vicon
 from .bodies import ROLES, Body
 
 OF_A_CLOCK = "the times are stamps of a clock: they are counted from the first one on"
-NO_SETUP = (
-    "nothing in it says how long the string is and what the diabolo is like: the paper's are taken for "
-    "granted (--calibration)"
-)
 WRITERS = {".csv": (), ".mcap": ("mcap", "rosbags"), ".parquet": ("pyarrow",), ".rrd": ("rerun",)}
 """The libraries that a recording is written with, by the suffix of its file."""
 WRITTEN = tuple(WRITERS)
@@ -44,10 +40,10 @@ def load_recording(
 ) -> Recording:
     """Read a recording of any kind, told apart by its suffix and its first line.
 
-    CSV files, tidy or Motive's, are read as by Recording.load, with `calibration` (default: the published
-    one), `up` and `columns`. A `.parquet` is the same table. Bags (a folder of rosbag2, `.mcap`, `.db3`,
-    `.bag`), `.c3d`, Vicon's CSV of objects and Qualisys' TSV of bodies hold bodies or points with names: by
-    default these are the tips and the diabolo themselves, in a world frame with z up, told apart by names.
+    CSV files, tidy or Motive's, are read as by Recording.load, with `calibration`, `up` and `columns`. A
+    `.parquet` is the same table. Bags (a folder of rosbag2, `.mcap`, `.db3`, `.bag`), `.c3d`, Vicon's CSV of
+    objects and Qualisys' TSV of bodies hold bodies or points with names: by default these are the tips and
+    the diabolo themselves, in a world frame with z up, told apart by names.
     topics: {"left": NAME, "right": NAME, "diabolo": NAME}, or "left=NAME,...", says which they are.
     arms: the left and the right one, of whose joints a bag may tell instead of the tips (default: the
     paper's). Their sticks are TOPIC:left and TOPIC:right.
@@ -67,12 +63,11 @@ def load_recording(
     if arms is not None and reader != "bag":
         raise RecordingError(f"{path}: arms are given; expected them of bags only")
     if reader is None:
-        return _core.load_recording(path, calibration or Calibration.published(), up=up, columns=columns)
+        return _core.load_recording(path, calibration, up=up, columns=columns)
     if reader == "parquet":
         from . import parquet
 
-        text = parquet.csv_of(path)
-        return _core.read_recording(text, path, calibration or Calibration.published(), up, columns)
+        return _core.read_recording(parquet.csv_of(path, columns), path, calibration, up, columns)
     if columns is not None:
         raise RecordingError(f"{path}: columns are mapped, but it is no table; expected --topics")
     return _recording_of_bodies(path, reader, calibration, up, names, used)
@@ -92,8 +87,6 @@ def _recording_of_bodies(
     names = names or _names_in(calibration, [body.name for body in found])
     time, tracks, of_a_clock = bodies.at_common_times(path, found, names)
     notes += [OF_A_CLOCK] if of_a_clock else []
-    if calibration is None and setup is None:
-        notes.append(NO_SETUP)
     used = (calibration or setup or Calibration.plain()).renamed(**names)
     shown_path = os.fsencode(path).decode(errors="replace")
     return _core.recording_of_bodies(shown_path, time, tracks, notes, used, up)
@@ -225,7 +218,7 @@ def _bodies_of(
         from . import bag
 
         wanted = names.values() if len(names) == len(ROLES) else ()
-        return bag.read(path, wanted, arms), bag.setup_of(path), []
+        return bag.read(path, wanted, arms)
     if reader == "c3d":
         from . import c3d
 

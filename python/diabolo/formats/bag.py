@@ -14,10 +14,11 @@ import numpy as np
 
 from .._core import Calibration, DiaboloProperties, Recording, RecordingError, StickArm
 from ..arms import JOINTS, SIDES, two_arms
-from ..checks import check_library
 from ..files import whole_file
 from .bodies import NO_FRAME, Body, Floats, unreadable
+from .cdr import read_alike
 from .joints import sticks, unknown_joints
+from .mcap_end import whole
 from .messages import JOINT_STATE, MOCAP4R2, NAMED_INSIDE, POINT, POSE, ROWS_OF
 
 SCHEMA = "diabolo.recording/1"
@@ -37,48 +38,75 @@ class Rows:
     numbers: list[tuple[float, ...]] = field(default_factory=list)
     frames: set[str] = field(default_factory=set)
 
+    def add(self, logged: int, header: Any, numbers: tuple[float, ...]) -> None:
+        frame = NO_FRAME if len(numbers) == len(JOINTS) else header.frame_id
+        stamp = int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
+        self.add_all([logged], [stamp], [numbers], {frame})
 
-def read(path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | None = None) -> list[Body]:
+    def add_all(
+        self, logged: list[int], stamps: list[int], numbers: list[tuple[float, ...]], frames: set[str]
+    ) -> None:
+        self.logged += logged
+        self.stamps += stamps
+        self.numbers += numbers
+        self.frames |= frames
+
+
+def read(
+    path: Path, names: Collection[str] = (), arms: Sequence[StickArm] | None = None
+) -> tuple[list[Body], Calibration | None, list[str]]:
     """The bodies of a bag, each a topic with poses or points, a frame of /tf, or the stick of an arm of whose
-    joints it tells: those of these names, or all without them."""
-    from rosbags.highlevel import AnyReader
-
-    found: defaultdict[str, Rows] = defaultdict(Rows)
-    joints: dict[str, list[str]] = {}
-    wanted = {*names} | {name.rpartition(":")[0] for name in names}  # of an arm TOPIC:left or TOPIC:right
-    try:
-        with AnyReader([path], default_typestore=known_types()) as bag:
-            known = [
-                one
-                for one in bag.connections
-                if one.msgtype in ROWS_OF
-                and (not names or one.topic in wanted or one.msgtype in NAMED_INSIDE)
-            ]
-            for connection, logged, raw in bag.messages(connections=known) if known else ():
-                message = bag.deserialize(raw, connection.msgtype)
-                if connection.msgtype == JOINT_STATE and len(message.position):
-                    joints.setdefault(connection.topic, message.name)
-                for name, header, numbers in ROWS_OF[connection.msgtype](connection.topic, message):
-                    if names and name not in names:
-                        continue
-                    rows = found[name]
-                    rows.stamps.append(int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec))
-                    rows.logged.append(logged)
-                    rows.numbers.append(numbers)
-                    rows.frames.add(NO_FRAME if len(numbers) == len(JOINTS) else header.frame_id)
-    except RecordingError as error:
-        raise RecordingError(f"{path}, {error}") from error
-    except Exception as error:  # of files, archives, databases or messages: whatever a broken bag leads to
-        raise unreadable(path, "a bag of ROS", error) from error
-    if not found.keys() >= {*names}:
-        return read(path, (), arms)  # all, for the sentence about those that are not there
+    joints it tells: those of these names, or all where one is not there. Then string and diabolo, of a bag
+    that save() wrote, and what was left out."""
+    with whole(path) as (readable, notes):
+        found, joints = _rows(path, readable, names)
+        if not found.keys() >= {*names}:
+            found, joints = _rows(path, readable, ())
+        setup = setup_of(path, readable)
     if joints and all("diabolo" in name.lower() and not _is_arm(rows) for name, rows in found.items()):
         topic, there = next(iter(joints.items()))
         raise RecordingError(f"{path}, {topic}: {unknown_joints(there)}")
     if not found:
         raise RecordingError(f"{path}: no poses in it; expected messages of {', '.join(sorted(ROWS_OF))}")
     holding = dict(zip(SIDES, two_arms(arms), strict=True))
-    return [_body(path, name, rows, holding) for name, rows in found.items()]
+    return [_body(path, name, rows, holding) for name, rows in found.items()], setup, notes
+
+
+def _rows(path: Path, readable: Path, names: Collection[str]) -> tuple[dict[str, Rows], dict[str, list[str]]]:
+    """What a bag has of the bodies of these names, or of all, and the names of joints by their topic."""
+    from rosbags.highlevel import AnyReader
+
+    wanted = {*names} | {name.rpartition(":")[0] for name in names}  # of an arm TOPIC:left or TOPIC:right
+    found: defaultdict[str, Rows] = defaultdict(Rows)
+    joints: dict[str, list[str]] = {}
+    try:
+        with AnyReader([readable], default_typestore=known_types()) as bag:
+            known = [
+                one
+                for one in bag.connections
+                if one.msgtype in ROWS_OF
+                and (not names or one.topic in wanted or one.msgtype in NAMED_INSIDE)
+            ]
+            kept: defaultdict[tuple[str, str], list[tuple[int, bytes]]] = defaultdict(list)
+            for connection, logged, raw in bag.messages(connections=known) if known else ():
+                kept[connection.topic, connection.msgtype].append((logged, raw))
+            for (topic, kind), messages in kept.items():
+                alike = read_alike(kind, [raw for _, raw in messages]) if bag.is2 else None
+                if alike is not None:
+                    found[topic].add_all([logged for logged, _ in messages], *alike)
+                    continue
+                for logged, raw in messages:
+                    message = bag.deserialize(raw, kind)
+                    if kind == JOINT_STATE and len(message.position):
+                        joints.setdefault(topic, message.name)
+                    for name, header, numbers in ROWS_OF[kind](topic, message):
+                        if not names or name in names:
+                            found[name].add(logged, header, numbers)
+    except RecordingError as error:
+        raise RecordingError(f"{path}, {error}") from error
+    except Exception as error:  # of files, archives, databases or messages: whatever a broken bag leads to
+        raise unreadable(path, "a bag of ROS", error) from error
+    return found, joints
 
 
 def known_types() -> Any:
@@ -95,20 +123,20 @@ def _is_arm(rows: Rows) -> bool:
     return len(rows.numbers[0]) == len(JOINTS)
 
 
-def setup_of(path: Path) -> Calibration | None:
+def setup_of(path: Path, readable: Path) -> Calibration | None:
     """String and diabolo of a bag that save() wrote; None of others."""
-    if path.suffix != ".mcap":
+    if readable.suffix != ".mcap":
         return None
-    check_library(f"reading {path.name}", "mcap", "formats")
     from mcap.reader import make_reader
 
     try:
-        with path.open("rb") as file:
+        with readable.open("rb") as file:
             kept = [one.metadata["setup"] for one in make_reader(file).iter_metadata() if one.name == SCHEMA]
         if not kept:
             return None
         setup = json.loads(kept[0])
-        return Calibration.plain().of(DiaboloProperties(**setup["diabolo"]), setup["string_length"])
+        diabolo, assumed = DiaboloProperties(**setup["diabolo"]), setup.get("assumed", [])
+        return Calibration.plain().of(diabolo, setup["string_length"], assumed)
     except Exception as error:  # of the library, or of somebody's own metadata
         raise unreadable(path, f"a bag with metadata of {SCHEMA}", error) from error
 
@@ -125,7 +153,7 @@ def save(recording: Recording, path: Path) -> None:
         if np.isfinite(getattr(recording, role)[:, 0]).sum() < 2:
             raise RecordingError(f"{path}: {role} is seen less than twice; expected two samples or more")
     with whole_file(path) as temporary, temporary.open("wb") as file:
-        writer = Writer(file)
+        writer = Writer(file, enable_data_crcs=True)
         writer.start(profile="ros2", library="diabolo")
         schemas = {
             kind: writer.register_schema(kind, "ros2msg", store.generate_msgdef(kind)[0].encode())
@@ -158,10 +186,11 @@ def _message(types: Any, stamp: int, place: Floats, turn: Floats | None) -> Any:
 def _setup(recording: Recording) -> dict[str, Any]:
     """What poses do not say of a recording."""
     names = ("mass", "diameter", "length", "axle_radius")
-    return {
+    told = {
         "diabolo": {name: getattr(recording.properties, name) for name in names},
         "string_length": recording.string_length,
     }
+    return told | ({"assumed": recording.assumed} if recording.assumed else {})
 
 
 def _body(path: Path, name: str, rows: Rows, arms: dict[str, StickArm]) -> Body:

@@ -21,6 +21,7 @@ EVEN = 0.9  # the median step of all stamps over a body's, at least, where bodie
 SAME_RATE = 1.5  # the largest median step of a body over the smallest, at most, if so
 CLOCK = 10**18  # stamps beyond are those of a clock that counts from 1970 [ns]
 LAST = 1e9  # time within a file [s]
+FASTEST = 1e4  # samples a second
 NO_FRAME = ""  # of a body whose frame is not told: it goes with any
 LONGEST_STEP = 2.5  # that is interpolated, in a body's own median steps
 
@@ -114,6 +115,12 @@ def at_common_times(
             raise RecordingError(
                 f"{path}: {told[0].name} is in the frame {shown(told[0].frame)}, {body.name} in "
                 f"{shown(body.frame)}; expected one frame"
+            )
+    for body in wanted:
+        if body.step < 1e9 / FASTEST:
+            raise RecordingError(
+                f"{path}, {body.name}: {1e9 / body.step:g} samples a second by its stamps; expected "
+                f"{FASTEST:g} at most (stamps of us or ms where ns belong?)"
             )
     stamps = np.unique(np.concatenate([body.stamps for body in wanted]))
     steps = [body.step for body in wanted]

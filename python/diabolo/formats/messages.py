@@ -9,6 +9,7 @@ from typing import Any
 from .joints import angles_of
 
 POSE, POINT = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PointStamped"
+POSE_WITH_COVARIANCE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 JOINT_STATE, RIGID_BODIES = "sensor_msgs/msg/JointState", "mocap4r2_msgs/msg/RigidBodies"
 TRANSFORM, TRANSFORMS = "geometry_msgs/msg/TransformStamped", "tf2_msgs/msg/TFMessage"
 
@@ -67,7 +68,7 @@ def _of_joints(topic: str, message: Any) -> Iterator[Row]:
 ROWS_OF: dict[str, Callable[[str, Any], Iterator[Row]]] = {
     POSE: _of_pose,
     POINT: _of_point,
-    "geometry_msgs/msg/PoseWithCovarianceStamped": _of_pose_with_covariance,
+    POSE_WITH_COVARIANCE: _of_pose_with_covariance,
     "nav_msgs/msg/Odometry": _of_pose_with_covariance,
     TRANSFORM: _of_transform,
     TRANSFORMS: _of_transforms,

@@ -44,7 +44,8 @@ def world(
     them. The diabolo is a hub, on which the string pulls, with cups that turn on it: engines that count a
     free body's velocity in its own frame lose their way where it spins. Its mass and inertia and the world's
     gravity are those of `model`. The string is the plugin `diabolo::String`, which reads `model_file`, the
-    name of a model's file, as seen from the world's, or of a preset.
+    name of a model's file, as seen from the world's, or of a preset. Where the string's length and the axle
+    are the model's own, they stand in the plugin and count over those of the file.
 
     Raises:
         ValueError: there is not one left and one right arm, `model` is no Model, or `model_file` no name.
@@ -124,8 +125,14 @@ def _diabolo(model: Model, model_file: str) -> str:
         f"<axis><xyz>1 0 0</xyz></axis></joint><plugin {PLUGIN}>"
         "<link>hub</link><spinning_link>cups</spinning_link>"
         "<left>cell::left_tip</left><right>cell::right_tip</right>"
-        f"<model>{escape(model_file)}</model></plugin></model>"
+        f"<model>{escape(model_file)}</model>{_own(model)}</plugin></model>"
     )
+
+
+def _own(model: Model) -> str:
+    """What the string goes by whatever is recorded; its mass is that of the links."""
+    own = {"string_length": model.own_string_length, "axle_radius": model.own_axle_radius}
+    return "".join(f"<{name}>{getattr(model.parameters, name)}</{name}>" for name in own if own[name])
 
 
 def _inertial(

@@ -60,16 +60,18 @@ TEST_CASE("What cannot be mapped is named") {
         "own.csv, line 1: column \"right_qy\" is missing");
 }
 
-TEST_CASE("Without JSON beside it, string and diabolo are the calibration's") {
+TEST_CASE("Without JSON beside it, string and diabolo are the calibration's, or assumed") {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "own.csv") << kOwn;
   Calibration calibration = published_calibration();
   calibration.string_length = 1.3;
   const Recording r = load_recording(folder / "own.csv", calibration, {{}, columns_of(kMap)});
   CHECK(r.string_length == 1.3);
-  CHECK(r.notes ==
-        std::vector<std::string>{"no own.json beside it: the string is taken to be 1.3 m long, the "
-                                 "diabolo to weigh 0.2845 kg, the rate to be 100 Hz"});
+  CHECK(r.rate == 100.0);
+  CHECK(r.assumed.empty());
+  const Recording untold = load_recording(folder / "own.csv", {}, {{}, columns_of(kMap)});
+  CHECK(untold.string_length == kPublishedStringLength);
+  CHECK(untold.assumed == std::vector<std::string>{"string_length", "diabolo"});
   CHECK(complaint([&] {
           load_recording(folder / "own.csv", calibration);
         }).ends_with("--columns maps other names"));

@@ -45,6 +45,17 @@ TEST_CASE("lengths in other units are odd, though all within 100 m") {
   }
 }
 
+TEST_CASE("what no file tells of the set-up is told once") {
+  Recording untold = swing();
+  untold.assumed = {"string_length", "diabolo"};
+  CHECK(only_warning(untold) ==
+        "the string's length (1.46 m) and the diabolo (0.2845 kg) are assumed: neither the file nor a "
+        "calibration tells them");
+  untold.assumed = {"diabolo"};
+  CHECK(only_warning(untold) ==
+        "the diabolo (0.2845 kg) is assumed: neither the file nor a calibration tells it");
+}
+
 TEST_CASE("a tip that is long unseen is named, with the time") {
   Recording gap = swing();
   for (Eigen::Index i = 120; i < 180; ++i) {

@@ -34,6 +34,7 @@ struct Calibration {
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero();  ///< [m]
   DiaboloProperties properties = kRedDiabolo;
   double string_length = kPublishedStringLength;  ///< [m]
+  std::vector<std::string> assumed = {};          ///< those of kAssumable that it does not tell
 };
 
 /// The direction in which a stick runs, where nothing else is known: from the body's origin, amid markers
@@ -62,12 +63,13 @@ inline Calibration published_calibration() {
 }
 
 /// Of bodies that are the tips and the diabolo themselves, in the world frame; their names tell which is
-/// which.
+/// which. It does not tell what string and diabolo are like.
 inline Calibration plain_calibration() {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero(), x = Eigen::Vector3d::UnitX();
   return {.left = {{"left", "/left_tip"}, none, x},
           .right = {{"right", "/right_tip"}, none, x},
-          .diabolo = {{"diabolo", "/diabolo"}, none, x}};
+          .diabolo = {{"diabolo", "/diabolo"}, none, x},
+          .assumed = {kAssumable.begin(), kAssumable.end()}};
 }
 
 /// For the take of 2020-11-12 with the blue diabolo, of which no calibration take exists.
@@ -175,6 +177,7 @@ inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
   transform(calibration.diabolo, *bodies[2], result.diabolo, result.diabolo_orientation);
   result.properties = calibration.properties;
   result.string_length = calibration.string_length;
+  result.assumed = calibration.assumed;
   return result;
 }
 

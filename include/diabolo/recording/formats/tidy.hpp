@@ -26,6 +26,7 @@ struct TidyMetadata {
   DiaboloProperties properties = kRedDiabolo;
   double string_length = kPublishedStringLength;  ///< [m]
   double rate = 0.0;                              ///< nominal sampling rate [Hz]; 0: that of the times
+  std::vector<std::string> assumed = {};          ///< those of kAssumable that it does not tell
 };
 
 /// One pass over a tidy CSV; use read_tidy().
@@ -46,6 +47,7 @@ class TidyReader {
     result.rate = metadata.rate;
     result.properties = metadata.properties;
     result.string_length = metadata.string_length;
+    result.assumed = metadata.assumed;
     result.time.resize(size);
     result.left = result.right = result.diabolo = Track::missing(size);
     result.diabolo_orientation = OrientationTrack::missing(size);

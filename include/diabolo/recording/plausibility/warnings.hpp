@@ -15,6 +15,7 @@
 #include "diabolo/recording/plausibility/regular_times.hpp"
 #include "diabolo/recording/plausibility/usual_path.hpp"
 #include "diabolo/recording/recording.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
@@ -24,6 +25,19 @@ inline constexpr double kLongestUnseen = 0.25;
 
 /// Longest time without rows [s] (beyond one period), and the largest share of rows that may be missing.
 inline constexpr double kLongestWithoutRows = 0.1, kMostMissingRows = 0.05;
+
+/// What of the set-up is assumed; empty where all of it was told.
+inline std::string assumed_setup(const Recording& recording) {
+  std::string what;
+  for (const std::string& name : recording.assumed)
+    what += (what.empty() ? "" : " and ") +
+            (name == "diabolo" ? "the diabolo (" + shown(recording.properties.mass) + " kg)"
+                               : "the string's length (" + shown(recording.string_length) + " m)");
+  const bool is_one = recording.assumed.size() == 1;
+  return what.empty() ? what
+                      : what + (is_one ? " is" : " are") +
+                            " assumed: neither the file nor a calibration tells " + (is_one ? "it" : "them");
+}
 
 /// What its reader changed in a recording, and what is odd about it although it is well formed: each a clause
 /// that says what is found and what it means. Whatever is computed from such a recording deserves a second
@@ -37,6 +51,7 @@ inline std::vector<std::string> warnings(const Recording& recording) {
   };
   // One cause, one clause: what follows from another oddity is not told as well.
   const std::vector<Fall> fallen = falls(recording);
+  is_odd(assumed_setup(recording));
   is_odd(odd_times(recording));
   if (!is_odd(odd_still_tips(recording, fallen)) && !is_odd(odd_path_length(recording)) &&
       !is_odd(odd_distance(recording)) && !is_odd(odd_up(recording, fallen)) &&
