@@ -272,7 +272,8 @@ std::pair<std::vector<Recording>, std::vector<std::string>> trimmed(std::vector<
 }
 
 constexpr const char* kLoadDoc =
-    R"(Reads a Motive export (CSV), to which the calibration is applied (default: the published one), or a tidy recording.
+    R"(Reads a Motive export (CSV), to which the calibration is applied (default: the published one), or a tidy
+recording.
 
 up: which axis of the file points up, "y" for Motive's default, "-z", or "y-mirrored" where left and right are
 exchanged, too. Without it that is z, and a file whose motion clearly says otherwise is refused.

@@ -799,7 +799,8 @@ class Recording:
   @staticmethod
   def load(path: os.PathLike | str | bytes, calibration: Calibration | None = None, *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
     """
-    Reads a Motive export (CSV), to which the calibration is applied (default: the published one), or a tidy recording.
+    Reads a Motive export (CSV), to which the calibration is applied (default: the published one), or a tidy
+    recording.
     
     up: which axis of the file points up, "y" for Motive's default, "-z", or "y-mirrored" where left and right are
     exchanged, too. Without it that is z, and a file whose motion clearly says otherwise is refused.
