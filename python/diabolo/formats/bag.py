@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from array import array
 from collections import defaultdict
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
@@ -16,7 +17,7 @@ from .._core import Calibration, DiaboloProperties, Recording, RecordingError, S
 from ..arms import JOINTS, SIDES, two_arms
 from ..files import whole_file
 from .bodies import NO_FRAME, Body, Floats, unreadable
-from .cdr import read_alike
+from .cdr import Alike, read_alike
 from .joints import sticks, unknown_joints
 from .mcap_end import whole
 from .messages import JOINT_STATE, MOCAP4R2, NAMED_INSIDE, POINT, POSE, ROWS_OF
@@ -30,26 +31,28 @@ LAST_STAMP = 2**63 - 1
 
 @dataclass
 class Rows:
-    """What a bag has of one body: stamps of headers and of the log [ns], numbers as in messages.Row, and the
-    frame."""
+    """What a bag has of one body: stamps of headers and of the log [ns], numbers as in messages.Row, one row
+    behind the other, how many a row has, and the frame. None of these burdens the collector of garbage."""
 
     stamps: list[int] = field(default_factory=list)
     logged: list[int] = field(default_factory=list)
-    numbers: list[tuple[float, ...]] = field(default_factory=list)
+    numbers: array[float] = field(default_factory=lambda: array("d"))
+    sizes: set[int] = field(default_factory=set)
     frames: set[str] = field(default_factory=set)
 
     def add(self, logged: int, header: Any, numbers: tuple[float, ...]) -> None:
-        frame = NO_FRAME if len(numbers) == len(JOINTS) else header.frame_id
-        stamp = int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
-        self.add_all([logged], [stamp], [numbers], {frame})
+        self.stamps.append(int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec))
+        self.logged.append(logged)
+        self.numbers.extend(numbers)
+        self.sizes.add(len(numbers))
+        self.frames.add(NO_FRAME if len(numbers) == len(JOINTS) else header.frame_id)
 
-    def add_all(
-        self, logged: list[int], stamps: list[int], numbers: list[tuple[float, ...]], frames: set[str]
-    ) -> None:
+    def add_all(self, logged: list[int], alike: Alike) -> None:
+        self.stamps += alike.stamps.tolist()
         self.logged += logged
-        self.stamps += stamps
-        self.numbers += numbers
-        self.frames |= frames
+        self.numbers.frombytes(alike.numbers.tobytes())
+        self.sizes.add(alike.numbers.shape[1])
+        self.frames |= alike.frames
 
 
 def read(
@@ -63,11 +66,12 @@ def read(
         if not found.keys() >= {*names}:
             found, joints = _rows(path, readable, ())
         setup = setup_of(path, readable)
-    if joints and all("diabolo" in name.lower() and not _is_arm(rows) for name, rows in found.items()):
-        topic, there = next(iter(joints.items()))
-        raise RecordingError(f"{path}, {topic}: {unknown_joints(there)}")
-    if not found:
-        raise RecordingError(f"{path}: no poses in it; expected messages of {', '.join(sorted(ROWS_OF))}")
+        if joints and all("diabolo" in name.lower() and not _is_arm(rows) for name, rows in found.items()):
+            topic, there = next(iter(joints.items()))
+            raise RecordingError(f"{path}, {topic}: {unknown_joints(there)}")
+        if not found:
+            expected = ", ".join(sorted(ROWS_OF))
+            raise RecordingError(f"{path}: no poses in it; expected messages of {expected}")
     holding = dict(zip(SIDES, two_arms(arms), strict=True))
     return [_body(path, name, rows, holding) for name, rows in found.items()], setup, notes
 
@@ -87,15 +91,17 @@ def _rows(path: Path, readable: Path, names: Collection[str]) -> tuple[dict[str,
                 if one.msgtype in ROWS_OF
                 and (not names or one.topic in wanted or one.msgtype in NAMED_INSIDE)
             ]
-            kept: defaultdict[tuple[str, str], list[tuple[int, bytes]]] = defaultdict(list)
+            kept: defaultdict[tuple[str, str], tuple[list[int], list[bytes]]] = defaultdict(lambda: ([], []))
             for connection, logged, raw in bag.messages(connections=known) if known else ():
-                kept[connection.topic, connection.msgtype].append((logged, raw))
-            for (topic, kind), messages in kept.items():
-                alike = read_alike(kind, [raw for _, raw in messages]) if bag.is2 else None
+                times, messages = kept[connection.topic, connection.msgtype]
+                times.append(logged)
+                messages.append(raw)
+            for (topic, kind), (times, messages) in kept.items():
+                alike = read_alike(kind, messages) if bag.is2 else None
                 if alike is not None:
-                    found[topic].add_all([logged for logged, _ in messages], *alike)
+                    found[topic].add_all(times, alike)
                     continue
-                for logged, raw in messages:
+                for logged, raw in zip(times, messages, strict=True):
                     message = bag.deserialize(raw, kind)
                     if kind == JOINT_STATE and len(message.position):
                         joints.setdefault(topic, message.name)
@@ -120,7 +126,7 @@ def known_types() -> Any:
 
 
 def _is_arm(rows: Rows) -> bool:
-    return len(rows.numbers[0]) == len(JOINTS)
+    return rows.sizes == {len(JOINTS)}
 
 
 def setup_of(path: Path, readable: Path) -> Calibration | None:
@@ -194,12 +200,12 @@ def _setup(recording: Recording) -> dict[str, Any]:
 
 
 def _body(path: Path, name: str, rows: Rows, arms: dict[str, StickArm]) -> Body:
-    if len({len(one) for one in rows.numbers}) > 1 or len(rows.frames) > 1:
+    if len(rows.sizes) > 1 or len(rows.frames) > 1:
         raise RecordingError(f"{path}, {name}: points and poses, or several frames; expected one kind")
     told = rows.stamps if any(rows.stamps) else rows.logged
     if max(told) > LAST_STAMP:
         raise RecordingError(f"{path}, {name}: stamp {max(told)} ns; expected one within {LAST_STAMP}")
-    stamps, numbers = np.array(told, np.int64), np.array(rows.numbers, float)
+    stamps, numbers = np.array(told, np.int64), np.array(rows.numbers).reshape(len(told), -1)
     order = np.argsort(stamps, kind="stable")
     stamps, numbers = stamps[order], numbers[order]
     once = np.append(True, (np.diff(stamps) != 0) | (numbers[1:] != numbers[:-1]).any(axis=1))

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .messages import POINT, POSE, POSE_WITH_COVARIANCE
 
@@ -15,8 +17,14 @@ FLOATS = {POINT: (3, 3), POSE: (7, 7), POSE_WITH_COVARIANCE: (43, 7)}
 LITTLE_ENDIAN = 0x100
 """The first four bytes, as one number."""
 
-Alike = tuple[list[int], list[tuple[float, ...]], set[str]]
-"""Stamps [ns], numbers as in messages.Row, and frames."""
+
+@dataclass(frozen=True, eq=False)
+class Alike:
+    """What n messages say: stamps [ns], numbers as in messages.Row, one message a row, and frames."""
+
+    stamps: NDArray[np.int64]
+    numbers: NDArray[np.float64]
+    frames: set[str]
 
 
 def read_alike(kind: str, messages: Sequence[bytes]) -> Alike | None:
@@ -37,5 +45,5 @@ def read_alike(kind: str, messages: Sequence[bytes]) -> Alike | None:
     if (table["order"] != LITTLE_ENDIAN).any() or (table["name"] != name).any():
         return None
     stamps = table["sec"].astype(np.int64) * 10**9 + table["nanosec"]
-    numbers = [tuple(one) for one in table["numbers"][:, :used].tolist()]
-    return stamps.tolist(), numbers, {one.decode() for one in np.unique(table["frame"]).tolist()}
+    frames = {one.decode() for one in {*table["frame"].tolist()}}
+    return Alike(stamps, table["numbers"][:, :used], frames)

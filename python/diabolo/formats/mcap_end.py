@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import IO, Any
 from zlib import crc32
 
+from .._core import RecordingError
 from ..checks import check_library
 from .bodies import unreadable
 
@@ -34,7 +35,10 @@ def whole(path: Path) -> Iterator[tuple[Path, list[str]]]:
         with tempfile.TemporaryDirectory() as folder:
             kept = Path(folder) / path.name
             _copy_whole_records(path, kept)
-            yield kept, [CUT]
+            try:
+                yield kept, [CUT]
+            except RecordingError as error:
+                raise RecordingError(f"{error}; the file is cut off") from error
     else:
         yield path, []
 
