@@ -299,7 +299,7 @@ def test_columns_of_ones_own_are_mapped(tmp_path: Path, capsys: pytest.CaptureFi
     own = load_recording(path, columns=columns)
     np.testing.assert_allclose(own.left, take.left, atol=1e-12)
     np.testing.assert_allclose(own.time, take.time, atol=1e-9)
-    assert own.rate == 120.0 and own.string_length == 1.46 and "no own.json beside it" in own.notes[0]
+    assert own.rate == 120.0 and own.string_length == 1.46 and own.assumed == ["string_length", "diabolo"]
     text = ",".join(f"{tidy}={name}" for tidy, name in columns.items())
     np.testing.assert_array_equal(load_recording(path, columns=text).diabolo, own.diabolo)
     assert main(["convert", str(path), str(tmp_path / "tidy.csv"), "--columns", text]) == 0
@@ -322,8 +322,8 @@ def test_recordings_that_overlap_by_a_few_samples_are_trimmed() -> None:
 def test_an_inconsistent_state_is_refused(played: Recording) -> None:
     rebuild, arguments, state = played.__reduce_ex__(2)[:3]
     for broken, text in (
-        (state[:-1], "a state of 16 items; expected 17"),
-        ((*state[:-3], [0, 1], [], 0.0), "2 frame numbers and 481 times"),
+        (state[:-1], "a state of 17 items; expected 18"),
+        ((*state[:-4], [0, 1], [], 0.0, []), "2 frame numbers and 481 times"),
         ((state[0].ravel()[:-1], *state[1:]), r"left: shape \(481, 3\); expected \(480, 3\)"),
     ):
         with pytest.raises(ValueError, match=text):

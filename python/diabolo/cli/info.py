@@ -174,15 +174,14 @@ def _motive_take(path: str) -> MotiveTake | None:
 
 
 def _body(name: str, valid: NDArray[np.bool_], time: NDArray[np.float64], rate: float) -> dict[str, Any]:
-    """Its gaps are of time: dropouts, and rows that are missing."""
+    """Its gaps are of time, in whole periods: dropouts, and rows that are missing."""
     period = 1.0 / rate
     seen = np.concatenate(([time[0] - period], time[valid], [time[-1] + period]))
-    longest = float(np.diff(seen).max()) - period
     return {
         "name": name,
         "samples": len(valid),
         "dropouts": int(np.count_nonzero(~valid)),
-        "longest_gap_s": longest if longest > 0.5 * period else 0.0,
+        "longest_gap_s": float(np.rint(np.diff(seen) * rate).max() - 1.0) / rate,
     }
 
 
