@@ -32,7 +32,8 @@ LAST_STAMP = 2**63 - 1
 @dataclass
 class Rows:
     """What a bag has of one body: stamps of headers and of the log [ns], numbers as in messages.Row, one row
-    behind the other, how many a row has, and the frame. None of these burdens the collector of garbage."""
+    behind the other, how many a row has, and the frame. Flat: a million small objects keep the garbage
+    collector busy."""
 
     stamps: list[int] = field(default_factory=list)
     logged: list[int] = field(default_factory=list)

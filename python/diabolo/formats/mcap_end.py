@@ -65,7 +65,7 @@ def _check_sums(path: Path) -> None:
                 (footer.summary_crc, summary, len(content) - len(MAGIC) - 4),
             )
             for told, first, last in sums:
-                if told and crc32(content[first:last]) != told:
+                if told and crc32(memoryview(content)[first:last]) != told:
                     raise ValueError(f"bytes {first} to {last} are not what their checksum says")
     except Exception as error:  # of files or records: whatever a broken file leads to
         raise unreadable(path, "a bag of ROS", error) from error
