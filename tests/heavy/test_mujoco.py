@@ -125,10 +125,11 @@ def test_without_mujoco_an_example_says_so(program):
     assert done.stderr.endswith("expected it from: pip install 'diabolo[mujoco]'\n")
 
 
-def test_two_arms_are_drawn(tmp_path):
+@pytest.mark.parametrize("more", [[], ["--recording", str(ROOT / "data" / "recordings" / "swing.csv")]])
+def test_two_arms_are_drawn(tmp_path, more):
     cell, picture = EXAMPLE.with_name("robot_cell.py"), tmp_path / "cell.png"
     done = subprocess.run(
-        [sys.executable, str(cell), "--picture", str(picture)], capture_output=True, text=True
+        [sys.executable, str(cell), "--picture", str(picture), *more], capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
     assert picture.read_bytes().startswith(b"\x89PNG")
