@@ -55,6 +55,22 @@ TEST_CASE("friction is named, sized and placed, and predicts what was left out")
   CHECK(d.model.effects.get<StringFriction>().coefficient == Approx(friction->estimate[u]).margin(0.01));
 }
 
+// A stiff string leaves nothing that leads to such a spring: the diabolo bounces on it after each catch.
+TEST_CASE("a string that rings too fast to be seen on it is found by its bounces, and sized") {
+  for (const double stiffness : {4000.0, 5500.0}) {
+    AllEffects<double> effects;
+    effects.get<StringElasticity>() = StringElasticity<double>::of_stiffness(stiffness, 1.0);
+    const Diagnosis d = diagnose({played(effects, 18.0, 6, 0.0, &hopping_hands)});
+    CAPTURE(stiffness, d.sentence);
+    CHECK((d.headline == Headline::kNamed || d.headline == Headline::kTie));
+    const Finding* const stretch = claimed(d, "string_elasticity");
+    REQUIRE(stretch != nullptr);
+    CHECK(1.0 / stretch->estimate[index_of(Unknown::kCompliance)] == Approx(stiffness).epsilon(0.15));
+    REQUIRE(d.heldout.position.base_error[2].has_value());
+    CHECK(*d.heldout.position.augmented_error[2] < 0.7 * *d.heldout.position.base_error[2]);
+  }
+}
+
 TEST_CASE("a tilted frame is a fault of the measurement, not physics") {
   AllEffects<double> effects;
   effects.get<GravityTilt>().x = 0.02;

@@ -27,9 +27,16 @@ inline Tips<double> hands(double t) {
   return tips;
 }
 
+/// The same with hops: the string goes slack and catches the diabolo again.
+inline Tips<double> hopping_hands(double t) {
+  Tips<double> tips = hands(t);
+  for (Vector3<double>* tip : {&tips.left, &tips.right}) tip->z() += 0.075 * (1.0 - std::cos(9.5 * t));
+  return tips;
+}
+
 /// What a camera sees of play that the full model with these effects predicts; not on the diagnosis' grid.
 inline Recording played(const AllEffects<double>& effects, double seconds, std::uint64_t seed,
-                        double wraps = 0.0) {
+                        double wraps = 0.0, Tips<double> (*moved)(double) = &hands) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> noise(0.0, kNoise);
   const Eigen::Index rows = static_cast<Eigen::Index>(seconds * kRate);
@@ -53,12 +60,12 @@ inline Recording played(const AllEffects<double>& effects, double seconds, std::
   state.spin = 180.0;
   constexpr int kSteps = 10;  // per row
   const double dt = 1.0 / kRate / kSteps;
-  const auto tips_at = [](double t) {
-    Tips<double> tips = hands(t);
+  const auto tips_at = [moved](double t) {
+    Tips<double> tips = moved(t);
     const double h = 1e-5;
     tips.time = t;
-    tips.left_velocity = (hands(t + h).left - hands(t - h).left) / (2.0 * h);
-    tips.right_velocity = (hands(t + h).right - hands(t - h).right) / (2.0 * h);
+    tips.left_velocity = (moved(t + h).left - moved(t - h).left) / (2.0 * h);
+    tips.right_velocity = (moved(t + h).right - moved(t - h).right) / (2.0 * h);
     return tips;
   };
   std::mt19937_64 attitude(seed + 1000);

@@ -2,20 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/first_spring.hpp"
 #include "diabolo/diagnose/refine.hpp"
 
 namespace diabolo {
 
 /// A usual spin [rad/s].
 inline constexpr double kUnseenSpin = 80.0;
-
-/// The give of a soft string to begin with [m/N].
-inline constexpr double kSoftStart = 3e-3;
 
 namespace diagnose_detail {
 
@@ -49,24 +48,25 @@ inline Fit prepared(const std::vector<Recording>& recordings, const Model& physi
   return fit;
 }
 
-/// From starts alone, with all of `set` free. A soft string rings, and from a stiff one the way there is long
-/// and uphill where the one's rule ends and the other's begins: both are begun, and what leaves less is gone
-/// on with. At the end it has been looked at with `set`.
+/// From starts alone, with all of `set` free. A string that rings leaves valleys far from each other and from
+/// that of a stiff one: where another spring promises much, both are gone on with, and what leaves less is
+/// kept. At the end it has been looked at with `set`.
 template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                     const FitWatch& watch) {
+  const auto settle = [&](Fit& rough) {
+    rough.far_window = kFarWindow;
+    reweight(rough, threads);
+    descend<D>(rough, physics, set, kMostIterations, threads, watch);
+  };
   fit.far_window = kFarWindowAtFirst;
-  Fit soft = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
-  const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
-  if (set[index_of(give)]) {
-    soft.at[index_of(give)] = kSoftStart;
-    approach<D>(soft, physics, set, kMostIterations, threads, watch);
-    if (left_over(soft) < 0.97 * left_over(fit)) fit = std::move(soft);
-  }
-  fit.far_window = kFarWindow;
-  reweight(fit, threads);
-  descend<D>(fit, physics, set, kMostIterations, threads, watch);
+  std::optional<Fit> ringing = another_spring<D>(fit, set, physics, threads, watch);
+  settle(fit);
+  if (!ringing) return;
+  approach<D>(*ringing, physics, set, kMostIterations, threads, watch);
+  settle(*ringing);
+  if (cost_with_noise_of(fit, *ringing, threads) < fit.cost) fit = *std::move(ringing);
 }
 
 /// What is free in the first fit. A bounce throws every later catch about: it is asked about once the rest

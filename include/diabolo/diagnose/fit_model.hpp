@@ -12,6 +12,7 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/fit_take.hpp"
+#include "diabolo/diagnose/fitted_spring.hpp"
 #include "diabolo/diagnose/latent_force.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/effects/all.hpp"
@@ -62,19 +63,6 @@ struct DualUnknowns {
  private:
   std::array<int, kUnknowns> column_;
 };
-
-/// Softer than this [m/N] the string's own oscillation is slow enough for the step of a diagnosis; a stiffer
-/// one follows its tension at once (see string_shift), and only its mean stretch can be seen.
-inline constexpr double kSoftString = 3e-4;
-inline double compliance_of(const UnknownVector& at) {
-  return at[index_of(Unknown::kCompliance)] + 2.0 * at[index_of(Unknown::kStickCompliance)];
-}
-inline bool dynamic_spring(const UnknownVector& at) { return compliance_of(at) > kSoftString; }
-
-/// From such springs on [m/N] a bounce is so slow and wide that a window's start shows it. (On stiffer ones
-/// it drowns in the noise, and a start is better at rest.)
-inline constexpr double kBouncyString = 0.012;
-inline bool is_bouncy(const UnknownVector& at) { return compliance_of(at) > kBouncyString; }
 
 /// (What turns the axle alone is fitted apart, see AxleInquiry; LatentForce stands in its place.)
 template <class D>

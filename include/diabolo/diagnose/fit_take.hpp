@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "diabolo/diagnose/fitted_spring.hpp"
 #include "diabolo/diagnose/smooth_tips.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/evaluate/start_state.hpp"
@@ -203,15 +204,16 @@ inline std::vector<FitTips> tips_of_take(const Take& take, const UnknownVector& 
   const double tau = lag_of(at), rate = take.recording.rate;
   const Eigen::Index lead = lags ? static_cast<Eigen::Index>(std::ceil(kForgotten * tau * rate)) : 0,
                      begin = std::max<Eigen::Index>(0, first - lead);
+  const int substeps = take.substeps * diagnose_detail::steps_for_spring(at);
   const double clock = at[index_of(Unknown::kTimeOffset)];
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));
-  std::vector<FitTips> result(static_cast<std::size_t>((last - begin) * take.substeps + 1));
+  std::vector<FitTips> result(static_cast<std::size_t>((last - begin) * substeps + 1));
   std::size_t hint = 0, hint_before = 0, hint_after = 0;
   for (Eigen::Index i = begin, k = 0; i <= last; ++i)
-    for (int s = 0; s < (i < last ? take.substeps : 1); ++s, ++k) {
+    for (int s = 0; s < (i < last ? substeps : 1); ++s, ++k) {
       FitTips& out = result[static_cast<std::size_t>(k)];
-      const double fraction = static_cast<double>(s) / take.substeps;
+      const double fraction = static_cast<double>(s) / substeps;
       const Eigen::Index next = std::min(i + 1, take.times.size() - 1);
       const double gap = std::max(take.times[next] - take.times[i], 1e-6);
       const double time = take.times[i] + fraction * gap + clock, h = 5e-4;
@@ -226,8 +228,8 @@ inline std::vector<FitTips> tips_of_take(const Take& take, const UnknownVector& 
       out.left_frame_rate = (take.left_frames[b] - take.left_frames[a]) / gap;
       out.right_frame_rate = (take.right_frames[b] - take.right_frames[a]) / gap;
     }
-  if (lags) lag_behind(result, 1.0 / (rate * take.substeps), tau);
-  result.erase(result.begin(), result.begin() + (first - begin) * take.substeps);
+  if (lags) lag_behind(result, 1.0 / (rate * substeps), tau);
+  result.erase(result.begin(), result.begin() + (first - begin) * substeps);
   for (FitTips& out : result) {
     out.tips.left -= out.left_frame * left_offset;
     out.tips.right -= out.right_frame * right_offset;

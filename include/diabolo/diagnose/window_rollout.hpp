@@ -103,6 +103,7 @@ WindowSystem window_system(const Take& take, const FitWindow& window,
   parameters.string_length = parameters.string_length + stretch * D(usual);
   using FitPredictor = diagnose_detail::FitPredictor<D>;
   const FitPredictor predictor(parameters, model.effects, typename FitPredictor::AlreadyValid{});
+  const int substeps = take.substeps * diagnose_detail::steps_for_spring(x.at);
   FitWindow begun = window;
   begun.start.axis = take.axis.col(window.first);
   const std::vector<FitTips> grid = tips_of_take(take, x.at, window.first, window.last, delay);
@@ -112,7 +113,7 @@ WindowSystem window_system(const Take& take, const FitWindow& window,
   Eigen::Index k = 0;
   Tips<D> now = tips_at(k), next = tips_at(k + 1);
   const auto step_of = [&](Eigen::Index row) {
-    return D((take.times[row + 1] - take.times[row]) / take.substeps);
+    return D((take.times[row + 1] - take.times[row]) / substeps);
   };
   State<D> state = diagnose_detail::fit_start(begun, predictor, now, next, step_of(window.first), bounces);
   const double begin = take.times[window.first];
@@ -145,7 +146,7 @@ WindowSystem window_system(const Take& take, const FitWindow& window,
       sums.measure_reach(std::max(take.times[row] - begin, 1e-3), state);
     if (row == window.last) break;
     spin_before = state.spin;
-    for (int s = 0; s < take.substeps; ++s, ++k) {
+    for (int s = 0; s < substeps; ++s, ++k) {
       next = tips_at(k + 1);
       predictor.step(state, now, next, step_of(row));
       now = next;
