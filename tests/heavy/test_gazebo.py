@@ -129,6 +129,17 @@ def test_the_link_goes_where_the_predictor_goes(
     np.testing.assert_allclose(np.diff(angle)[1:] / 1e-3, plain[:-1, 6], atol=1e-6)
 
 
+def test_the_example_draws_its_comparison(tmp_path: Path) -> None:
+    picture = tmp_path / "gazebo.png"
+    example = [sys.executable, str(ROOT / "examples" / "hosts" / "diabolo_in_gazebo.py")]
+    done = subprocess.run([*example, "--picture", picture], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    errors = [float(line.split(": ")[1].split()[0]) for line in done.stdout.splitlines()]
+    assert len(errors) == 2
+    assert max(errors) < 1e-9
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
 def effect_numbers(effect: object) -> dict[str, float]:
     numbers = {name: getattr(effect, name) for name in dir(effect) if not name.startswith("_")}
     return {name: value for name, value in numbers.items() if isinstance(value, float) and value != 0.0}
