@@ -71,4 +71,4 @@ def draw(found: list[Both], host: str, picture: Path) -> None:
     apart.set(xlabel="time [s]", ylabel="they part by [m]")
     apart.legend(frameon=False, fontsize=8)
     with whole_file(picture) as temporary:
-        figure.savefig(temporary, dpi=110)
+        figure.savefig(temporary, dpi=80)
