@@ -16,6 +16,9 @@ namespace diabolo {
 /// A usual spin [rad/s].
 inline constexpr double kUnseenSpin = 80.0;
 
+/// The give of a soft string to begin with [m/N].
+inline constexpr double kSoftStart = 3e-3;
+
 namespace diagnose_detail {
 
 /// What a diagnosis begins with. The published rules are numerical: physics is looked for on the string that
@@ -48,9 +51,21 @@ inline Fit prepared(const std::vector<Recording>& recordings, const Model& physi
   return fit;
 }
 
-/// From starts alone, with all of `set` free. A string that rings leaves valleys far from each other and from
-/// that of a stiff one: where another spring promises much, both are gone on with, and what leaves less is
-/// kept. At the end it has been looked at with `set`.
+/// A first approach from a soft string, where what gives is free. From a stiff one the way there is long and
+/// uphill.
+template <class D>
+std::optional<Fit> softly_begun(Fit fit, const ActiveSet& set, const Model& physics, int threads,
+                                const FitWatch& watch) {
+  const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
+  if (!set[index_of(give)]) return std::nullopt;
+  fit.at[index_of(give)] = kSoftStart;
+  approach<D>(fit, physics, set, kMostIterations, threads, watch);
+  return fit;
+}
+
+/// From starts alone, with all of `set` free, stiff and soft: what leaves less is gone on with. A string that
+/// rings leaves valleys far from each other: where another spring than a stiff one promises much, it is gone
+/// on with, too. At the end the fit has been looked at with `set`.
 template <class D>
 void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                     const FitWatch& watch) {
@@ -60,13 +75,17 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
     descend<D>(rough, physics, set, kMostIterations, threads, watch);
   };
   fit.far_window = kFarWindowAtFirst;
+  const Fit begun = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
-  std::optional<Fit> ringing = another_spring<D>(fit, set, physics, threads, watch);
+  std::optional<Fit> other = softly_begun<D>(begun, set, physics, threads, watch);
+  if (other && left_over(*other) < 0.97 * left_over(fit)) fit = *std::move(other);
+  other.reset();
+  if (!dynamic_spring(fit.at)) other = another_spring<D>(fit, set, physics, threads, watch);
   settle(fit);
-  if (!ringing) return;
-  approach<D>(*ringing, physics, set, kMostIterations, threads, watch);
-  settle(*ringing);
-  if (cost_with_noise_of(fit, *ringing, threads) < fit.cost) fit = *std::move(ringing);
+  if (!other) return;
+  approach<D>(*other, physics, set, kMostIterations, threads, watch);
+  settle(*other);
+  if (cost_with_noise_of(fit, *other, threads) < fit.cost) fit = *std::move(other);
 }
 
 /// What is free in the first fit. A bounce throws every later catch about: it is asked about once the rest
