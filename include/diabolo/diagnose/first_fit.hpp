@@ -63,7 +63,7 @@ std::optional<Fit> softly_begun(Fit fit, const ActiveSet& set, const Model& phys
   return fit;
 }
 
-/// From starts alone, with all of `set` free, stiff and soft: what leaves less is gone on with. A string that
+/// From starts alone, with all of `set` free, stiff and soft: what costs less is gone on with. A string that
 /// rings leaves valleys far from each other: where another spring than a stiff one promises much, it is gone
 /// on with, too. At the end the fit has been looked at with `set`.
 template <class D>
@@ -78,7 +78,7 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
   const Fit begun = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
   std::optional<Fit> other = softly_begun<D>(begun, set, physics, threads, watch);
-  if (other && left_over(*other) < 0.97 * left_over(fit)) fit = *std::move(other);
+  if (other && cost_with_noise_of(fit, *other, threads) < fit.cost) fit = *std::move(other);
   other.reset();
   if (!dynamic_spring(fit.at)) other = another_spring<D>(fit, set, physics, threads, watch);
   settle(fit);
