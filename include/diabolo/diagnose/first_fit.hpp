@@ -77,15 +77,15 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
   fit.far_window = kFarWindowAtFirst;
   const Fit begun = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
-  std::optional<Fit> other = softly_begun<D>(begun, set, physics, threads, watch);
-  if (other && cost_with_noise_of(fit, *other, threads) < fit.cost) fit = *std::move(other);
-  other.reset();
-  if (!dynamic_spring(fit.at)) other = another_spring<D>(fit, set, physics, threads, watch);
+  std::optional<Fit> soft = softly_begun<D>(begun, set, physics, threads, watch);
+  if (soft && cost_with_noise_of(fit, *soft, threads) < fit.cost) fit = *std::move(soft);
+  std::optional<Fit> ringing;
+  if (!dynamic_spring(fit.at)) ringing = another_spring<D>(fit, set, physics, threads, watch);
   settle(fit);
-  if (!other) return;
-  approach<D>(*other, physics, set, kMostIterations, threads, watch);
-  settle(*other);
-  if (cost_with_noise_of(fit, *other, threads) < fit.cost) fit = *std::move(other);
+  if (!ringing) return;
+  approach<D>(*ringing, physics, set, kMostIterations, threads, watch);
+  settle(*ringing);
+  if (cost_with_noise_of(fit, *ringing, threads) < fit.cost) fit = *std::move(ringing);
 }
 
 /// What is free in the first fit. A bounce throws every later catch about: it is asked about once the rest
