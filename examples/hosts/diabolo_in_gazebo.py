@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from diabolo import Model, State, TipMotion, load_recording
+from diabolo import DiaboloProperties, Model, State, TipMotion, load_recording
 from diabolo.cli import Parser
 from diabolo.cli.arguments import output_name
 from numpy.typing import NDArray
@@ -25,8 +25,6 @@ from play_motion import compared
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build" / "gazebo" / "diabolo_gazebo"
 WORLD = ROOT / "examples" / "gazebo" / "diabolo.world.sdf"
-SHAPE = {"diameter": 0.127, "length": 0.143}
-"""Of the world's diabolo [m]."""
 
 
 def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int) -> NDArray[np.float64]:
@@ -38,9 +36,8 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int)
         model.save(folder / "model.json")
         world = WORLD.read_text(encoding="utf-8").replace(">consistent<", ">model.json<")
         (folder / "world.sdf").write_text(world.replace(">0.001<", f">{dt!r}<"), encoding="utf-8")
-        beyond = min(
-            50, int((tips.end - tips.begin) / dt + 1e-6) - steps
-        )  # where the tips' spline ends is bent
+        # Where the tips' spline ends it is bent: a little more of them is told than is looked at.
+        beyond = min(50, int((tips.end - tips.begin) / dt + 1e-6) - steps)
         write_motion(folder / "motion.csv", model, start, tips, dt * np.arange(steps + beyond + 1))
         files = [folder / name for name in ("world.sdf", "motion.csv", "sim.csv")]
         done = subprocess.run([PROGRAM, *files], capture_output=True, text=True, timeout=600)
@@ -54,11 +51,11 @@ def write_motion(file: Path, model: Model, start: State, tips: TipMotion, times:
     rows = np.column_stack([times, *tips.at(times)[:2]])
     header = ",".join(["time", *(f"{side}_{axis}" for side in ("left", "right") for axis in "xyz")])
     np.savetxt(file, rows, "%.17g", ",", header=header, comments="")
-    body = {"mass": model.parameters.mass, "axle_radius": model.parameters.axle_radius, **SHAPE}
+    body = DiaboloProperties.red()  # the world's
     begin = {"time": 0.0, "position": [*start.position], "velocity": [*start.velocity], "spin": start.spin}
     told = {
         "schema": "diabolo.recording/1",
-        "diabolo": body,
+        "diabolo": {name: getattr(body, name) for name in ("mass", "diameter", "length", "axle_radius")},
         "string_length": model.parameters.string_length,
         "rate": 1.0 / times[1],
         "units": "SI",
