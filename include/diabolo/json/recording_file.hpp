@@ -41,9 +41,9 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
   fields.expect_text("schema", kRecordingSchema);
   fields.expect_text("units", "SI");
   fields.expect_text("frame", kRecordingFrame);
-  const TidyMetadata metadata{properties_from_json(fields.object("diabolo")),
-                              fields.positive("string_length"), fields.positive("rate"),
-                              fields.has("assumed") ? fields.names("assumed") : std::vector<std::string>{}};
+  TidyMetadata metadata{properties_from_json(fields.object("diabolo")), fields.positive("string_length"),
+                        fields.positive("rate"),
+                        fields.has("assumed") ? fields.names("assumed") : std::vector<std::string>{}};
   check_assumed(metadata.assumed, file_name);
   check_properties(metadata.properties, metadata.string_length, file_name);
   return metadata;
