@@ -10,6 +10,7 @@
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/fit.hpp"
 #include "diabolo/diagnose/folds.hpp"
+#include "diabolo/diagnose/play_window.hpp"
 #include "diabolo/full_predictor.hpp"
 #include "diabolo/math/parallel.hpp"
 
@@ -144,26 +145,16 @@ class AxleStretches {
     const TipMotion<double>& motion = *motions_[stretch.fit_take];
     Eigen::Matrix3Xd predicted(3, last_row(stretch) - first_row(stretch) + 1);
     Eigen::Index rows = 0;
-    const auto look = [&](const State<double>& state, Eigen::Index row) {
-      if (is_seen(fit_take, row)) predicted.col(rows++) = state.axis;
-    };
     State<double> state;
     state.axis = take.axis.col(first_row(stretch));
-    std::size_t hint = 0;
     for (std::size_t w = stretch.first; w <= stretch.last; ++w) {
       const FitWindow& window = fit_take.windows[w];
       begin(state, window);
-      if (w == stretch.first) look(state, window.first);
-      Tips<double> now = motion.at(take.times[window.first], hint);
-      for (Eigen::Index row = window.first; row < window.last; ++row) {
-        const double dt = (take.times[row + 1] - take.times[row]) / take.substeps;
-        for (int s = 1; s <= take.substeps; ++s) {
-          const Tips<double> next = motion.at(take.times[row] + s * dt, hint);
-          predictor.step(state, now, next, dt);
-          now = next;
-        }
-        look(state, row + 1);
-      }
+      const auto look = [&](Eigen::Index row, const State<double>& at, const auto&) {
+        const bool is_old = row == window.first && w > stretch.first;  // the last row of the window before
+        if (!is_old && is_seen(fit_take, row)) predicted.col(rows++) = at.axis;
+      };
+      diagnose_detail::play_window(take, window, motion, predictor, state, look);
     }
     return predicted.leftCols(rows);
   }

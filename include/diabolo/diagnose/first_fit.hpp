@@ -45,8 +45,10 @@ inline Fit prepared(const std::vector<Recording>& recordings, const Model& physi
   const double known = physics.effects.get<FiniteAxle>().radius;
   fit.centre[index_of(Unknown::kAxleRadius)] =
       known > 0.0 ? known : parameters_for(physics, recordings.front()).axle_radius + 7e-4;
-  fit.centre[index_of(Unknown::kDamping)] = 10.0;
-  fit.centre[index_of(Unknown::kTipMass)] = 0.011;  // of wooden and plastic sticks: 8 to 15 g
+  // Beside a spring that is looked for; one that the base has brings its own.
+  if (physics.effects.get<StringElasticity>().neutral()) fit.centre[index_of(Unknown::kDamping)] = 10.0;
+  if (physics.effects.get<StickFlex>().neutral())
+    fit.centre[index_of(Unknown::kTipMass)] = 0.011;  // of wooden and plastic sticks: 8 to 15 g
   fit.at = fit.centre;
   return fit;
 }
@@ -56,18 +58,19 @@ inline Fit prepared(const std::vector<Recording>& recordings, const Model& physi
 template <class D>
 std::optional<Fit> softly_begun(Fit fit, const ActiveSet& set, const Model& physics, int threads,
                                 const FitWatch& watch) {
-  const Unknown give = set[index_of(Unknown::kCompliance)] ? Unknown::kCompliance : Unknown::kStickCompliance;
-  if (!set[index_of(give)]) return std::nullopt;
-  fit.at[index_of(give)] = kSoftStart;
+  const std::optional<AskedSpring> asked = asked_spring(set);
+  if (!asked) return std::nullopt;
+  fit.at[asked->give] = kSoftStart;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
   return fit;
 }
 
 /// From starts alone, with all of `set` free, stiff and soft: what costs less is gone on with. A string that
 /// rings leaves valleys far from each other: where another spring than a stiff one promises much, it is gone
-/// on with, too. At the end the fit has been looked at with `set`.
+/// on with, too. At the end the fit has been looked at with `set`. Returns whether there was time for the
+/// first one.
 template <class D>
-void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
+bool fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                     const FitWatch& watch) {
   const auto settle = [&](Fit& rough) {
     rough.far_window = kFarWindow;
@@ -80,12 +83,15 @@ void fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
   std::optional<Fit> soft = softly_begun<D>(begun, set, physics, threads, watch);
   if (soft && cost_with_noise_of(fit, *soft, threads) < fit.cost) fit = *std::move(soft);
   std::optional<Fit> ringing;
-  if (!dynamic_spring(fit.at)) ringing = another_spring<D>(fit, set, physics, threads, watch);
+  if (!is_dynamic(give_of(physics.effects) + added_give(fit.at)))
+    ringing = another_spring<D>(fit, set, physics, threads, watch);
   settle(fit);
-  if (!ringing) return;
+  const bool in_time = !watch.is_enough();
+  if (!ringing || !in_time) return in_time;
   approach<D>(*ringing, physics, set, kMostIterations, threads, watch);
   settle(*ringing);
   if (cost_with_noise_of(fit, *ringing, threads) < fit.cost) fit = *std::move(ringing);
+  return true;
 }
 
 /// What is free in the first fit. A bounce throws every later catch about: it is asked about once the rest
@@ -108,17 +114,19 @@ inline void without_spin(Bank& bank, ActiveSet& set) {
 /// Where nobody saw the diabolo turn: friction is begun with a fast spin of either sense, and what fits
 /// better is gone on with. (It saturates with the slip: how fast does not matter.)
 template <class D>
-void fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
+bool fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                      const FitWatch& watch) {
+  bool in_time = true;
   const auto begun = [&](double spin) {
     Fit trial = fit;
     for (FitTake& fit_take : trial.fit_takes)
       for (FitWindow& window : fit_take.windows) window.start.spin = spin;
-    fit_everything<D>(trial, physics, set, threads, watch);
+    in_time = fit_everything<D>(trial, physics, set, threads, watch) && in_time;
     return trial;
   };
   Fit forwards = begun(kUnseenSpin), backwards = begun(-kUnseenSpin);
   fit = std::move(left_over(forwards) <= left_over(backwards) ? forwards : backwards);
+  return in_time;
 }
 
 }  // namespace diagnose_detail

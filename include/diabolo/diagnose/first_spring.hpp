@@ -11,18 +11,36 @@
 
 namespace diabolo::diagnose_detail {
 
-/// Springs that are tried: gives [m/N] from stiff twine to a robot's holders, dampings [N s/m].
-inline constexpr double kTriedGives[] = {2e-4, 5e-4, 1.2e-3, 3e-3, 8e-3, 2e-2};
-inline constexpr double kTriedDampings[] = {2.0, 10.0};
+/// A fit that ended stiff is tried on these: gives [m/N] of strings that ring, each half as stiff as the one
+/// before, and dampings [N s/m]. Softer ones are found from kSoftStart. How long a string rings tells more of
+/// it than how fast: the cost is nearly flat along the give, and halves where the damping is right.
+inline constexpr double kTriedGives[] = {1.5e-4, 3e-4, 6e-4, 1.2e-3};
+inline constexpr double kTriedDampings[] = {1.0, 3.0, 10.0};
 
-/// A spring under which the windows, as they stand, leave less than this share is worth a fit of its own.
+/// A spring under which the windows, as they stand, cost less than this share is worth a fit of its own.
 inline constexpr double kPromising = 0.8;
 
-/// The string's pull at rest over mass, the mean of all windows [m/s^2].
-inline double usual_pull(const std::vector<FitTake>& fit_takes) {
+/// What gives where it is asked about: the string, else the sticks.
+struct AskedSpring {
+  int give, damping;  ///< unknowns
+  double count;       ///< of springs in a row
+};
+inline std::optional<AskedSpring> asked_spring(const ActiveSet& set) {
+  if (set[index_of(Unknown::kCompliance)])
+    return AskedSpring{index_of(Unknown::kCompliance), index_of(Unknown::kDamping), 1.0};
+  if (set[index_of(Unknown::kStickCompliance)])
+    return AskedSpring{index_of(Unknown::kStickCompliance), index_of(Unknown::kStickDamping), 2.0};
+  return std::nullopt;
+}
+
+/// The string's tension at rest, the mean of all windows [N].
+inline double mean_usual_tension(const std::vector<FitTake>& fit_takes, const Model& physics) {
   double sum = 0.0;
-  for (const FitTake& fit_take : fit_takes)
-    for (const FitWindow& window : fit_take.windows) sum += usual_pull(fit_take.take->recording, window);
+  for (const FitTake& fit_take : fit_takes) {
+    const Recording& recording = fit_take.take->recording;
+    const double mass = parameters_for(physics, recording).mass;
+    for (const FitWindow& window : fit_take.windows) sum += mass * usual_pull(recording, window);
+  }
   return sum / static_cast<double>(std::max<std::size_t>(1, window_count(fit_takes)));
 }
 
@@ -35,27 +53,25 @@ inline double cost_with_noise_of(const Fit& other, Fit fit, int threads) {
   return fit.cost;
 }
 
-/// The fit with the spring in place of its own that leaves least, all else as it is, the string shorter by
+/// The fit with the spring in place of its own that costs least, all else as it is, the string shorter by
 /// what hangs on the spring; nothing where none promises much. (Beyond the right spring's valley a bounce is
 /// out of step, and no derivative shows the way.)
 template <class D>
 std::optional<Fit> another_spring(const Fit& fit, const ActiveSet& set, const Model& physics, int threads,
                                   const FitWatch& watch) {
-  const bool in_string = set[index_of(Unknown::kCompliance)];
-  if (watch.is_enough() || !(in_string || set[index_of(Unknown::kStickCompliance)])) return std::nullopt;
-  const int give = index_of(in_string ? Unknown::kCompliance : Unknown::kStickCompliance);
-  const int damping = index_of(in_string ? Unknown::kDamping : Unknown::kStickDamping);
-  const double weight = usual_pull(fit.fit_takes) *
-                        parameters_for(physics, fit.fit_takes.front().take->recording).mass *
-                        (in_string ? 1.0 : 2.0);
+  const std::optional<AskedSpring> asked = asked_spring(set);
+  if (!asked) return std::nullopt;
+  const double tension = mean_usual_tension(fit.fit_takes, physics);
   std::optional<Fit> best;
   for (const double tried_give : kTriedGives)
     for (const double tried_damping : kTriedDampings) {
+      if (watch.is_enough()) return std::nullopt;
       Fit trial = fit;
       trial.noise_is_known = true;
-      trial.at[give] = tried_give;
-      trial.at[damping] = tried_damping;
-      trial.at[index_of(Unknown::kStringLength)] -= weight * (tried_give - fit.at[give]);
+      trial.at[index_of(Unknown::kCompliance)] = trial.at[index_of(Unknown::kStickCompliance)] = 0.0;
+      trial.at[asked->give] = tried_give;
+      trial.at[asked->damping] = tried_damping;
+      trial.at[index_of(Unknown::kStringLength)] -= tension * (added_give(trial.at) - added_give(fit.at));
       linearize<D>(trial, physics, ActiveSet::Constant(false), threads, watch);
       if (trial.cost < (best ? best->cost : kPromising * fit.cost)) best = std::move(trial);
     }

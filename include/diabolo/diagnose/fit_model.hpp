@@ -73,6 +73,7 @@ template <class D>
 struct FitModel {
   Parameters<D> parameters;
   typename FitPredictor<D>::Set effects;
+  double give;  ///< of the base and what is added [m/N]; see is_dynamic()
 };
 
 template <class D>
@@ -96,7 +97,8 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
   for_each_unknown(effects, [&](Unknown u, D& field) {
     field += info_of(u).unit == "m/N" ? x(u) * scale : x(u);  // a stretch, in recorded lengths
   });
-  if (!dynamic_spring(x.at)) {  // see string_shift()
+  const double give = give_of(base.effects) + added_give(x.at);
+  if (!is_dynamic(give)) {  // see string_shift()
     effects.template get<StringElasticity>() = elasticity;
     effects.template get<StickFlex>() = flex;
   }
@@ -111,7 +113,7 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
       if (i > 0) value = minimum(maximum(value, D(number.minimum)), D(number.maximum));
     }
   });
-  return {p, effects};
+  return {p, effects, give};
 }
 
 /// The tips with their derivatives by time offset, lag and tip offsets.

@@ -92,7 +92,8 @@ class ResidualProblem {
       const Take& take = *fit_takes_[s].take;
       const FitWindow& window = fit_takes_[s].windows[w];
       const FullPredictor<double> predictor = predictor_for(base_, take.recording);
-      play_window(take, window, predictor, residual_start(take, window),
+      State<double> begun = residual_start(take, window);
+      play_window(take, window, *take.motion, predictor, begun,
                   [&](Eigen::Index, const State<double>& state, const Tips<double>& tips) {
                     const Parameters<double>& parameters = predictor.parameters();
                     seen_.push_back({residual_scene(state, tips, parameters), state, tips, parameters});

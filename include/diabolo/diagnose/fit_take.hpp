@@ -10,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "diabolo/diagnose/fitted_spring.hpp"
 #include "diabolo/diagnose/smooth_tips.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/evaluate/start_state.hpp"
@@ -51,7 +50,7 @@ struct Take {
   std::vector<StringState> states;  ///< as guessed
   std::shared_ptr<const TipMotion<double>> motion;
   std::vector<Eigen::Matrix3d> left_frames, right_frames;  ///< of the sticks in each row, to the world
-  int substeps = 4;                                        ///< per row
+  int substeps = 4;                                        ///< per row; see also steps_for_spring()
   TrackNoise left_noise, right_noise, diabolo_noise;       ///< as the camera gave them
   double angle_noise = 0.0;                                ///< [rad]
   bool has_spin = false, has_orientation = false;
@@ -196,15 +195,14 @@ inline void lag_behind(std::vector<FitTips>& grid, double step, double tau) {
 /// After so many of its time constants a lag has forgotten what it began with, to the last digit.
 inline constexpr double kForgotten = 40.0;
 
-/// Tips at each substep from row `first` to row `last`, read at the recorded time plus the time offset, as
-/// kServo lagging behind the recorded ones, less the tip offsets.
+/// Tips at each of so many substeps from row `first` to row `last`, read at the recorded time plus the time
+/// offset, as kServo lagging behind the recorded ones, less the tip offsets.
 inline std::vector<FitTips> tips_of_take(const Take& take, const UnknownVector& at, Eigen::Index first,
-                                         Eigen::Index last, Delay delay = Delay::kClock) {
+                                         Eigen::Index last, int substeps, Delay delay = Delay::kClock) {
   const bool lags = delay == Delay::kServo && last > first;
   const double tau = lag_of(at), rate = take.recording.rate;
   const Eigen::Index lead = lags ? static_cast<Eigen::Index>(std::ceil(kForgotten * tau * rate)) : 0,
                      begin = std::max<Eigen::Index>(0, first - lead);
-  const int substeps = take.substeps * diagnose_detail::steps_for_spring(at);
   const double clock = at[index_of(Unknown::kTimeOffset)];
   const Vector3<double> left_offset = at.segment<3>(index_of(Unknown::kLeftX)),
                         right_offset = at.segment<3>(index_of(Unknown::kRightX));

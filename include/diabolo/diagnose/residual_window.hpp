@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "diabolo/diagnose/fit_take.hpp"
+#include "diabolo/diagnose/play_window.hpp"
 #include "diabolo/math/solve_symmetric.hpp"
 #include "diabolo/model.hpp"
 
@@ -34,24 +34,6 @@ inline double& residual_weight(ResidualLaw& law, int i) {
   return k < kResidualTerms ? law.on_string.weights[k] : law.off_string.weights[k - kResidualTerms];
 }
 
-/// Calls `visit(row, state, tips)` at each row of a window that begins with `state`.
-template <class Visit>
-void play_window(const Take& take, const FitWindow& window, const FullPredictor<double>& predictor,
-                 State<double> state, const Visit& visit) {
-  std::size_t hint = 0;
-  Tips<double> now = take.motion->at(take.times[window.first], hint);
-  for (Eigen::Index row = window.first;; ++row) {
-    visit(row, state, now);
-    if (row == window.last) return;
-    const double dt = (take.times[row + 1] - take.times[row]) / take.substeps;
-    for (int k = 1; k <= take.substeps; ++k) {
-      const Tips<double> next = take.motion->at(take.times[row] + k * dt, hint);
-      predictor.step(state, now, next, dt);
-      now = next;
-    }
-  }
-}
-
 /// A window's start with the axle as it was seen.
 inline State<double> residual_start(const Take& take, const FitWindow& window) {
   State<double> state = window.start;
@@ -64,10 +46,13 @@ inline State<double> residual_start(const Take& take, const FitWindow& window) {
 inline Eigen::VectorXd misses(const Take& take, const FitWindow& window,
                               const FullPredictor<double>& predictor, const State<double>& start) {
   std::vector<double> result;
-  play_window(take, window, predictor, start, [&](Eigen::Index row, const State<double>& state, const auto&) {
-    if (row == window.first || !take.recording.diabolo.valid[row]) return;
-    for (int c = 0; c < 3; ++c) result.push_back(state.position[c] - take.recording.diabolo.position(c, row));
-  });
+  State<double> begun = start;
+  play_window(take, window, *take.motion, predictor, begun,
+              [&](Eigen::Index row, const State<double>& state, const auto&) {
+                if (row == window.first || !take.recording.diabolo.valid[row]) return;
+                for (int c = 0; c < 3; ++c)
+                  result.push_back(state.position[c] - take.recording.diabolo.position(c, row));
+              });
   return Eigen::Map<Eigen::VectorXd>(result.data(), static_cast<Eigen::Index>(result.size()));
 }
 

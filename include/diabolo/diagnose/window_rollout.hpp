@@ -82,7 +82,7 @@ bool missed_catch(const State<D>& state, const Vector3<double>& seen, const Tips
 /// How much shorter than at rest the string is per newton, as it is moved by its mean stretch.
 template <class D>
 D mean_stretch(const FitModel<D>& model, const DualUnknowns<D>& x) {
-  if (dynamic_spring(x.at)) return D(0.0);
+  if (is_dynamic(model.give)) return D(0.0);
   return (x(Unknown::kCompliance) + x(Unknown::kStickCompliance) * D(2.0)) * model.parameters.mass;
 }
 
@@ -103,10 +103,10 @@ WindowSystem window_system(const Take& take, const FitWindow& window,
   parameters.string_length = parameters.string_length + stretch * D(usual);
   using FitPredictor = diagnose_detail::FitPredictor<D>;
   const FitPredictor predictor(parameters, model.effects, typename FitPredictor::AlreadyValid{});
-  const int substeps = take.substeps * diagnose_detail::steps_for_spring(x.at);
+  const int substeps = take.substeps * diagnose_detail::steps_for_spring(model.give);
   FitWindow begun = window;
   begun.start.axis = take.axis.col(window.first);
-  const std::vector<FitTips> grid = tips_of_take(take, x.at, window.first, window.last, delay);
+  const std::vector<FitTips> grid = tips_of_take(take, x.at, window.first, window.last, substeps, delay);
   const auto tips_at = [&](Eigen::Index k) {
     return diagnose_detail::fit_tips(grid[static_cast<std::size_t>(k)], x);
   };

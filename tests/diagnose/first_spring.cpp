@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/first_spring.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "catch.hpp"
+#include "diabolo/diagnose/compiled.hpp"
+#include "diabolo/diagnose/first_fit.hpp"
+
+#include "played.hpp"
+
+using namespace diabolo;
+
+namespace {
+
+using D = diagnose_detail::FitDual;
+
+/// Play with hops on a string of that stiffness [N/m], which hardly damps.
+Recording hopped(double stiffness, std::uint64_t seed) {
+  AllEffects<double> effects;
+  effects.get<StringElasticity>() = StringElasticity<double>::of_stiffness(stiffness, 1.0);
+  return played(effects, 18.0, seed, 0.0, &hopping_hands);
+}
+
+ActiveSet with_spring() {
+  ActiveSet set = nuisances();
+  set[index_of(Unknown::kCompliance)] = set[index_of(Unknown::kDamping)] = true;
+  return set;
+}
+
+/// Everything but a spring fitted.
+Fit ended_stiff(const Recording& recording, const Model& base) {
+  Fit fit = diagnose_detail::prepared({recording}, base);
+  fit.far_window = kFarWindowAtFirst;
+  approach<D>(fit, base, nuisances(), kMostIterations, 0);
+  return fit;
+}
+
+}  // namespace
+
+TEST_CASE("a spring of the base is simulated like one that is looked for") {
+  const Model rigid = consistent_model();
+  Model springy = rigid;
+  springy.effects.get<StringElasticity>() = StringElasticity<double>::of_stiffness(4000.0, 1.0);
+  const Recording recording = hopped(4000.0, 6);
+  const auto look = [&](const Model& base, double compliance, double damping) {
+    Fit fit = diagnose_detail::prepared({recording}, base);
+    fit.noise_is_known = true;
+    fit.at[index_of(Unknown::kCompliance)] = compliance;
+    fit.at[index_of(Unknown::kDamping)] += damping - fit.centre[index_of(Unknown::kDamping)];
+    linearize<D>(fit, base, ActiveSet::Constant(false), 0, {});
+    double square = 0.0;
+    for (const WindowSystem& system : fit.systems) square += system.position_square;
+    return square;
+  };
+  CHECK(look(springy, 0.0, 0.0) == Approx(look(rigid, 1.0 / 4000.0, 1.0)).epsilon(1e-6));
+}
+
+TEST_CASE("where a fit ended stiff, springs are tried, and what they promise leads to the one at work") {
+  const Model base = consistent_model();
+  const double stiffness = 4000.0;
+  const Fit stiff = ended_stiff(hopped(stiffness, 6), base);
+  std::optional<Fit> ringing = diagnose_detail::another_spring<D>(stiff, with_spring(), base, 0, {});
+  REQUIRE(ringing);
+  approach<D>(*ringing, base, with_spring(), kMostIterations, 0);
+  CHECK(1.0 / ringing->at[index_of(Unknown::kCompliance)] == Approx(stiffness).epsilon(0.15));
+  CHECK(diagnose_detail::cost_with_noise_of(stiff, *ringing, 0) < 0.5 * stiff.cost);
+}
+
+TEST_CASE("no spring is promised where none is at work") {
+  const Model base = consistent_model();
+  const Fit stiff = ended_stiff(played({}, 18.0, 6, 0.0, &hopping_hands), base);
+  CHECK_FALSE(diagnose_detail::another_spring<D>(stiff, with_spring(), base, 0, {}));
+}
