@@ -249,7 +249,7 @@ def test_what_cannot_be_levelled_is_refused() -> None:
     for left, right in ((RIGHT, LEFT), (LEFT, LEFT), ([0.8, 0, 1], [0.3, 0, 1])):
         with pytest.raises(ValueError, match="expected them side by side"):
             LevelHands(RIGID, left, right, 60.0)
-    with pytest.raises(ValueError, match=r"quickness: .*; must be above 0 and at most 100"):
+    with pytest.raises(ValueError, match=r"quickness: .*; expected a positive number up to 100"):
         LevelHands(RIGID, LEFT, RIGHT, 60.0, quickness=1e300)
     with pytest.raises(ValueError, match="lead: -1"):
         LevelHands(RIGID, LEFT, RIGHT, 60.0, lead=-1.0)

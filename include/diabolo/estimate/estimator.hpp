@@ -70,7 +70,7 @@ class Estimator {
   /// The tips have moved on to `tips` in `dt` > 0 [s], a second at most. Throws std::invalid_argument where
   /// that is not so.
   void step(const Tips<double>& tips, double dt) {
-    estimate_detail::expect_positive("step, dt", dt, kLongestStep);
+    expect_positive("step, dt", dt, kLongestStep);
     expect_tips("step", tips);
     const Belief<kAxle> before = now();
     const Tips<double> begin = tick(0).end;
