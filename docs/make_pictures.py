@@ -70,7 +70,7 @@ def draw_take(path: Path, folder: Path) -> None:
         ]
         diagnosed = diabolo.diagnose(others).model
         models = {"published simulator": diabolo.Model.named("published"), "diagnosed simulator": diagnosed}
-        positions = {name: predict_anew(take, model, ANEW) for name, model in models.items()}
+        positions = {name: predict_anew(take, model, ANEW)[:, :3] for name, model in models.items()}
     frames = [
         image_of(take_figure(take, positions, BEGIN + frame * BETWEEN_FRAMES))
         for frame in range(round(SECONDS / BETWEEN_FRAMES))

@@ -80,10 +80,8 @@ class Predictor {
   [[gnu::noinline]] StepStatus<Scalar> step_with_shifted_tips(State<Scalar>& state, Tips<Scalar> begin,
                                                               Tips<Scalar> end, const Scalar& dt) const {
     const TipShift<Scalar> shift = effects_.tip_shift(state, begin, parameters_);
-    begin.left += shift.left;
-    begin.right += shift.right;
-    end.left += shift.left;
-    end.right += shift.right;
+    shift.move(begin);
+    shift.move(end);
     const StringNow<Scalar> string = effects_.string_at(string_, state, begin, parameters_);
     if (!elastic(string)) settle_on_string(state, begin, string.length, plane_);
     return dispatch(state, begin, end, dt, string);

@@ -24,10 +24,8 @@ Strands<Scalar> pulling_strands(const Predictor<Scalar, Effects...>& predictor, 
   if constexpr (EffectSet<Scalar, Effects...>::kChangesTips)
     if (predictor.effects().moves_tips()) {
       const TipShift<Scalar> shift = predictor.effects().tip_shift(before, begin, predictor.parameters());
-      begin.left += shift.left;
-      begin.right += shift.right;
-      end.left += shift.left;
-      end.right += shift.right;
+      shift.move(begin);
+      shift.move(end);
     }
   return Strands<Scalar>::halfway(before, after, begin, end);
 }

@@ -37,7 +37,8 @@ auto watched(const Work& work) {
   return result;
 }
 
-/// States, string states and forces on the tips at each row; before the start NaN, and as at the start.
+/// States, string states, forces on the tips, and axis, tumble and turns at each row; before the start NaN,
+/// and as at the start.
 py::tuple predicted_rows(const Recording& recording, const Model& model,
                          std::optional<Eigen::Index> start_row, const std::string& start) {
   const Start rule = start_from_python(start);
@@ -45,9 +46,11 @@ py::tuple predicted_rows(const Recording& recording, const Model& model,
       watched([&](const Watch& watch) { return predict(recording, model, rule, start_row, watch); });
   Array states({recording.size(), Eigen::Index{7}});
   Array forces({recording.size(), Eigen::Index{2}, Eigen::Index{3}});
+  Array axles({recording.size(), Eigen::Index{7}});
   py::array_t<std::uint8_t> codes(recording.size());
   std::fill_n(states.mutable_data(), states.size(), kNaN);
   std::fill_n(forces.mutable_data(), forces.size(), kNaN);
+  std::fill_n(axles.mutable_data(), axles.size(), kNaN);
   std::fill_n(codes.mutable_data(), codes.size(),
               static_cast<std::uint8_t>(predicted.states.front().string_state));
   Eigen::Index row = predicted.first;
@@ -58,9 +61,12 @@ py::tuple predicted_rows(const Recording& recording, const Model& model,
     const TipForces<double>& on_tips = predicted.forces[static_cast<std::size_t>(row - predicted.first)];
     double* force = std::copy_n(on_tips.left.data(), 3, forces.mutable_data(row, 0, 0));
     std::copy_n(on_tips.right.data(), 3, force);
+    double* axle = std::copy_n(state.axis.data(), 3, axles.mutable_data(row, 0));
+    axle = std::copy_n(state.tumble.data(), 3, axle);
+    *axle = state.turns;
     codes.mutable_at(row++) = static_cast<std::uint8_t>(state.string_state);
   }
-  return py::make_tuple(states, codes, forces);
+  return py::make_tuple(states, codes, forces, axles);
 }
 
 std::vector<HorizonScore> horizons(const std::vector<Recording>& recordings, const Model& model,

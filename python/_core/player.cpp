@@ -111,7 +111,7 @@ Array derivatives_of(const Path& path, const Array& times) {
 struct PlayArrays {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::VectorXd time;
-  Rows states, left, right;
+  Rows states, axis, left, right;
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1> codes;
 
   explicit PlayArrays(const Play<double>& play) {
@@ -119,6 +119,7 @@ struct PlayArrays {
     time.resize(size);
     codes.resize(size);
     states.resize(size, 7);
+    axis.resize(size, 3);
     left.resize(size, 3);
     right.resize(size, 3);
     for (Eigen::Index i = 0; i < size; ++i) {
@@ -126,6 +127,7 @@ struct PlayArrays {
       time[i] = instant.time;
       states.row(i) << instant.state.position.transpose(), instant.state.velocity.transpose(),
           instant.state.spin;
+      axis.row(i) = instant.state.axis;
       codes[i] = static_cast<std::uint8_t>(instant.state.string_state);
       left.row(i) = instant.tips.left;
       right.row(i) = instant.tips.right;
@@ -457,6 +459,9 @@ void bind_played(py::module_& module) {
       .def_property_readonly(
           "states", [](const PlannedPlay& p) { return PlayArrays(p.play).states; },
           "Position [m], velocity [m/s] and spin [rad/s], shape (N, 7).")
+      .def_property_readonly(
+          "axis", [](const PlannedPlay& p) { return PlayArrays(p.play).axis; },
+          "Direction of the axle, shape (N, 3).")
       .def_property_readonly(
           "string_states", [](const PlannedPlay& p) { return PlayArrays(p.play).codes; },
           "As in StringState, shape (N,).")

@@ -126,6 +126,14 @@ Recording make_played(const std::string& name, const Array& time, const Array& l
                           string_length);
 }
 
+/// x, y, z, w.
+Array lies(const Array& axis, double turned) {
+  Array quaternion(4);
+  std::copy_n(played_orientation(to_vector3(axis, "axis"), turned).coeffs().data(), 4,
+              quaternion.mutable_data());
+  return quaternion;
+}
+
 /// What from_tuple() makes the recording of again.
 py::tuple to_tuple(const Recording& r) {
   const auto numbers = [](const auto& matrix) {
@@ -440,6 +448,10 @@ orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or alo
   });
   module.def("played_properties", &played_properties, "parameters"_a,
              "The diabolo of a model: cups of the paper's red one, the model's mass and axle.");
+  module.def(
+      "played_orientation", &lies, "axis"_a, "turned"_a,
+      "How a diabolo lies that has spun by `turned` [rad]: a quaternion x, y, z, w, body to world, body x "
+      "along `axis`, a unit vector.");
   module.def(
       "played_recording", &make_played, "name"_a, "time"_a, "left"_a, "right"_a, "states"_a, "rate"_a,
       "properties"_a, "string_length"_a, "axis"_a = py::none(),

@@ -29,7 +29,7 @@ from .checks import (
     warn_of,
     whole_number,
 )
-from .rollout import Rollout
+from .rollout import Rollout, axle_parts
 
 DEFAULT_MODELS = ("published", "paper", "consistent")
 DEFAULT_HORIZONS = (0.1, 0.25, 0.5, 1.0, 2.0)
@@ -172,7 +172,7 @@ def predict(
 
     row: where to start; by default the first one from which the authors' program could.
     start: as for `evaluate`. Rows before the start are NaN; `time` is that of the recording. `forces`
-        are those of the string on the tips.
+        are those of the string on the tips; axis, tumble and turns are there, too.
 
     Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
@@ -181,8 +181,9 @@ def predict(
         row = whole_number("row", row, 0, len(recording) - 1)
     warn_of([recording])
     chosen = model_of("model", model)
-    states, string_states, forces = _core.predict(recording, chosen, row, one_of("start", start, STARTS))
-    return Rollout(np.asarray(recording.time), states, string_states, forces)
+    rule = one_of("start", start, STARTS)
+    states, string_states, forces, axles = _core.predict(recording, chosen, row, rule)
+    return Rollout(np.asarray(recording.time), states, string_states, forces, *axle_parts(axles))
 
 
 def position_errors(recording: AnyRecording, predicted: Rollout) -> NDArray[np.float64]:

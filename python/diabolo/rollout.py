@@ -166,7 +166,7 @@ def rollout(
     time = np.arange(1, records.shape[1] + 1) * (record_every * dt)
     several = states.ndim == 2 or codes.ndim == 1 or axes.ndim == 2 or tumbles.ndim == 2 or around.ndim == 1
     several = several or is_several(model) or is_several(tips)
-    parts = (records, record_states, on_tips, *_axle_parts(axles))
+    parts = (records, record_states, on_tips, *axle_parts(axles))
     return Rollout(time, *(part if several or part is None else part[0] for part in parts))
 
 
@@ -238,8 +238,8 @@ def _check_frames(frames: int) -> None:
         )
 
 
-def _axle_parts(axles: NDArray[np.float64] | None) -> tuple[NDArray[np.float64] | None, ...]:
-    """Axis, tumble and turns."""
+def axle_parts(axles: NDArray[np.float64] | None) -> tuple[NDArray[np.float64] | None, ...]:
+    """Axis, tumble and turns, as Rollout has them."""
     return (None,) * 3 if axles is None else (axles[..., :3], axles[..., 3:6], axles[..., 6])
 
 

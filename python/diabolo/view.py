@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ._core import Model, Recording, Waypoint
 from .checks import AnyRecording, RecordingWarning, instance_of, list_of, recording_of, shown, warn_of
 from .evaluation import predict
+from .rollout import Rollout
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
 MOST_FRAMES = 40_000
@@ -31,12 +32,12 @@ class Replay(NamedTuple):
 
     recording: Recording
     predictions: dict[str, NDArray[np.float64]]
-    """By name, positions [m], shape (N, 3), NaN where there is none."""
+    """By name, as for `view_html`."""
 
     def errors(self, name: str) -> NDArray[np.float64]:
         """Distances from the recorded diabolo [m], shape (N,)."""
         distances: NDArray[np.float64] = np.linalg.norm(
-            self.predictions[name] - self.recording.diabolo, axis=1
+            self.predictions[name][:, :3] - self.recording.diabolo, axis=1
         )
         return distances
 
@@ -58,8 +59,9 @@ def view_html(
 ) -> str:
     """The page of a recording, or of the file of that name: tips, string, spheroid, diabolo, a time slider.
 
-    predictions: by name, positions [m] at the recording's rows, shape (N, 3), NaN where there is none. Each
-        plays as a ghost, or in a scene of its own beside the others.
+    predictions: by name, positions [m] at the recording's rows, shape (N, 3), NaN where there is none; or
+        positions and the axle's direction beside them, shape (N, 6), else it is as recorded. Each plays as a
+        ghost, or in a scene of its own beside the others.
     goals: states that were wanted. note: a sentence below the title.
 
     Warns (RecordingWarning) of a recording that is odd, such as in other units.
@@ -72,9 +74,10 @@ def view_html(
     if predictions is not None and not isinstance(predictions, Mapping):
         raise ValueError(f"predictions: {shown(predictions)}; expected positions by name")
     for name, positions in (predictions or {}).items():
-        if np.shape(positions) != (len(recording), 3):
+        if np.shape(positions) not in ((len(recording), 3), (len(recording), 6)):
             raise ValueError(
-                f"prediction '{name}': shape {np.shape(positions)}; expected ({len(recording)}, 3)"
+                f"prediction '{name}': shape {np.shape(positions)}; expected ({len(recording)}, 3), or "
+                f"({len(recording)}, 6)"
             )
     orientation = recording.diabolo_orientation
     if orientation is None:
@@ -88,7 +91,11 @@ def view_html(
         "diabolo": _numbers(recording.diabolo[rows]),
         "orientation": _numbers(orientation[rows]),
         "predictions": [
-            {"name": name, "positions": _numbers(positions[rows])}
+            {
+                "name": name,
+                "positions": _numbers(positions[rows, :3]),
+                "axes": _numbers(positions[rows, 3:]) if np.shape(positions)[1] == 6 else [],
+            }
             for name, positions in (predictions or {}).items()
         ],
         "string_length": recording.string_length,
@@ -139,13 +146,13 @@ def replay_html(replay: Replay) -> str:
 
 
 def predict_anew(recording: Recording, model: Model, every: float) -> NDArray[np.float64]:
-    """Positions [m] that a model predicts, begun again from the recorded play each `every` seconds.
+    """Positions [m] and axles that a model predicts, begun again from the recorded play each `every` seconds.
 
-    Shape (N, 3), to be shown beside the recording. Each begins at the first row that has a fair start; rows
+    Shape (N, 6), to be shown beside the recording. Each begins at the first row that has a fair start; rows
     without a prediction are NaN.
     """
     warn_of([recording])
-    positions = np.full((len(recording), 3), np.nan)
+    places = np.full((len(recording), 6), np.nan)
     step = max(1, round(every * recording.rate))
     with _told_before():
         for first in range(0, len(recording), step):
@@ -153,12 +160,18 @@ def predict_anew(recording: Recording, model: Model, every: float) -> NDArray[np
             piece = recording.cut(0, last)
             for row in range(first, last + 1):
                 try:
-                    states = predict(piece, model, row=row, start="fair").states
+                    predicted = predict(piece, model, row=row, start="fair")
                 except ValueError:  # no start here, such as in a dropout
                     continue
-                positions[row : last + 1] = states[row:, :3]
+                places[row : last + 1] = places_of(predicted)[row:]
                 break
-    return positions
+    return places
+
+
+def places_of(predicted: Rollout) -> NDArray[np.float64]:
+    """Positions [m] and axles of what `predict` gives, shape (N, 6), NaN where there is none."""
+    assert predicted.axis is not None
+    return np.concatenate([predicted.states[:, :3], predicted.axis], axis=1)
 
 
 def _numbers(values: NDArray[np.float64]) -> Any:

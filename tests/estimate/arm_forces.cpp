@@ -67,5 +67,5 @@ TEST_CASE("torques that are no numbers are refused") {
   read.torque[3] = 0.0;
   read.noise = 0.0;
   CHECK_THROWS_WITH(force_by_torques(paper_arm(Side::kLeft), read),
-                    Contains("noise") && Contains("above zero"));
+                    Contains("noise") && Contains("a positive number"));
 }

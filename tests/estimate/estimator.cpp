@@ -283,7 +283,7 @@ TEST_CASE("what an estimator cannot use is refused with its name") {
   const State<double> start = hanging_state(beating(0.0).left, beating(0.0).right, 1.45);
   auto estimator = begun(predictor, start);
   const double nan = std::nan("");
-  CHECK_THROWS_WITH(estimator.step(beating(0.0), 0.0), Contains("dt") && Contains("above zero"));
+  CHECK_THROWS_WITH(estimator.step(beating(0.0), 0.0), Contains("dt") && Contains("a positive number"));
   CHECK_THROWS_WITH(estimator.take(CameraLook{.position = {0.0, nan, 0.0}}), Contains("look, position"));
   CHECK_THROWS_WITH(estimator.take(CameraLook{.noise = -1.0}), Contains("look, noise"));
   CHECK_THROWS_WITH(estimator.take(CameraLook{.axle = Vector3<double>(1.0, 1.0, 0.0)}),

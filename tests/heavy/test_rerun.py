@@ -86,7 +86,7 @@ def test_a_diagnosed_take_has_its_predictions_and_their_errors(tmp_path: Path) -
         assert len(RrdReader(path).blueprints()) == 1
         found = columns(path)
         for name, model in models.items():
-            positions = predict_anew(take, model, PREDICTED_ANEW)
+            positions = predict_anew(take, model, PREDICTED_ANEW)[:, :3]
             seen = np.isfinite(positions[:, 0])
             rows = found[f"/world/predicted/{name}"]["Points3D:positions"]
             assert [len(row) for row in rows] == seen.astype(int).tolist()

@@ -4,12 +4,22 @@
 from __future__ import annotations
 
 import copy
+import json
 import pickle
+import re
+from pathlib import Path
 
 import diabolo
 import numpy as np
 import pytest
-from diabolo import Groove, GyroscopicTilt, LevelHands, Model, Parameters, Predictor, State
+from conftest import rotation
+from diabolo import Groove, GyroscopicTilt, LevelHands, Model, Parameters, Predictor, Recording, State
+from diabolo.cli import main
+from diabolo.cli.plan import recording_of
+from diabolo.live.page import live_html
+from diabolo.live.play import DT, STEPS_PER_SAMPLE, Play
+from diabolo.view import predict_anew
+from numpy.typing import NDArray
 
 LEFT, RIGHT = [0.55, 0.3, 1.25], [0.55, -0.3, 1.25]
 RIGID = Model(
@@ -17,6 +27,35 @@ RIGID = Model(
     gyroscopic_tilt=GyroscopicTilt(gain=3.4, inertia_ratio=1.2),
     groove=Groove(profile_radius=0.004, half_width=0.005),
 )
+TILTED = np.array([np.cos(0.2), 0.0, np.sin(0.2)])
+
+
+def axes_of(recording: Recording) -> NDArray[np.float64]:
+    """Where body x lies, row by row."""
+    assert recording.diabolo_orientation is not None
+    return np.array([rotation(turn)[:, 0] for turn in recording.diabolo_orientation])
+
+
+def tilted_take() -> Recording:
+    """A second of a diabolo that hangs below resting hands while its groove yaws it."""
+    tips = diabolo.TipMotion([0.0, 1.0], [LEFT] * 2, [RIGHT] * 2)
+    start = diabolo.hang_at_rest(RIGID, LEFT, RIGHT, 60.0).to_array()
+    told = diabolo.rollout(
+        RIGID,
+        start,
+        tips,
+        dt=1 / 960,
+        steps=960,
+        record_every=8,
+        string_state="on_string",
+        axis=TILTED,
+        axle=True,
+    )
+    assert told.axis is not None
+    tracks = [np.vstack([first, rest]) for first, rest in ((start, told.states), (TILTED, told.axis))]
+    hands = np.tile(LEFT, (121, 1)), np.tile(RIGHT, (121, 1))
+    properties, time = diabolo.played_properties(RIGID.parameters), np.arange(121) / 120.0
+    return diabolo.played_recording("tilted", time, *hands, tracks[0], 120.0, properties, 1.45, tracks[1])
 
 
 def test_a_state_carries_the_tumble_of_its_axle() -> None:
@@ -82,6 +121,81 @@ def test_a_played_recording_lies_as_its_axle() -> None:
         diabolo.played_recording("tilted", time, *tips, states, 200.0, properties, 1.45, 2.0 * axis)
 
 
+def test_a_prediction_tells_the_axle() -> None:
+    take = tilted_take()
+    predicted = diabolo.predict(take, RIGID)
+    assert predicted.axis is not None and predicted.tumble is not None and predicted.turns is not None
+    assert predicted.axis == pytest.approx(axes_of(take), abs=0.02)  # its first velocity is rounded
+    assert np.abs(predicted.axis[-1] - TILTED).max() > 0.1
+    assert predicted.tumble[0].tolist() == [0.0, 0.0, 0.0] and predicted.tumble[-1].any()
+    late = diabolo.predict(take, RIGID, row=60, start="fair")
+    assert late.axis is not None and np.isnan(late.axis[:60]).all()
+    assert late.axis[60] == pytest.approx(axes_of(take)[60], abs=1e-9)
+
+
+def test_simulate_on_a_recording_writes_the_axle_that_was_simulated(tmp_path: Path) -> None:
+    take, model, out = tmp_path / "take.csv", tmp_path / "rigid.json", tmp_path / "out.csv"
+    tilted_take().save(take)
+    RIGID.save(model)
+    assert main(["simulate", str(out), "--on", str(take), "--model", str(model), "--json", "-"]) == 0
+    written, predicted = Recording.load(out), diabolo.predict(take, Model.load(model))
+    assert predicted.axis is not None and np.abs(predicted.axis[-1] - TILTED).max() > 0.1
+    assert axes_of(written) == pytest.approx(predicted.axis, abs=1e-6)  # the file has nine digits
+    assert np.nanmean(written.spin()) == pytest.approx(60.0, rel=0.01)
+
+
+def test_a_plan_is_written_with_the_axle_that_was_planned_on() -> None:
+    left, right = diabolo.plan_action("swing").path.derivatives(np.zeros(1))[0][0].reshape(2, 3)
+    start = diabolo.hang_at_rest(RIGID, left, right, 60.0)
+    start.axis = TILTED
+    played = diabolo.plan_action("swing", RIGID, start=start)
+    assert played.axis[0] == pytest.approx(TILTED)
+    written = recording_of(played, "tilted", diabolo.played_properties(RIGID.parameters), 1.45)
+    seen = diabolo.rollout(
+        RIGID,
+        start.to_array(),
+        played.path.tips(),
+        dt=1 / 960,
+        record_every=4,
+        string_state=start.string_state,
+        axis=TILTED,
+        axle=True,
+    ).axis
+    assert seen is not None and np.abs(seen[-1] - TILTED).max() > 0.1
+    rows = min(len(seen), len(written) - 1)
+    assert axes_of(written)[1 : rows + 1] == pytest.approx(seen[:rows], abs=0.01)  # other steps
+    assert played.axis[-1] == pytest.approx(axes_of(written)[-1], abs=0.01)
+
+
+def test_a_live_play_shows_and_records_the_axle() -> None:
+    play = Play(RIGID, 60.0)
+    play.state.axis = TILTED
+    play.advance(1.0)
+    while play.steps % STEPS_PER_SAMPLE:
+        play.advance(DT)
+    assert np.abs(play.state.axis - TILTED).max() > 0.1
+    shown = np.array(json.loads(play.frame())["orientation"])
+    assert rotation(shown)[:, 0] == pytest.approx(play.state.axis, abs=1e-3)  # four digits
+    assert f'"orientation":[{json.dumps(shown.tolist(), separators=(",", ":"))}]' in live_html(play)
+    taken = play.recording("live")
+    assert taken is not None
+    assert axes_of(taken[0])[-1] == pytest.approx(play.state.axis, abs=1e-9)
+
+
+def test_a_ghost_lies_as_it_is_predicted() -> None:
+    take = tilted_take()
+    predicted = predict_anew(take, RIGID, 0.5)
+    seen = np.isfinite(predicted[:, 0])
+    assert seen.sum() > 80
+    assert predicted[seen, 3:] == pytest.approx(axes_of(take)[seen], abs=0.03)  # predicted by a fair start
+    page = diabolo.view_html(take, predictions={"rigid": predicted, "place": take.diabolo})
+    data = json.loads(re.search(r"const data = (\{.*\});\n", page)[1])  # type: ignore[index]
+    rigid, place = data["predictions"]
+    assert rigid["axes"][-1] == predicted[-1, 3:].round(4).tolist()
+    assert rigid["positions"][-1] == predicted[-1, :3].round(4).tolist()
+    assert place["axes"] == []
+
+
 def test_hands_level_an_axle() -> None:
     hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
     assert hands.gains.shape == (2, 3)
@@ -135,7 +249,7 @@ def test_what_cannot_be_levelled_is_refused() -> None:
     for left, right in ((RIGHT, LEFT), (LEFT, LEFT), ([0.8, 0, 1], [0.3, 0, 1])):
         with pytest.raises(ValueError, match="expected them side by side"):
             LevelHands(RIGID, left, right, 60.0)
-    with pytest.raises(ValueError, match=r"quickness: .*; must be above 0 and at most 100"):
+    with pytest.raises(ValueError, match=r"quickness: .*; expected a positive number up to 100"):
         LevelHands(RIGID, LEFT, RIGHT, 60.0, quickness=1e300)
     with pytest.raises(ValueError, match="lead: -1"):
         LevelHands(RIGID, LEFT, RIGHT, 60.0, lead=-1.0)

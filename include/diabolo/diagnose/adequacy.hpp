@@ -8,7 +8,8 @@
 
 #include "diabolo/recording/recording.hpp"
 
-// More parts of a DiagnosisResult, see result.hpp: whether what is left is as small as noise would leave it.
+// Parts of a DiagnosisResult, see diagnosis_result.hpp: whether what is left is as small as noise would leave
+// it.
 namespace diabolo {
 
 /// What is left may be so many times what noise alone leaves, in the middle window. A camera also wanders,

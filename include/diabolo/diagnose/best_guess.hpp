@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/diagnose/result.hpp"
+#include "diabolo/diagnose/ladder.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/text/shown.hpp"
 

@@ -7,12 +7,17 @@
 
 #include "diabolo/diagnose/adequacy.hpp"
 #include "diabolo/diagnose/catch_rule.hpp"
+#include "diabolo/diagnose/claimed_effect.hpp"
 #include "diabolo/diagnose/differing_effect.hpp"
+#include "diabolo/diagnose/held_out_errors.hpp"
+#include "diabolo/diagnose/ladder.hpp"
 #include "diabolo/diagnose/location.hpp"
-#include "diabolo/diagnose/result.hpp"
 #include "diabolo/diagnose/significance.hpp"
+#include "diabolo/diagnose/unnamed_structure.hpp"
 #include "diabolo/version.hpp"
 
+// Each part of a result lists its fields once: for_each_field() calls visit(name, member, what it is). Files,
+// their schema and the bindings are made from these lists. Units stand in the names.
 namespace diabolo {
 
 inline constexpr const char* kDiagnosisSchema = "diabolo.diagnosis/1";

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/diagnose/result.hpp"
+#include "diabolo/diagnose/estimate.hpp"
 
-// More parts of a DiagnosisResult, see result.hpp: what recordings do not agree on.
+// Parts of a DiagnosisResult, see diagnosis_result.hpp: what recordings do not agree on.
 namespace diabolo {
 
 struct ParametersAlone {

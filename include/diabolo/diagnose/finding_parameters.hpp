@@ -10,7 +10,7 @@
 #include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/own_laws.hpp"
-#include "diabolo/diagnose/result.hpp"
+#include "diabolo/diagnose/unnamed_structure.hpp"
 
 namespace diabolo {
 

@@ -172,15 +172,20 @@ Vector3<D> string_shift(const State<D>& state, const Tips<D>& tips, const D& str
   return gradient * D(stretch_per_acceleration * pull / square);
 }
 
+/// The string of a state; moves the tips to where its strands begin.
+template <class D>
+StringNow<D> string_from(Tips<D>& tips, const State<D>& state, const FitPredictor<D>& predictor) {
+  const auto& effects = predictor.effects();
+  const auto& parameters = predictor.parameters();
+  effects.tip_shift(state, tips, parameters).move(tips);
+  return effects.string_at(effects.string(parameters), state, tips, parameters);
+}
+
 /// Moves a start ON_STRING to where the taut string allows it under the pull tension/mass [m/s^2]: path
 /// length and its rate.
 template <class D>
 void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPredictor<D>& predictor) {
-  const TipShift<D> shift = predictor.effects().tip_shift(state, tips, predictor.parameters());
-  tips.left += shift.left;
-  tips.right += shift.right;
-  const StringNow<D> string = predictor.effects().string_at(
-      predictor.effects().string(predictor.parameters()), state, tips, predictor.parameters());
+  const StringNow<D> string = string_from(tips, state, predictor);
   const D length = string.length + string.compliance * pull;
   for (int i = 0; i < 3; ++i) {
     const StringPath<D> path(state.position, tips);
@@ -199,11 +204,7 @@ void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPred
 template <class D>
 bool bounce(State<D>& state, const State<D>& seen, Tips<D> tips, const D& rigid,
             const FitPredictor<D>& predictor) {
-  const TipShift<D> shift = predictor.effects().tip_shift(state, tips, predictor.parameters());
-  tips.left += shift.left;
-  tips.right += shift.right;
-  const StringNow<D> string = predictor.effects().string_at(
-      predictor.effects().string(predictor.parameters()), state, tips, predictor.parameters());
+  const StringNow<D> string = string_from(tips, state, predictor);
   // (Both tips across the strands are twice as soft as one.)
   if (value_of(string.compliance) < 0.5 * kBouncyString * value_of(predictor.parameters().mass)) return false;
   state.position = seen.position;

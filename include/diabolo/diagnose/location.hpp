@@ -7,7 +7,7 @@
 
 #include "diabolo/recording/recording.hpp"
 
-// More parts of a DiagnosisResult, see result.hpp: where base and recordings part.
+// Parts of a DiagnosisResult, see diagnosis_result.hpp: where base and recordings part.
 namespace diabolo {
 
 struct LocatedDirection {

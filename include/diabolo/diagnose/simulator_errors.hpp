@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "diabolo/diagnose/held_out_errors.hpp"
 #include "diabolo/diagnose/play_in_simulator.hpp"
-#include "diabolo/diagnose/result.hpp"
 #include "diabolo/evaluate/evaluation_step.hpp"
 #include "diabolo/math/bootstrap.hpp"
 #include "diabolo/rollout.hpp"

@@ -19,6 +19,11 @@ namespace diabolo {
 template <class Scalar>
 struct TipShift {
   Vector3<Scalar> left = Vector3<Scalar>::Constant(Scalar(0)), right = Vector3<Scalar>::Constant(Scalar(0));
+
+  void move(Tips<Scalar>& tips) const {
+    tips.left += left;
+    tips.right += right;
+  }
 };
 
 /// A spring in series with the string.

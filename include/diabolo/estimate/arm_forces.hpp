@@ -28,7 +28,7 @@ struct ArmForce {
 inline ArmForce force_by_torques(const StickArm& arm, const JointTorques& read) {
   estimate_detail::expect_finite("joint torques, joints", read.joints.allFinite());
   estimate_detail::expect_finite("joint torques, torque", read.torque.allFinite());
-  estimate_detail::expect_positive("joint torques, noise", read.noise);
+  expect_positive("joint torques, noise", read.noise);
   constexpr double kUnfelt = 1e-9;  // [m^2]
   const PointJacobian<double> jacobian = arm.base.rotation * arm.chain.point_jacobian(read.joints, arm.tip);
   const Eigen::Matrix3d felt = jacobian * jacobian.transpose() + kUnfelt * Eigen::Matrix3d::Identity();

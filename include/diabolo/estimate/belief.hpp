@@ -16,10 +16,10 @@ struct Spread {
   double axle = 0.05;      ///< [rad]
 
   void validate() const {
-    estimate_detail::expect_positive("start spread, position", position);
-    estimate_detail::expect_positive("start spread, velocity", velocity);
-    estimate_detail::expect_positive("start spread, spin", spin);
-    estimate_detail::expect_positive("start spread, axle", axle);
+    expect_positive("start spread, position", position);
+    expect_positive("start spread, velocity", velocity);
+    expect_positive("start spread, spin", spin);
+    expect_positive("start spread, axle", axle);
   }
 };
 
@@ -34,13 +34,13 @@ struct ProcessNoise {
   double string_rate = 0.1;     ///< at which the string stretches [m/s]
 
   void validate() const {
-    estimate_detail::expect_positive("process noise, acceleration", acceleration);
-    estimate_detail::expect_positive("process noise, spin", spin);
-    estimate_detail::expect_positive("process noise, axle", axle);
-    estimate_detail::expect_positive("process noise, tension", tension);
-    estimate_detail::expect_positive("process noise, direction", direction);
-    estimate_detail::expect_positive("process noise, string_length", string_length);
-    estimate_detail::expect_positive("process noise, string_rate", string_rate);
+    expect_positive("process noise, acceleration", acceleration);
+    expect_positive("process noise, spin", spin);
+    expect_positive("process noise, axle", axle);
+    expect_positive("process noise, tension", tension);
+    expect_positive("process noise, direction", direction);
+    expect_positive("process noise, string_length", string_length);
+    expect_positive("process noise, string_rate", string_rate);
   }
 };
 

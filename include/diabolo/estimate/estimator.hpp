@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
-#include "diabolo/estimate/tick.hpp"
+#include "diabolo/estimate/tick_history.hpp"
 
 namespace diabolo {
-
-/// What became of a measurement.
-enum class Taken {
-  kYes,
-  kTooOld,   ///< from before the history
-  kTooNew,   ///< from after the last step
-  kOccupied  ///< its step has one of that kind already
-};
 
 /// Estimates position, velocity, spin and, with `kAxle`, the axle's direction of the diabolo, from the tips'
 /// motion and from any of: pulls on the tips, looks of a camera. A square-root unscented Kalman filter whose
@@ -40,7 +30,7 @@ class Estimator {
   Estimator(const Predictor<double, Effects...>& predictor, const ProcessNoise& noise,
             const State<double>& start, const Spread& spread, const Tips<double>& tips, double time,
             std::size_t history)
-      : filter_(predictor, noise), ticks_(checked(history) + 1) {
+      : filter_(predictor, noise), ticks_(history, Belief<kAxle>::begin(time, start, spread), tips) {
     spread.validate();
     estimate_detail::expect_finite("start, time", std::isfinite(time));
     estimate_detail::expect_finite("start", is_finite(start));
@@ -49,40 +39,26 @@ class Estimator {
                                   "; expected a unit vector");
     expect_tips("start", tips);
     refuse_spring(predictor, start, tips);
-    Tick<kAxle>& first = ticks_.front();
-    first.before = first.after = Belief<kAxle>::begin(time, start, spread);
-    first.begin = first.end = tips;
-    count_ = 1;
   }
 
   const Predictor<double, Effects...>& predictor() const { return filter_.predictor(); }
-  const Belief<kAxle>& now() const { return tick(0).after; }
+  const Belief<kAxle>& now() const { return ticks_[0].after; }
   /// What is known by now of the end of the step `ago` steps before the last one. Throws
   /// std::invalid_argument beyond history().
   const Belief<kAxle>& past(std::size_t ago) const {
     if (ago > history())
       throw std::invalid_argument("past, ago: " + std::to_string(ago) + " steps; expected at most " +
                                   std::to_string(history()));
-    return tick(ago).after;
+    return ticks_[ago].after;
   }
-  std::size_t history() const { return std::min(count_, ticks_.size()) - 1; }
+  std::size_t history() const { return ticks_.steps(); }
 
   /// The tips have moved on to `tips` in `dt` > 0 [s], a second at most. Throws std::invalid_argument where
   /// that is not so.
   void step(const Tips<double>& tips, double dt) {
-    estimate_detail::expect_positive("step, dt", dt, kLongestStep);
+    expect_positive("step, dt", dt, kLongestStep);
     expect_tips("step", tips);
-    const Belief<kAxle> before = now();
-    const Tips<double> begin = tick(0).end;
-    ++count_;
-    Tick<kAxle>& next = tick(0);
-    next.before = before;
-    next.begin = begin;
-    next.end = tips;
-    next.dt = dt;
-    next.pulls = {};
-    next.look.reset();
-    filter_.run(next);
+    filter_.run(ticks_.add(tips, dt));
   }
 
   /// Pulls at the end of the last step.
@@ -96,23 +72,16 @@ class Estimator {
   Taken take(const CameraLook& look) {
     validate(look);
     std::size_t ago = 0;
-    const Taken found = find(look.time, ago);
+    const Taken found = ticks_.find(look.time, ago);
     if (found != Taken::kYes) return found;
-    if (tick(ago).look) return Taken::kOccupied;
-    tick(ago).look = look;
+    if (ticks_[ago].look) return Taken::kOccupied;
+    ticks_[ago].look = look;
     replay(ago);
     return Taken::kYes;
   }
 
  private:
-  static constexpr std::size_t kLongestHistory = 100'000;  // steps
-  static constexpr double kLongestStep = 1.0;              // [s]
-
-  static std::size_t checked(std::size_t history) {
-    if (history <= kLongestHistory) return history;
-    throw std::invalid_argument("estimator, history: " + std::to_string(history) +
-                                " steps; expected at most " + std::to_string(kLongestHistory));
-  }
+  static constexpr double kLongestStep = 1.0;  // [s]
 
   static void expect_tips(const char* what, const Tips<double>& tips) {
     estimate_detail::expect_within(what, "tips", tips.left, 1e4);
@@ -121,38 +90,26 @@ class Estimator {
     estimate_detail::expect_within(what, "tips' velocities", tips.right_velocity, 1e4);
   }
 
-  Tick<kAxle>& tick(std::size_t ago) { return ticks_[(count_ - 1 - ago) % ticks_.size()]; }
-  const Tick<kAxle>& tick(std::size_t ago) const { return ticks_[(count_ - 1 - ago) % ticks_.size()]; }
-
   template <class Reading>
   Taken take_pulls(const Reading& reading, double time) {
     validate(reading);
     estimate_detail::expect_finite("pulls, time", std::isfinite(time));
     std::size_t ago = 0;
-    const Taken found = find(time, ago);
+    const Taken found = ticks_.find(time, ago);
     if (found != Taken::kYes) return found;
-    if (!(tick(ago).dt > 0.0)) return Taken::kTooOld;  // no step ends there
-    if (tick(ago).pulls.index() != 0) return Taken::kOccupied;
-    tick(ago).pulls = reading;
+    if (!(ticks_[ago].dt > 0.0)) return Taken::kTooOld;  // no step ends there
+    if (ticks_[ago].pulls.index() != 0) return Taken::kOccupied;
+    ticks_[ago].pulls = reading;
     replay(ago);
     return Taken::kYes;
   }
 
-  /// The step whose end is nearest to a time.
-  Taken find(double time, std::size_t& ago) const {
-    const double half = 0.5 * tick(0).dt + 1e-9;
-    if (time > now().time + half) return Taken::kTooNew;
-    ago = 0;
-    while (ago < history() && time < tick(ago).after.time - 0.5 * tick(ago).dt) ++ago;
-    return time < tick(ago).after.time - 0.5 * tick(ago).dt - 1e-9 ? Taken::kTooOld : Taken::kYes;
-  }
-
   /// All steps from one on, anew.
   void replay(std::size_t ago) {
-    filter_.run(tick(ago));
+    filter_.run(ticks_[ago]);
     while (ago-- > 0) {
-      tick(ago).before = tick(ago + 1).after;
-      filter_.run(tick(ago));
+      ticks_[ago].before = ticks_[ago + 1].after;
+      filter_.run(ticks_[ago]);
     }
   }
 
@@ -173,8 +130,7 @@ class Estimator {
   }
 
   TickFilter<kAxle, Effects...> filter_;
-  std::vector<Tick<kAxle>> ticks_;  ///< a ring
-  std::size_t count_ = 0;           ///< of ticks ever
+  TickHistory<kAxle> ticks_;
 };
 
 }  // namespace diabolo

@@ -10,6 +10,7 @@
 
 #include "diabolo/estimate/square_root.hpp"
 #include "diabolo/strand_tensions.hpp"
+#include "diabolo/text/expect_positive.hpp"
 #include "diabolo/text/shown.hpp"
 
 namespace diabolo {
@@ -47,11 +48,6 @@ namespace estimate_detail {
 inline void expect_finite(const char* what, bool finite) {
   if (!finite) throw std::invalid_argument(std::string(what) + ": not finite; expected numbers");
 }
-inline void expect_positive(const char* what, double value, double most = 1e6) {
-  if (!(value > 0.0) || !(value <= most))
-    throw std::invalid_argument(std::string(what) + ": " + shown(value) +
-                                "; expected above zero and at most " + shown(most));
-}
 inline void expect_within(const char* what, const char* field, const Vector3<double>& vector, double most) {
   if (!(vector.norm() <= most))
     throw std::invalid_argument(std::string(what) + ", " + field + ": of size " + shown(vector.norm()) +
@@ -64,9 +60,9 @@ inline void expect_within(const char* what, const char* field, const Vector3<dou
 inline void validate(const CameraLook& look) {
   estimate_detail::expect_finite("look, time", std::isfinite(look.time));
   estimate_detail::expect_within("look", "position", look.position, 1e4);
-  estimate_detail::expect_positive("look, noise", look.noise);
-  estimate_detail::expect_positive("look, axle_noise", look.axle_noise);
-  estimate_detail::expect_positive("look, spin_noise", look.spin_noise);
+  expect_positive("look, noise", look.noise);
+  expect_positive("look, axle_noise", look.axle_noise);
+  expect_positive("look, spin_noise", look.spin_noise);
   if (look.axle && !(std::abs(look.axle->norm() - 1.0) < 1e-6))
     throw std::invalid_argument("look, axle: norm " + shown(look.axle->norm()) + "; expected a unit vector");
   if (look.spin && !(std::abs(*look.spin) <= 1e5))
@@ -77,7 +73,7 @@ inline void validate(const ForceReading& reading) {
   estimate_detail::expect_within("forces", "right", reading.forces.right, 1e5);
   for (const MatrixOf<3>& noise : {reading.left_noise, reading.right_noise})
     for (int i = 0; i < 3; ++i) {
-      estimate_detail::expect_positive("forces, noise", noise(i, i));
+      expect_positive("forces, noise", noise(i, i));
       estimate_detail::expect_finite("forces, noise", noise.allFinite());
     }
 }
@@ -86,7 +82,7 @@ inline void validate(const TensionReading& reading) {
     if (!(std::abs(tension) <= 1e5))
       throw std::invalid_argument(std::string("tensions, ") + name + ": " + shown(tension) +
                                   " N; expected at most 100000");
-  estimate_detail::expect_positive("tensions, noise", reading.noise);
+  expect_positive("tensions, noise", reading.noise);
 }
 
 }  // namespace diabolo

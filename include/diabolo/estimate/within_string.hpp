@@ -18,9 +18,7 @@ struct TightString {
     const auto& parameters = predictor.parameters();
     StringNow<double> string = effects.string(parameters);
     if (effects.moves_tips()) {
-      const TipShift<double> shift = effects.tip_shift(state, tips, parameters);
-      tips.left += shift.left;
-      tips.right += shift.right;
+      effects.tip_shift(state, tips, parameters).move(tips);
       string = effects.string_at(string, state, tips, parameters);
     }
     return {tips, string.length, StringPath<double>(state.position, tips)};

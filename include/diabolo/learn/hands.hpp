@@ -10,6 +10,7 @@
 
 #include "diabolo/math/pack.hpp"
 #include "diabolo/sticks.hpp"
+#include "diabolo/text/expect_positive.hpp"
 #include "diabolo/text/shown.hpp"
 
 namespace diabolo {
@@ -34,14 +35,9 @@ struct HandLimits {
 
   /// Throws std::invalid_argument where a bound is out of its range.
   void validate() const {
-    const auto positive = [](const char* name, double value) {
-      if (!(value > 0.0 && value <= 1e3))
-        throw std::invalid_argument(std::string("limits, ") + name + ": " + shown(value) +
-                                    "; expected a positive number up to 1000");
-    };
-    positive("speed", speed);
-    positive("acceleration", acceleration);
-    for (const double side : half) positive("half", side);
+    expect_positive("limits, speed", speed, 1e3);
+    expect_positive("limits, acceleration", acceleration, 1e3);
+    for (const double side : half) expect_positive("limits, half", side, 1e3);
     if (!(centre.cwiseAbs().maxCoeff() <= 1e3))
       throw std::invalid_argument("limits, centre: expected numbers from -1000 to 1000 m");
     if (!(gap >= 0.0 && gap < half.y()))

@@ -61,10 +61,8 @@ inline Eigen::Vector2d angle_rates(const AllEffects<double>& effects, const Para
   result.position = state.position;
   result.string_acceleration = Vector3<double>(0.0, 0.0, parameters.gravity);
   result.taut = true;
-  const TipShift<double> shift = effects.tip_shift(state, tips, parameters);
   Tips<double> shifted = tips;
-  shifted.left += shift.left;
-  shifted.right += shift.right;
+  effects.tip_shift(state, tips, parameters).move(shifted);
   effects.turn_axle(state, shifted, result, 0.0, kStep, parameters);
   const AxleAngles after = axle_angles(state.axis);
   return {(after.tilt - at.tilt) / kStep, (after.yaw - at.yaw) / kStep};

@@ -2,24 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <stdexcept>
-#include <string>
 #include <tuple>
 
 #include "diabolo/plan/axle_response.hpp"
-#include "diabolo/text/shown.hpp"
+#include "diabolo/text/expect_positive.hpp"
 
 namespace diabolo {
-
-namespace level_detail {
-
-inline void check_size(const char* name, double value, double most, const char* unit) {
-  if (value > 0.0 && value <= most) return;
-  throw std::invalid_argument(std::string(name) + ": " + shown(value) + " " + unit +
-                              "; must be above 0 and at most " + shown(most));
-}
-
-}  // namespace level_detail
 
 /// What levelling weighs: each quantity by the size at which it costs one.
 struct LevelWeights {
@@ -38,7 +26,7 @@ struct LevelWeights {
                                             {"lead", lead, "rad"},
                                             {"turn", turn, "rad/s"},
                                             {"horizon", horizon, "s"}})
-      level_detail::check_size(name, value, 1e3, unit);
+      expect_positive(name, value, 1e3, unit);
   }
 };
 

@@ -16,9 +16,9 @@ struct LevelHandLimits {
 
   /// Throws std::invalid_argument where one is out of its range.
   void validate() const {
-    level_detail::check_size("lead", lead, 1.5, "rad");
-    level_detail::check_size("turn", turn, 10.0, "rad/s");
-    level_detail::check_size("quickness", quickness, 100.0, "1/s");
+    expect_positive("lead", lead, 1.5, "rad");
+    expect_positive("turn", turn, 10.0, "rad/s");
+    expect_positive("quickness", quickness, 100.0, "1/s");
   }
 };
 

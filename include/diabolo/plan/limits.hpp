@@ -12,6 +12,7 @@
 #include "diabolo/math/polynomial_maximum.hpp"
 #include "diabolo/plan/path_limits.hpp"
 #include "diabolo/plan/tip_path.hpp"
+#include "diabolo/text/expect_positive.hpp"
 #include "diabolo/text/shown.hpp"
 
 namespace diabolo {
@@ -30,14 +31,9 @@ struct TipLimits {
 
   /// Throws std::invalid_argument where a limit is not positive or the workspace is empty.
   void validate() const {
-    const auto positive = [](const char* name, double value) {
-      if (!(value > 0.0))
-        throw std::invalid_argument(std::string("limits, ") + name + ": " + shown(value) +
-                                    "; expected a positive one");
-    };
-    positive("speed", speed);
-    positive("acceleration", acceleration);
-    positive("jerk", jerk);
+    expect_positive("limits, speed", speed, kNone);
+    expect_positive("limits, acceleration", acceleration, kNone);
+    expect_positive("limits, jerk", jerk, kNone);
     if (!(string_margin >= 0.0 && std::isfinite(string_margin)))
       throw std::invalid_argument("limits, string_margin: " + shown(string_margin) +
                                   " m; must be finite and not negative");

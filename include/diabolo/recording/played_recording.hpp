@@ -22,9 +22,17 @@ inline DiaboloProperties played_properties(const Parameters<double>& parameters)
   return {parameters.mass, kRedDiabolo.diameter, kRedDiabolo.length, parameters.axle_radius};
 }
 
-/// A predicted play as a recording, sample by sample: time [s], tips [m], and the diabolo's states. Its body
-/// x lies along their axis and it turns about that by minus the spin, so that readers see the spin again
-/// where it stays below half a turn a sample. Throws RecordingError where it is none, see check_recording().
+/// How a diabolo lies that has spun by `turned` [rad]: body to world, body x along the axis, about which it
+/// turned by minus that.
+inline Eigen::Quaterniond played_orientation(const Vector3<double>& axis, double turned) {
+  const double half = 0.5 * turned;
+  return shortest_turn(Vector3<double>::UnitX(), axis) *
+         Eigen::Quaterniond(std::cos(half), -std::sin(half), 0.0, 0.0);
+}
+
+/// A predicted play as a recording, sample by sample: time [s], tips [m], and the diabolo's states. It lies
+/// as played_orientation() says, so that readers see the spin again where it stays below half a turn a
+/// sample. Throws RecordingError where it is none, see check_recording().
 inline Recording played_recording(const std::string& name, const Eigen::VectorXd& time,
                                   const Eigen::Matrix3Xd& left, const Eigen::Matrix3Xd& right,
                                   const std::vector<State<double>>& states, double rate,
@@ -51,13 +59,9 @@ inline Recording played_recording(const std::string& name, const Eigen::VectorXd
   double turned = 0.0;  // times the rate [rad/s]
   for (Eigen::Index i = 0; i < size; ++i) {
     const State<double>& state = states[static_cast<std::size_t>(i)];
-    const double half = 0.5 * (turned / rate);
     recording.frame.push_back(std::abs(time[i] * rate) < 1e15 ? std::lround(time[i] * rate) : 0);
     recording.diabolo.position.col(i) = state.position;
-    recording.diabolo_orientation.quaternion.col(i) =
-        (shortest_turn(Vector3<double>::UnitX(), state.axis) *
-         Eigen::Quaterniond(std::cos(half), -std::sin(half), 0.0, 0.0))
-            .coeffs();
+    recording.diabolo_orientation.quaternion.col(i) = played_orientation(state.axis, turned / rate).coeffs();
     turned += state.spin;
   }
   recording.properties = properties;

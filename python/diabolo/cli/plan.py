@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import files
 from .._core import (
@@ -202,11 +203,24 @@ def recording_of(
     time = np.arange(int(played.time[-1] * RATE + 1e-6) + 1) / RATE
     nearest = np.clip(np.searchsorted(played.time, time), 1, len(played.time) - 1)
     share = (time - played.time[nearest - 1]) / (played.time[nearest] - played.time[nearest - 1])
-    states = played.states[nearest - 1] + share[:, None] * (
-        played.states[nearest] - played.states[nearest - 1]
-    )
+
+    def between(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        return rows[nearest - 1] + share[:, None] * (rows[nearest] - rows[nearest - 1])
+
     tips = played.path.derivatives(np.minimum(time, played.path.end))[0]
-    return played_recording(title, time, tips[:, :3], tips[:, 3:], states, RATE, properties, string_length)
+    axis = between(played.axis)
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    return played_recording(
+        title,
+        time,
+        tips[:, :3],
+        tips[:, 3:],
+        between(played.states),
+        RATE,
+        properties,
+        string_length,
+        axis,
+    )
 
 
 def wanted_states(played: PlannedPlay) -> list[Waypoint]:

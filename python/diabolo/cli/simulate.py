@@ -153,6 +153,7 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
     excerpt = read_excerpt(arguments.on, reading_of(arguments))
     take = excerpt.recording.cut(excerpt.first, excerpt.last)
     predicted = predict(take, model)
+    assert predicted.axis is not None
     known = ~np.isnan(predicted.states[:, 0])
     first = int(np.argmax(known))
     away = known & ~(np.abs(predicted.states[:, :3]).max(axis=1) <= FARTHEST)
@@ -175,6 +176,7 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
             take.rate,
             take.properties,
             take.string_length,
+            predicted.axis[first:],
         ),
         predicted.string_states[first:],
     )

@@ -9,7 +9,7 @@ from typing import Any
 
 from .. import files
 from ..evaluation import DEFAULT_MODELS, predict
-from ..view import predict_anew, view_html
+from ..view import places_of, predict_anew, view_html
 from .arguments import (
     RECORDING_HELP,
     add_calibration,
@@ -69,7 +69,7 @@ def run(arguments: argparse.Namespace) -> None:
         if model.name in predictions:
             raise ValueError(f"--model {name}: another model is named '{model.name}' too; expected each once")
         predictions[model.name] = (
-            predict(take, model).states[:, :3]
+            places_of(predict(take, model))
             if arguments.every is None
             else predict_anew(take, model, arguments.every)
         )

@@ -67,7 +67,8 @@ def save_replay(replay: Replay, path: Path) -> None:
         stream.log("world/diabolo/cups", _cup(recording), static=True)
         plot("height", recording.diabolo[:, 2])
         plot("spin", recording.spin())
-        for name, positions in replay.predictions.items():
+        for name, places in replay.predictions.items():
+            positions = places[:, :3]
             entity, seen, colour = f"world/predicted/{name}", np.isfinite(positions[:, 0]), PREDICTED[name]
             send(entity, rr.Points3D, np.where(seen, 1, 0), positions=positions[seen])
             stream.log(entity, rr.Points3D.from_fields(colors=[colour], radii=[GHOST]), static=True)

@@ -14,6 +14,7 @@ from .._core import (
     Predictor,
     Recording,
     StepStatus,
+    played_orientation,
     played_properties,
     played_recording,
 )
@@ -28,7 +29,7 @@ DT = 1e-3
 STEPS_PER_SAMPLE = 8
 RATE = 1.0 / (DT * STEPS_PER_SAMPLE)
 """Sampling rate of what is recorded [Hz]."""
-COLUMNS = 13  # both tips, position, velocity, spin
+COLUMNS = 16  # both tips, position, velocity, spin, axis
 
 
 class Stretch:
@@ -85,14 +86,13 @@ class Play:
 
     def frame(self) -> str:
         """What the page shows, as JSON: places [m], orientation x, y, z, w, spin [rad/s], tensions [N]."""
-        half = 0.5 * self.turned
         shown = {
             "stretch": self.stretches,
             "time": round(self.steps * DT, 3),
             "left": self.hands.position[0].round(4).tolist(),
             "right": self.hands.position[1].round(4).tolist(),
             "diabolo": self.state.position.round(4).tolist(),
-            "orientation": [round(-np.sin(half), 4), 0.0, 0.0, round(np.cos(half), 4)],
+            "orientation": played_orientation(self.state.axis, self.turned).round(4).tolist(),
             "spin": round(self.state.spin, 1),
             "string": StringState(self.state.string_state).name.lower(),
             "tensions": self.tensions.round(2).tolist(),
@@ -111,10 +111,11 @@ class Play:
             time,
             rows[:, :3],
             rows[:, 3:6],
-            rows[:, 6:],
+            rows[:, 6:13],
             RATE,
             self.properties,
             self.model.parameters.string_length,
+            rows[:, 13:],
         )
         return take, np.array(longest.string_states, dtype=np.uint8)
 
@@ -153,5 +154,5 @@ class Play:
         self._sample()
 
     def _sample(self) -> None:
-        self.current.rows.extend((*self.hands.position.ravel(), *self.state.to_array()))
+        self.current.rows.extend((*self.hands.position.ravel(), *self.state.to_array(), *self.state.axis))
         self.current.string_states.append(self.state.string_state)
