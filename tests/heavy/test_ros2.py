@@ -318,7 +318,7 @@ def heard(folder: Path, name: str, file: Path, seconds: float) -> Path:
 
 
 def test_a_recorded_bag_replays_to_the_same_play(tmp_path: Path) -> None:
-    motion, times = swing(8.0)
+    motion, times = swing(3.0)
     left, right = motion.at(times)[:2]
     plan = tmp_path / "plan.csv"
     columns = ",".join(["time", *(f"{side}_{axis}" for side in ("left", "right") for axis in "xyz")])
