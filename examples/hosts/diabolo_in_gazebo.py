@@ -25,6 +25,7 @@ from play_motion import compared
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build" / "gazebo" / "diabolo_gazebo"
 WORLD = ROOT / "examples" / "gazebo" / "diabolo.world.sdf"
+LONGEST = 600  # of the program [s]
 
 
 def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int) -> NDArray[np.float64]:
@@ -34,15 +35,23 @@ def simulate(model: Model, start: State, tips: TipMotion, dt: float, steps: int)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         model.save(folder / "model.json")
-        world = WORLD.read_text(encoding="utf-8").replace(">consistent<", ">model.json<")
-        (folder / "world.sdf").write_text(world.replace(">0.001<", f">{dt!r}<"), encoding="utf-8")
-        # Where the tips' spline ends it is bent: a little more of them is told than is looked at.
+        world = WORLD.read_text(encoding="utf-8")
+        for was, now in (("consistent", "model.json"), ("0.001", repr(dt))):
+            if world.count(f">{was}<") != 1:
+                raise ValueError(f"{WORLD}: >{was}< is there {world.count(f'>{was}<')} times; expected once")
+            world = world.replace(f">{was}<", f">{now}<")
+        (folder / "world.sdf").write_text(world, encoding="utf-8")
+        # The spline of the tips bends at its end, so the motion goes on for up to 50 steps beyond what is
+        # compared.
         beyond = min(50, int((tips.end - tips.begin) / dt + 1e-6) - steps)
         write_motion(folder / "motion.csv", model, start, tips, dt * np.arange(steps + beyond + 1))
         files = [folder / name for name in ("world.sdf", "motion.csv", "sim.csv")]
-        done = subprocess.run([PROGRAM, *files], capture_output=True, text=True, timeout=600)
+        try:
+            done = subprocess.run([PROGRAM, *files], capture_output=True, text=True, timeout=LONGEST)
+        except subprocess.TimeoutExpired:
+            raise ValueError(f"{PROGRAM}: not done after {LONGEST} s") from None
         if done.returncode != 0:
-            raise ValueError(done.stderr.strip())
+            raise ValueError(done.stderr.strip() or f"{PROGRAM}: ended with status {done.returncode}")
         return load_recording(folder / "sim.csv").diabolo[1 : steps + 1]
 
 

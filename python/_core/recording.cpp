@@ -256,11 +256,10 @@ Recording read_bodies(const std::string& file, const Array& time, const std::vec
 
 Calibration of_setup(Calibration calibration, const DiaboloProperties& properties, double string_length,
                      const std::vector<std::string>& assumed) {
-  check_properties(properties, string_length, "setup");
-  check_assumed(assumed, "setup");
   calibration.properties = properties;
   calibration.string_length = string_length;
   calibration.assumed = assumed;
+  check_calibration(calibration, "setup");
   return calibration;
 }
 
@@ -367,6 +366,8 @@ void bind_calibration(py::module_& module) {
            "The same for bodies of these names, where one is given.")
       .def("of", &of_setup, "properties"_a, "string_length"_a, "assumed"_a = std::vector<std::string>{},
            "The same for a diabolo and a string [m]; assumed: as that of a Recording.")
+      .def("completed_by", &completed, "setup"_a,
+           "The same with string and diabolo of another where it only assumes them.")
       .def_static("blue", &blue_calibration, "Of the blue diabolo; its tips are only estimates.")
       .def_static("load", &load_calibration, "path"_a, Unlocked(),
                   "Reads a file of the schema diabolo.calibration/1.")

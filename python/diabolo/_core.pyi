@@ -756,6 +756,8 @@ class Calibration:
   @staticmethod
   def published() -> Calibration:
     """Of the red diabolo with the sticks of July 2020; the default."""
+  def completed_by(self, setup: Calibration) -> Calibration:
+    """The same with string and diabolo of another where it only assumes them."""
   def of(self, properties: DiaboloProperties, string_length: _Real, assumed: collections.abc.Sequence[str] = []) -> Calibration:
     """The same for a diabolo and a string [m]; assumed: as that of a Recording."""
   def renamed(self, left: str = '', right: str = '', diabolo: str = '') -> Calibration:

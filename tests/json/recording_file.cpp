@@ -50,13 +50,22 @@ TEST_CASE("Missing and wrong metadata are named") {
   CHECK(metadata_complaint("0.2845", "-1") ==
         "play.json: field \"diabolo.mass\" is -1; expected a number > 0");
   CHECK(metadata_complaint("\"mass\": 0.2845, ", "") == "play.json: field \"diabolo.mass\" is missing");
-  CHECK(metadata_complaint("\"rate\"", "\"assumed\": \"mass\", \"rate\"") ==
-        "play.json: assumed: \"mass\"; expected \"string_length\" or \"diabolo\"");
+  const auto assumed = [](const std::string& said) {
+    return metadata_complaint("\"rate\"", "\"assumed\": " + said + ", \"rate\"");
+  };
+  CHECK(assumed("[\"mass\"]") ==
+        "play.json: assumed: \"mass\"; expected \"string_length\" or \"diabolo\", each once");
+  CHECK(assumed("\"diabolo\"") == "play.json: field \"assumed\" is \"diabolo\"; expected a list of texts");
+  CHECK(assumed("[1]") == "play.json: field \"assumed\" is of type array; expected a list of texts");
+  CHECK(assumed("[]") == "(no complaint)");
   CHECK(metadata_complaint("\"mass\"", "\"length\": 1, \"mass\"") ==
         "play.json: field \"length\" is there twice");
   CHECK(complaint([] {
           write_metadata({kRedDiabolo, kNaN, 100.0});
         }) == "recording: string_length [m] nan; expected 0.05 to 20");
+  CHECK(complaint([] {
+          write_metadata({kRedDiabolo, 1.46, 100.0, {"mass"}});
+        }).starts_with("recording: assumed: \"mass\"; expected"));
 }
 
 TEST_CASE("Motive and tidy recordings are told apart by content") {

@@ -70,6 +70,7 @@ def write_bag(
     topics: dict[str, str],
     shift: Mapping[str, int | NDArray[np.int64]],
     stamped: Callable[[int], int] = int,
+    mcap: bool = False,
 ) -> None:
     """A folder of rosbag2 whose bodies have stamps of their own, which `stamped` makes of ns."""
     from rosbags.rosbag2 import StoragePlugin, Writer
@@ -77,7 +78,8 @@ def write_bag(
 
     store = get_typestore(Stores.ROS2_HUMBLE)
     types = store.types
-    with Writer(folder, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+    plugin = StoragePlugin.MCAP if mcap else StoragePlugin.SQLITE3
+    with Writer(folder, version=9, storage_plugin=plugin) as writer:
         for role, topic in topics.items():
             connection = writer.add_connection(topic, "geometry_msgs/msg/PoseStamped", typestore=store)
             places, turns = getattr(recording, role), getattr(recording, f"{role}_orientation")
@@ -259,37 +261,140 @@ def test_stamps_of_no_clock_are_refused(tmp_path: Path) -> None:
         _body(Path("bag"), "left", Rows([0], [2**63], array("d", [0.0] * 3), {3}, {"world"}), {})
 
 
-def in_small_chunks(path: Path, out: Path) -> None:
-    """A bag as a recorder writes it: in the order of time, a chunk every few messages."""
+def as_recorded(path: Path, out: Path, late: Callable[[int], int] = lambda _: 0) -> None:
+    """A bag as a recorder writes it: a chunk every few messages. late: what the log times are off [ns]."""
     from mcap.reader import make_reader
-    from mcap.writer import Writer
+    from mcap.writer import CompressionType, Writer
 
     with path.open("rb") as file, out.open("wb") as kept:
-        writer = Writer(kept, chunk_size=4096)
+        writer = Writer(kept, chunk_size=4096, compression=CompressionType.NONE)
         writer.start(profile="ros2")
         channels: dict[str, int] = {}
-        for schema, channel, message in make_reader(file).iter_messages():
+        for k, (schema, channel, message) in enumerate(make_reader(file).iter_messages()):
             if channel.topic not in channels:
                 assert schema is not None
                 kind = writer.register_schema(schema.name, schema.encoding, schema.data)
                 channels[channel.topic] = writer.register_channel(channel.topic, "cdr", kind)
-            writer.add_message(channels[channel.topic], message.log_time, message.data, message.log_time)
+            logged = message.log_time + late(k)
+            writer.add_message(channels[channel.topic], logged, message.data, logged)
         writer.finish()
 
 
-def test_a_bag_that_is_cut_off_is_read_up_to_there(swing: Recording, tmp_path: Path) -> None:
+def warned_of_a_cut(found: Recording) -> bool:
+    return len([one for one in found.warnings() if "cut off" in one]) == 1
+
+
+@pytest.mark.parametrize("late", [lambda _: 0, lambda k: -200_000 if k % 97 == 96 else 0])
+def test_a_bag_that_is_cut_off_is_read_up_to_there(
+    swing: Recording, tmp_path: Path, late: Callable[[int], int]
+) -> None:
     save_recording(swing, tmp_path / "swing.mcap")
-    in_small_chunks(tmp_path / "swing.mcap", tmp_path / "take.mcap")
+    as_recorded(tmp_path / "swing.mcap", tmp_path / "take.mcap", late)
     content = (tmp_path / "take.mcap").read_bytes()
     for share in (0.5, 0.6, 0.7):
         (tmp_path / "cut.mcap").write_bytes(content[: int(share * len(content))])
         found = load_recording(tmp_path / "cut.mcap")
         assert 0.3 * len(swing) < len(found) < len(swing)
         same(swing.cut(0, len(found) - 2), found.cut(0, len(found) - 2))  # the last row may lack a body
-        assert len([one for one in found.warnings() if "cut off" in one]) == 1
-    (tmp_path / "cut.mcap").write_bytes(content[:300])
-    with pytest.raises(RecordingError, match=r"cut\.mcap: no poses in it; .*; the file is cut off"):
-        load_recording(tmp_path / "cut.mcap")
+        assert warned_of_a_cut(found)
+    for few in (content[:8], content[:16], content[:300]):
+        (tmp_path / "cut.mcap").write_bytes(few)
+        with pytest.raises(RecordingError, match=r"cut\.mcap: no poses in it; .*; the file is cut off"):
+            load_recording(tmp_path / "cut.mcap")
+
+
+@pytest.mark.parametrize("recorded", [False, True])
+def test_a_bag_that_lacks_no_more_than_its_end_is_read_whole(
+    swing: Recording, tmp_path: Path, recorded: bool
+) -> None:
+    save_recording(swing, tmp_path / "take.mcap")
+    if recorded:
+        as_recorded(tmp_path / "take.mcap", tmp_path / "take.mcap.new")
+        (tmp_path / "take.mcap.new").rename(tmp_path / "take.mcap")
+    content = (tmp_path / "take.mcap").read_bytes()
+    for cut in (content[:-1], content[:-8], content[:-30], content[:-200], content + b"\n"):
+        (tmp_path / "cut.mcap").write_bytes(cut)
+        found = load_recording(tmp_path / "cut.mcap")
+        same(swing, found)
+        assert warned_of_a_cut(found)
+        assert found.assumed == (["string_length", "diabolo"] if recorded else [])
+
+
+def test_rows_and_set_up_of_a_bag_are_written_in_the_order_of_time(swing: Recording, tmp_path: Path) -> None:
+    from mcap.records import Message, Metadata
+    from mcap.stream_reader import StreamReader
+
+    save_recording(swing, tmp_path / "take.mcap")
+    with (tmp_path / "take.mcap").open("rb") as file:
+        written = [one for one in StreamReader(file).records if isinstance(one, Message | Metadata)]
+    assert isinstance(written[0], Metadata)  # so that a bag that is cut off has it
+    stamps = [one.log_time for one in written[1:]]
+    assert len(stamps) > 2 * len(swing) and stamps == sorted(stamps)
+
+
+def test_a_folder_with_a_bag_that_is_cut_off_is_read_up_to_there(swing: Recording, tmp_path: Path) -> None:
+    bag = tmp_path / "bag"
+    write_bag(bag, swing, TOPICS, {}, mcap=True)
+    [file] = bag.glob("*.mcap")
+    file.write_bytes(file.read_bytes()[:-20])
+    found = load_recording(bag, topics=TOPICS)
+    same(swing, found, places=1e-6)
+    assert warned_of_a_cut(found)
+
+
+@pytest.mark.parametrize("cut", [0, 500])
+def test_a_chunk_that_is_damaged_is_refused(swing: Recording, tmp_path: Path, cut: int) -> None:
+    path = tmp_path / "take.mcap"
+    save_recording(swing, tmp_path / "swing.mcap")
+    as_recorded(tmp_path / "swing.mcap", path)
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content[: len(content) - cut])
+    with pytest.raises(
+        RecordingError, match=r"take\.mcap: cannot be read as a bag of ROS \(.*(crc|checksum)"
+    ):
+        load_recording(path)
+
+
+@pytest.mark.parametrize("suffix", [".MCAP", ".Db3", ".PARQUET"])
+def test_suffixes_may_be_in_capitals(swing: Recording, tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"TAKE{suffix}"
+    if suffix == ".Db3":
+        write_bag(tmp_path / "bag", swing, TOPICS, {})
+        next((tmp_path / "bag").glob("*.db3")).rename(path)
+    else:
+        save_recording(swing, tmp_path / f"take{suffix.lower()}")
+        for one in tmp_path.glob("take.*"):
+            one.rename(path if one.suffix == suffix.lower() else path.with_suffix(one.suffix))
+    found = load_recording(path, topics=TOPICS if suffix == ".Db3" else None)
+    same(swing, found, places=1e-6)
+    assert found.name == "TAKE" and len(found.assumed) == (2 if suffix == ".Db3" else 0)
+    if suffix == ".MCAP":
+        path.write_bytes(path.read_bytes()[:-1])
+        assert warned_of_a_cut(load_recording(path))
+
+
+def test_what_a_calibration_assumes_is_taken_of_the_bag(swing: Recording, tmp_path: Path) -> None:
+    path = tmp_path / "take.mcap"
+    made = Recording(
+        swing.time,
+        swing.left,
+        swing.right,
+        swing.diabolo,
+        swing.rate,
+        properties=DiaboloProperties.green(),
+        string_length=1.3,
+    )
+    save_recording(made, path)
+    plain = Calibration.plain()
+    for given, length, mass in (
+        (plain, 1.3, 0.1415),
+        (plain.of(DiaboloProperties.red(), 1.4, ["diabolo"]), 1.4, 0.1415),
+        (plain.of(DiaboloProperties.red(), 1.4, []), 1.4, 0.2845),
+    ):
+        given.save(tmp_path / "c.json")
+        found = load_recording(path, Calibration.load(tmp_path / "c.json"))
+        assert (found.string_length, found.properties.mass, found.assumed) == (length, mass, [])
 
 
 @pytest.mark.parametrize(
@@ -435,7 +540,12 @@ def test_the_commands_take_them(swing: Recording, tmp_path: Path, capsys: pytest
 @pytest.mark.parametrize(
     ("name", "content", "complaint"),
     [
-        ("take.mcap", b"no bag", "cannot be read as a bag of ROS"),
+        (
+            "take.mcap",
+            b"no bag",
+            "cannot be read as a bag of ROS (it begins with b'no bag'; expected the mark",
+        ),
+        ("take.mcap", b"", "cannot be read as a bag of ROS (it is empty; expected the mark of MCAP)"),
         ("take.db3", b"no bag", "cannot be read as a bag of ROS"),
         ("take.bag", b"", "cannot be read as a bag of ROS"),
         ("take.c3d", b"no c3d", "cannot be read as C3D"),
@@ -687,16 +797,35 @@ def test_messages_of_all_kinds_are_read(tmp_path: Path) -> None:
         assert numbers == ((1.0, 2.0, 3.0) if "Point" in kind else (1.0, 2.0, 3.0, 0.0, 0.6, 0.0, 0.8))
 
 
-def test_metadata_that_lack_what_they_promise_say_so(tmp_path: Path) -> None:
+LIKE = '{"mass": 0.2, "diameter": 0.1, "length": 0.1, "axle_radius": 0.006}'
+
+
+@pytest.mark.parametrize(
+    ("metadata", "complaint"),
+    [
+        ([{}], "no 'setup'"),
+        ([{"setup": "[1]"}], r"setup: \[1\]; expected an object"),
+        ([{"setup": f'{{"diabolo": {LIKE}}}'}], "no 'string_length'"),
+        ([{"setup": f'{{"diabolo": {LIKE}, "string_length": 1.4}}'}] * 2, "2 records of them; expected one"),
+        (
+            [{"setup": f'{{"diabolo": {LIKE}, "string_length": 1.4, "assumed": ["mass"]}}'}],
+            'setup: assumed: "mass"; expected "string_length" or "diabolo", each once',
+        ),
+    ],
+)
+def test_metadata_that_lack_what_they_promise_say_so(
+    tmp_path: Path, metadata: list[dict[str, str]], complaint: str
+) -> None:
     from diabolo.formats.bag import SCHEMA, setup_of
     from mcap.writer import Writer
 
     with open(tmp_path / "take.mcap", "wb") as file:
         writer = Writer(file)
         writer.start()
-        writer.add_metadata(SCHEMA, {})
+        for one in metadata:
+            writer.add_metadata(SCHEMA, one)
         writer.finish()
-    with pytest.raises(RecordingError, match=r"cannot be read as a bag with metadata of .* \(no 'setup'\)"):
+    with pytest.raises(RecordingError, match=rf"cannot be read as a bag with metadata of .* \({complaint}\)"):
         setup_of(tmp_path / "take.mcap", tmp_path / "take.mcap")
 
 

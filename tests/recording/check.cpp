@@ -64,6 +64,12 @@ TEST_CASE("Random recordings pass the check, and each broken promise is named") 
   CHECK(says([](Recording& r) { r.properties.mass = 0.0; }).find("mass [kg] 0;") != std::string::npos);
   CHECK(says([](Recording& r) { r.string_length = kNaN; }).find("string_length [m] nan;") !=
         std::string::npos);
+  CHECK(says([](Recording& r) {
+          r.assumed = {"mass"};
+        }).ends_with(": assumed: \"mass\"; expected \"string_length\" or \"diabolo\", each once"));
+  CHECK(says([](Recording& r) {
+          r.assumed = {"diabolo", "diabolo"};
+        }).find("assumed: \"diabolo\" is there twice; expected") != std::string::npos);
   CHECK(says([](Recording& r) { r.left.valid[0] = true; }).find("left tip, sample 0") != std::string::npos);
   CHECK(says([](Recording& r) { r.left.position(1, 0) = 0.0; }).find("NaN in a dropout") !=
         std::string::npos);

@@ -112,6 +112,14 @@ class JsonFields {
     return value.get<std::vector<std::string>>();
   }
 
+  /// A list of texts, possibly empty.
+  std::vector<std::string> texts(const std::string& field) const {
+    const nlohmann::json& value = at(field);
+    const auto is_text = [](const nlohmann::json& one) { return one.is_string(); };
+    if (!value.is_array() || !std::ranges::all_of(value, is_text)) fail(field, "a list of texts");
+    return value.get<std::vector<std::string>>();
+  }
+
   void expect_text(const std::string& field, std::string_view expected) const {
     if (at(field) != expected) fail(field, shown(expected));
   }

@@ -33,8 +33,8 @@ inline constexpr const char* kRecordingFrame = "x forward, y left, z up";
 ///   {"schema": "diabolo.recording/1",
 ///    "diabolo": {"mass": kg, "diameter": m, "length": m, "axle_radius": m},
 ///    "string_length": m, "rate": Hz, "units": "SI", "frame": "x forward, y left, z up"}
-/// Every field is required. "assumed" may list those of kAssumable that nobody told. Further fields are left
-/// alone. Throws RecordingError with file and field.
+/// Every field is required. "assumed" may be there, too: a list, possibly empty, of those of kAssumable that
+/// nobody told. Further fields are left alone. Throws RecordingError with file and field.
 inline TidyMetadata read_metadata(std::string_view text, const std::string& file_name) {
   const nlohmann::json json = parse_json(text, file_name);
   const JsonFields fields(json, file_name);
@@ -43,7 +43,7 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
   fields.expect_text("frame", kRecordingFrame);
   TidyMetadata metadata{properties_from_json(fields.object("diabolo")), fields.positive("string_length"),
                         fields.positive("rate"),
-                        fields.has("assumed") ? fields.names("assumed") : std::vector<std::string>{}};
+                        fields.has("assumed") ? fields.texts("assumed") : std::vector<std::string>{}};
   check_assumed(metadata.assumed, file_name);
   check_properties(metadata.properties, metadata.string_length, file_name);
   return metadata;
@@ -53,6 +53,7 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
 inline std::string write_metadata(const TidyMetadata& metadata) {
   check_properties(metadata.properties, metadata.string_length, "recording");
   check_rate(metadata.rate, {}, "recording");
+  check_assumed(metadata.assumed, "recording");
   nlohmann::ordered_json json{{"schema", kRecordingSchema},
                               {"diabolo", to_json(metadata.properties)},
                               {"string_length", metadata.string_length},

@@ -81,12 +81,17 @@ inline void check_properties(const DiaboloProperties& properties, double string_
   });
 }
 
-/// Throws RecordingError unless each of these names is one of kAssumable.
+/// Throws RecordingError unless each of these names is one of kAssumable, and there once.
 inline void check_assumed(const std::vector<std::string>& names, const std::string& where) {
-  for (const std::string& name : names)
-    if (std::ranges::count(kAssumable, name) == 0)
-      throw RecordingError(where + ": assumed: " + shown(name) +
-                           "; expected \"string_length\" or \"diabolo\"");
+  const auto fail = [&where](const std::string& what) {
+    std::string expected;
+    for (const char* const name : kAssumable) expected += (expected.empty() ? "" : " or ") + shown(name);
+    throw RecordingError(where + ": assumed: " + what + "; expected " + expected + ", each once");
+  };
+  for (const std::string& name : names) {
+    if (std::ranges::count(kAssumable, name) == 0) fail(shown(name));
+    if (std::ranges::count(names, name) > 1) fail(shown(name) + " is there twice");
+  }
 }
 
 /// Throws RecordingError unless the track has `size` samples: believable where valid, NaN in dropouts.
@@ -142,6 +147,7 @@ inline void check_recording(const Recording& recording) {
                          " s from the first sample to the last; expected a day at most");
   check_rate(recording.rate, recording.time, where);
   check_properties(recording.properties, recording.string_length, where);
+  check_assumed(recording.assumed, where);
   check_track(recording.left, size, where + ", left tip");
   check_track(recording.right, size, where + ", right tip");
   check_track(recording.diabolo, size, where + ", diabolo");

@@ -87,7 +87,8 @@ def _recording_of_bodies(
     names = names or _names_in(calibration, [body.name for body in found])
     time, tracks, of_a_clock = bodies.at_common_times(path, found, names)
     notes += [OF_A_CLOCK] if of_a_clock else []
-    used = (calibration or setup or Calibration.plain()).renamed(**names)
+    used = (calibration or Calibration.plain()).renamed(**names)
+    used = used.completed_by(setup) if setup else used
     shown_path = os.fsencode(path).decode(errors="replace")
     return _core.recording_of_bodies(shown_path, time, tracks, notes, used, up)
 

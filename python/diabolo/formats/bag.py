@@ -15,6 +15,7 @@ import numpy as np
 
 from .._core import Calibration, DiaboloProperties, Recording, RecordingError, StickArm
 from ..arms import JOINTS, SIDES, two_arms
+from ..checks import shown
 from ..files import whole_file
 from .bodies import NO_FRAME, Body, Floats, unreadable
 from .cdr import Alike, read_alike
@@ -138,10 +139,14 @@ def setup_of(path: Path, readable: Path) -> Calibration | None:
 
     try:
         with readable.open("rb") as file:
-            kept = [one.metadata["setup"] for one in make_reader(file).iter_metadata() if one.name == SCHEMA]
+            kept = [one.metadata for one in make_reader(file).iter_metadata() if one.name == SCHEMA]
         if not kept:
             return None
-        setup = json.loads(kept[0])
+        if len(kept) > 1:
+            raise ValueError(f"{len(kept)} records of them; expected one")
+        setup = json.loads(kept[0]["setup"])
+        if not isinstance(setup, dict):
+            raise ValueError(f"setup: {shown(setup)}; expected an object")
         diabolo, assumed = DiaboloProperties(**setup["diabolo"]), setup.get("assumed", [])
         return Calibration.plain().of(diabolo, setup["string_length"], assumed)
     except Exception as error:  # of the library, or of somebody's own metadata
@@ -166,16 +171,19 @@ def save(recording: Recording, path: Path) -> None:
             kind: writer.register_schema(kind, "ros2msg", store.generate_msgdef(kind)[0].encode())
             for kind in (POSE, POINT)
         }
+        writer.add_metadata(SCHEMA, {"setup": json.dumps(_setup(recording))})
+        tracks = []
         for role, topic in TOPICS.items():
             places, turns = getattr(recording, role), getattr(recording, f"{role}_orientation")
             kind = POINT if turns is None else POSE
-            channel = writer.register_channel(topic, "cdr", schemas[kind])
-            for i in np.flatnonzero(np.isfinite(places[:, 0])):
+            tracks.append((writer.register_channel(topic, "cdr", schemas[kind]), kind, places, turns))
+        for i, stamp in enumerate(stamps.tolist()):
+            for channel, kind, places, turns in tracks:
+                if not np.isfinite(places[i, 0]):
+                    continue
                 turn = None if turns is None else np.nan_to_num(turns[i])
-                message = _message(store.types, int(stamps[i]), places[i], turn)
-                data = bytes(store.serialize_cdr(message, kind))
-                writer.add_message(channel, int(stamps[i]), data, int(stamps[i]))
-        writer.add_metadata(SCHEMA, {"setup": json.dumps(_setup(recording))})
+                data = bytes(store.serialize_cdr(_message(store.types, stamp, places[i], turn), kind))
+                writer.add_message(channel, stamp, data, stamp)
         writer.finish()
 
 

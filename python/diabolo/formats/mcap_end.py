@@ -6,7 +6,7 @@ from __future__ import annotations
 import mmap
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
 from zlib import crc32
@@ -17,37 +17,53 @@ from .bodies import unreadable
 
 MAGIC = b"\x89MCAP0\r\n"
 """What a file begins and ends with."""
-CUT = "the file is cut off, as by a recorder that was killed: it is read up to there"
+FOOTER = b"\2\x14" + bytes(7)
+"""What the footer begins with: its kind, and how many bytes follow."""
+END = len(FOOTER) + 0x14 + len(MAGIC)
+"""How many bytes a file ends with that does not lack its end."""
+CUT = "the file is cut off, as by a killed recorder, or goes on behind its end: whole records are read"
 
 
 @contextmanager
 def whole(path: Path) -> Iterator[tuple[Path, list[str]]]:
-    """A bag, or a temporary one without what is cut off at the end of a file of MCAP, and a note of that.
+    """A bag as libraries take it, and a note of what is cut off: itself, or a temporary one, where a file of
+    MCAP lacks its end, or a suffix is in capitals.
 
     Raises RecordingError where a file of MCAP is not what its checksums say. Those of chunks are left to who
     reads them."""
-    files = sorted(path.glob("*.mcap")) if path.is_dir() else [path] if path.suffix == ".mcap" else []
-    for file in files:
-        check_library(f"reading {file.name}", "mcap", "formats")
-        if not _is_cut(file):
-            _check_sums(file)
-    if files == [path] and _is_cut(path):
-        with tempfile.TemporaryDirectory() as folder:
-            kept = Path(folder) / path.name
-            _copy_whole_records(path, kept)
-            try:
-                yield kept, [CUT]
-            except RecordingError as error:
-                raise RecordingError(f"{error}; the file is cut off") from error
-    else:
+    files = sorted(path.iterdir()) if path.is_dir() else [path]
+    cut = [file for file in files if file.suffix.lower() == ".mcap" and _is_cut(file)]
+    if not cut and (path.is_dir() or path.suffix.islower()):
         yield path, []
+        return
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file in files:
+            kept = folder / (file.name if path.is_dir() else file.stem + file.suffix.lower())
+            if file in cut:
+                _copy_whole_records(file, kept)
+            else:
+                kept.symlink_to(file.resolve())
+        try:
+            yield folder if path.is_dir() else kept, [CUT] if cut else []
+        except RecordingError as error:
+            raise RecordingError(f"{error}; the file is cut off" if cut else str(error)) from error
 
 
 def _is_cut(path: Path) -> bool:
+    """Whether a file of MCAP does not end as one. If it does, it is what its checksums say."""
+    check_library(f"reading {path.name}", "mcap", "formats")
     with path.open("rb") as file:
         begin = file.read(len(MAGIC))
-        file.seek(max(0, path.stat().st_size - len(MAGIC)))
-        return begin == MAGIC and file.read() != MAGIC
+        if begin != MAGIC:
+            found = f"it begins with {begin!r}" if begin else "it is empty"
+            raise unreadable(path, "a bag of ROS", ValueError(f"{found}; expected the mark of MCAP"))
+        file.seek(max(len(MAGIC), path.stat().st_size - END))
+        end = file.read()
+    if len(end) < END or not (end.startswith(FOOTER) and end.endswith(MAGIC)):
+        return True
+    _check_sums(path)
+    return False
 
 
 def _check_sums(path: Path) -> None:
@@ -72,21 +88,48 @@ def _check_sums(path: Path) -> None:
 
 
 def _copy_whole_records(path: Path, kept: Path) -> None:
-    """The records up to the one that is cut, and an end without a summary."""
-    from mcap.data_stream import RecordBuilder
-    from mcap.records import DataEnd, Footer
-    from mcap.stream_reader import StreamReader
+    """The records up to the one that is cut, with an index: without one, libraries want messages in order."""
+    from mcap.records import Channel, Header, Message, Metadata, Schema
+    from mcap.writer import CompressionType, Writer
 
-    with path.open("rb") as file:
-        end = 0
-        with suppress(Exception):  # whatever a record that is cut leads to
-            for _ in StreamReader(file, emit_chunks=True).records:
-                end = file.tell()
-        file.seek(0)
-        closing = RecordBuilder()
-        DataEnd(0).write(closing)
-        Footer(0, 0, 0).write(closing)
-        kept.write_bytes(file.read(end) + closing.end() + MAGIC)
+    schemas, channels = {0: 0}, dict[int, int]()
+    try:
+        with path.open("rb") as file, kept.open("wb") as copy:
+            writer = Writer(copy, compression=CompressionType.NONE)
+            records = _whole_records(file)
+            header = next(records, Header("ros2", ""))
+            writer.start(header.profile, header.library)
+            for one in records:
+                if isinstance(one, Message):
+                    channel = channels[one.channel_id]
+                    writer.add_message(channel, one.log_time, one.data, one.publish_time, one.sequence)
+                elif isinstance(one, Schema) and one.id not in schemas:
+                    schemas[one.id] = writer.register_schema(one.name, one.encoding, one.data)
+                elif isinstance(one, Channel) and one.id not in channels:
+                    told = one.topic, one.message_encoding, schemas[one.schema_id], one.metadata
+                    channels[one.id] = writer.register_channel(*told)
+                elif isinstance(one, Metadata):
+                    writer.add_metadata(one.name, one.metadata)
+            writer.finish()
+    except Exception as error:  # of files or records: whatever a broken file leads to
+        raise unreadable(path, "a bag of ROS", error) from error
+
+
+def _whole_records(file: IO[bytes]) -> Iterator[Any]:
+    """Those of the data, up to the one in which the file ends."""
+    from mcap.records import DataEnd
+    from mcap.stream_reader import CRCValidationError, StreamReader
+
+    try:
+        for record in StreamReader(file, validate_crcs=True).records:
+            if isinstance(record, DataEnd):
+                return
+            yield record
+    except CRCValidationError:
+        raise
+    except Exception:  # whatever a record that is cut leads to
+        if file.read(1):
+            raise
 
 
 def _record_at(file: IO[bytes], at: int, kind: type[Any]) -> Any:

@@ -179,6 +179,30 @@ TEST_CASE("Unusable calibrations are refused") {
   CHECK(says([](Calibration& c) { c.properties.axle_radius = 1.0; }) ==
         "c: diabolo.axle_radius [m] 1; expected 1e-04 to 0.1");
   CHECK(says([](Calibration& c) { c.string_length = 0.0; }) == "c: string_length [m] 0; expected 0.05 to 20");
+  CHECK(says([](Calibration& c) { c.assumed = {"mass"}; }).starts_with("c: assumed: \"mass\"; expected"));
+}
+
+TEST_CASE("String and diabolo that a calibration assumes are another's, as far as that tells them") {
+  Calibration setup = plain_calibration(), calibration = plain_calibration();
+  setup.string_length = 1.3;
+  setup.properties = kGreenDiabolo;
+  calibration.right.bodies = {"mine"};
+  const auto found = [&](std::vector<std::string> told, std::vector<std::string> assumed) {
+    setup.assumed = std::move(told);
+    calibration.assumed = std::move(assumed);
+    return completed(calibration, setup);
+  };
+  const Calibration both = found({}, {"string_length", "diabolo"});
+  CHECK(both.string_length == 1.3);
+  CHECK(both.properties.mass == kGreenDiabolo.mass);
+  CHECK(both.assumed.empty());
+  CHECK(both.right.bodies == std::vector<std::string>{"mine"});
+  const Calibration one = found({"diabolo"}, {"string_length", "diabolo"});
+  CHECK(one.string_length == 1.3);
+  CHECK(one.assumed == std::vector<std::string>{"diabolo"});
+  const Calibration none = found({}, {});
+  CHECK(none.string_length == calibration.string_length);
+  CHECK(none.properties.mass == calibration.properties.mass);
 }
 
 TEST_CASE("The published processed files are reproduced to 1e-11 m") {

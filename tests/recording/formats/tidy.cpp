@@ -160,8 +160,15 @@ TEST_CASE("Stamps of a clock are counted from the first row, in seconds only") {
         std::vector<std::string>{"the times are stamps of a clock, from 1700000000.5 s on: they "
                                  "are counted from there"});
   CHECK(says(at("1700000000500", "1700000000510", "1700000000520")) ==
-        "play.csv, line 2: time 1700000000500 s; expected seconds (a clock's milliseconds: --columns "
-        "time=NAME[ms])");
+        "play.csv, line 2: time 1700000000500 s; expected seconds (a clock's ms: --columns time=NAME[ms])");
+  const auto advice = [&](const std::string& stamp, const std::vector<MappedColumn>& columns) {
+    const std::string said =
+        complaint([&] { read_tidy(at(stamp, "2e30", "3e30"), "play.csv", kMetadata, columns); });
+    return said.substr(said.find("--columns"));
+  };
+  CHECK(advice("1700000000500000", {}) == "--columns time=NAME[us])");
+  CHECK(advice("1700000000500000000", {}) == "--columns time=NAME[ns])");
+  CHECK(advice("1700000000500000000", columns_of("time=time[ms]")) == "--columns time=NAME[ns])");
 }
 
 TEST_CASE("A broken recording is not written") {

@@ -116,6 +116,19 @@ inline void check_calibration(const Calibration& calibration, const std::string&
   if (!(calibration.world_offset.cwiseAbs().array() <= kLargestCoordinate).all())
     throw RecordingError(where + ": world.offset [m] must be finite and within 100 m");
   check_properties(calibration.properties, calibration.string_length, where);
+  check_assumed(calibration.assumed, where);
+}
+
+/// The calibration, with string and diabolo of `setup` where it only assumes them.
+inline Calibration completed(Calibration calibration, const Calibration& setup) {
+  std::erase_if(calibration.assumed, [&](const std::string& name) {
+    if (name == "diabolo")
+      calibration.properties = setup.properties;
+    else
+      calibration.string_length = setup.string_length;
+    return std::ranges::count(setup.assumed, name) == 0;
+  });
+  return calibration;
 }
 
 /// The smallest rotation that takes x to the direction of `axis`, of any length but zero.

@@ -13,6 +13,12 @@ namespace diabolo {
 /// Largest stamp of a clock that counts from 1970 [s]: the year 2286.
 inline constexpr double kLargestStamp = 1e10;
 
+/// The unit in which a number beyond that is such a stamp, as --columns names it.
+inline std::string unit_of_stamp(double stamp) {
+  if (stamp <= 1e3 * kLargestStamp) return "ms";
+  return stamp <= 1e6 * kLargestStamp ? "us" : "ns";
+}
+
 inline constexpr const char* kCutLineNote =
     "the last line has no line end and may be cut off inside a number: it is left out";
 
@@ -23,10 +29,11 @@ class RowTimes {
   /// `csv` names file and line, and must outlive this.
   explicit RowTimes(const CsvReader& csv) : csv_(csv) {}
 
-  /// The time of the next row [s]. Throws RecordingError unless it comes after the one before, within the
-  /// same hour and the first row's day.
-  double next(double read) {
-    if (is_first_) start(read);
+  /// The time of the next row [s], which the file tells in `unit` [s]. Throws RecordingError unless it comes
+  /// after the one before, within the same hour and the first row's day.
+  double next(double told, double unit = 1.0) {
+    const double read = told * unit;
+    if (is_first_) start(read, unit_of_stamp(told));
     const double time = read - origin_;
     if (std::isnan(read)) csv_.fail("time is empty; expected a number of seconds");
     if (!(std::abs(time) <= kLargestTime))
@@ -44,10 +51,10 @@ class RowTimes {
   }
 
  private:
-  void start(double read) {
+  void start(double read, const std::string& likely_unit) {
     if (read > kLargestStamp)
-      csv_.fail("time " + shown(read) +
-                " s; expected seconds (a clock's milliseconds: --columns time=NAME[ms])");
+      csv_.fail("time " + shown(read) + " s; expected seconds (a clock's " + likely_unit +
+                ": --columns time=NAME[" + likely_unit + "])");
     if (read > kLargestTime) origin_ = read;
     first_ = read - origin_;
   }

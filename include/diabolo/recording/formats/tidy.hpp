@@ -55,7 +55,7 @@ class TidyReader {
     if (has(kRightOrientation)) result.right_orientation = OrientationTrack::missing(size);
     for (Eigen::Index i = 0; !csv_.at_end(); ++i) {
       csv_.next_numbers(row_, ignored_);
-      result.time[i] = times_.next(value(0));
+      result.time[i] = times_.next(row_[at_[0]], unit_[0]);
       read_position(result.left, 1, i);
       read_position(result.right, 4, i);
       read_position(result.diabolo, 7, i);
