@@ -13,14 +13,15 @@
 namespace plant {
 namespace {
 
-/// Fixed-point text, the same on every platform.
+/// Fixed-point text without zeros at its end, the same on every platform.
 std::string text_of(double value, int decimals) {
   std::array<char, 64> buffer;
   char* const end = buffer.data() + buffer.size();
   const auto result = std::to_chars(buffer.data(), end, value, std::chars_format::fixed, decimals);
   std::string text(buffer.data(), result.ptr);
-  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-  return is_zero && text.front() == '-' ? text.substr(1) : text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
 }
 
 constexpr int kTimeDecimals = 6;
