@@ -15,8 +15,7 @@ DIABOLO_WARNINGS_AS_ERRORS ?= OFF# of the Python extension; elsewhere they alway
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 packages := PYTHON=$(PYTHON) tools/system_packages.sh
-# Errors alone: warnings are of pip's own set-up. Python compiles a module when it is first imported, not all now.
-pip := $(VENV)/bin/python -m pip install --quiet --quiet --no-compile
+pip := $(VENV)/bin/python -m pip install --quiet --quiet# errors alone: warnings are of pip's own set-up
 cmake := cmake -G Ninja
 ifneq ($(shell command -v ccache),)
 cmake += -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
