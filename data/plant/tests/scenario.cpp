@@ -177,7 +177,7 @@ TEST_CASE("a recording has its columns, empty cells for lost bodies and no negat
   CHECK(out.str() ==
         "time,left_x,left_y,left_z,right_x,right_y,right_z,diabolo_x,diabolo_y,diabolo_z,"
         "diabolo_qx,diabolo_qy,diabolo_qz,diabolo_qw\n"
-        "0.008333,0.00000,0.35000,1.25000,,,,,,,,,,\n");
+        "0.008333,0,0.35,1.25,,,,,,,,,,\n");
 }
 
 TEST_CASE("a file is written whole or not at all") {
