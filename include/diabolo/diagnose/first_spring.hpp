@@ -23,13 +23,12 @@ inline constexpr double kPromising = 0.8;
 /// What gives where it is asked about: the string, else the sticks.
 struct AskedSpring {
   int give, damping;  ///< unknowns
-  double count;       ///< of springs in a row
 };
 inline std::optional<AskedSpring> asked_spring(const ActiveSet& set) {
   if (set[index_of(Unknown::kCompliance)])
-    return AskedSpring{index_of(Unknown::kCompliance), index_of(Unknown::kDamping), 1.0};
+    return AskedSpring{index_of(Unknown::kCompliance), index_of(Unknown::kDamping)};
   if (set[index_of(Unknown::kStickCompliance)])
-    return AskedSpring{index_of(Unknown::kStickCompliance), index_of(Unknown::kStickDamping), 2.0};
+    return AskedSpring{index_of(Unknown::kStickCompliance), index_of(Unknown::kStickDamping)};
   return std::nullopt;
 }
 

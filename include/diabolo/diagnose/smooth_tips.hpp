@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "diabolo/math/solve_symmetric.hpp"
