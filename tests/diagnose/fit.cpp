@@ -38,24 +38,28 @@ bool in_bounds(const Normal& normal, const UnknownVector& at, const Eigen::Vecto
   return true;
 }
 
+UnknownVector least_at(const UnknownVector& at) {
+  return diagnose_detail::least_values(at, UnknownVector::Zero());
+}
+
 }  // namespace
 
 TEST_CASE("a step that stays within bounds is Newton's") {
   std::mt19937_64 generator(11);
-  const UnknownVector middle = UnknownVector::Constant(0.02);
+  const UnknownVector middle = UnknownVector::Constant(0.02), least = least_at(middle);
   const Normal normal = quadratic(generator, 0.1);
   const Eigen::VectorXd newton = normal.information.ldlt().solve(normal.score);
   REQUIRE(in_bounds(normal, middle, newton));
-  CHECK((bounded_step(normal, middle, 0.0) - newton).norm() < 1e-12);
+  CHECK((bounded_step(normal, middle, least, 0.0) - newton).norm() < 1e-12);
 }
 
 TEST_CASE("a step stays within bounds and what is free there is at its best") {
   std::mt19937_64 generator(12);
-  const UnknownVector middle = UnknownVector::Constant(0.02);
+  const UnknownVector middle = UnknownVector::Constant(0.02), least = least_at(middle);
   for (int trial = 0; trial < 200; ++trial) {
     CAPTURE(trial);
     const Normal normal = quadratic(generator, 20.0);
-    const Eigen::VectorXd step = bounded_step(normal, middle, 0.0);
+    const Eigen::VectorXd step = bounded_step(normal, middle, least, 0.0);
     REQUIRE(in_bounds(normal, middle, step));
     const Eigen::VectorXd slope = normal.score - normal.information * step;
     for (Eigen::Index i = 0; i < 3; ++i) {
@@ -71,12 +75,12 @@ TEST_CASE("a step stays within bounds and what is free there is at its best") {
 
 TEST_CASE("damping shortens a step and keeps it downhill") {
   std::mt19937_64 generator(13);
-  const UnknownVector middle = UnknownVector::Constant(0.02);
+  const UnknownVector middle = UnknownVector::Constant(0.02), least = least_at(middle);
   for (int trial = 0; trial < 50; ++trial) {
     const Normal normal = quadratic(generator, 0.1);
-    double before = bounded_step(normal, middle, 0.0).norm();
+    double before = bounded_step(normal, middle, least, 0.0).norm();
     for (const double damping : {0.1, 1.0, 10.0, 100.0}) {
-      const Eigen::VectorXd step = bounded_step(normal, middle, damping);
+      const Eigen::VectorXd step = bounded_step(normal, middle, least, damping);
       if (damping > 1.0) CHECK(step.norm() < before);
       CHECK(half_drop(normal, step) > 0.0);
       before = step.norm();
@@ -88,5 +92,5 @@ TEST_CASE("nothing that is free makes no step") {
   Normal normal;
   normal.information.resize(0, 0);
   normal.score.resize(0);
-  CHECK(bounded_step(normal, UnknownVector::Zero(), 0.0).size() == 0);
+  CHECK(bounded_step(normal, UnknownVector::Zero(), UnknownVector::Zero(), 0.0).size() == 0);
 }

@@ -13,6 +13,7 @@
 #include "diabolo/diagnose/differing_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
+#include "diabolo/diagnose/left_out_says.hpp"
 #include "diabolo/diagnose/significance.hpp"
 
 namespace diabolo {
@@ -64,21 +65,6 @@ inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence,
   claims_first(d);
 }
 
-/// What data that were left out say of something, over all horizons.
-struct LeftOutSays {
-  bool better = false, worse = false, anything = false;
-
-  explicit LeftOutSays(const std::vector<std::optional<Interval>>& gained_ci95) {
-    for (const std::optional<Interval>& interval : gained_ci95) {
-      if (!interval) continue;
-      anything = true;
-      better = better || interval->low > 0.0;
-      worse = worse || interval->high < 0.0;
-    }
-  }
-  bool against() const { return worse && !better; }
-};
-
 /// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim
 /// on the spin; any, where positions are. Returns whether that was so.
 inline bool withdraw_what_does_not_help(Diagnosis& d, const HeldOut& heldout) {
@@ -113,22 +99,25 @@ inline bool withdraw_what_explains_too_little(Diagnosis& d) {
   return true;
 }
 
-/// No physics is claimed without which what was left out is predicted better, nor tips somewhere else unless
-/// it is predicted worse without, where that can be said: six numbers explain much that nobody knows. (Of
-/// other faults this is not asked: what one of them does, tips elsewhere could do as well. What acts on the
-/// spin is judged by the spin.) Returns the least sure physics that was withdrawn, which the
-/// model has to do without; null where there is none.
+/// No physics is claimed without which what was left out is surely predicted better, or rather better where
+/// the spin does not say otherwise. Nor are tips somewhere else, unless it is predicted worse without at half
+/// of the horizons, where that can be said: six numbers explain much that nobody knows. (Of other faults this
+/// is not asked: what one of them does, tips elsewhere could do as well. What acts on the spin alone is
+/// judged by the spin.) Returns the least sure physics that was withdrawn, which the model has to do without;
+/// null where there is none.
 inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
   const Finding* weakest = nullptr;
   for (Finding& f : d.findings) {
-    const LeftOutSays says(is_of_spin(*f.candidate) ? f.spin_worsening_ci95 : f.worsening_ci95);
+    const LeftOutSays position(f.worsening_ci95), spin(f.spin_worsening_ci95),
+        &says = is_of_spin(*f.candidate) ? spin : position;
     const bool physics = is_law(*f.candidate), tips = first_of(*f.candidate) == Unknown::kLeftX;
-    const bool denied = physics ? says.worse : tips && says.anything;
-    if (!f.claimed || says.better || !denied) continue;
+    const bool denied = physics ? says.against() || (says.leans_against() && spin.better == 0)
+                                : tips && 2 * says.better < says.horizons;
+    if (!f.claimed || !denied) continue;
     f.claimed = false;
     f.reason = kDenied;
     if (!physics) continue;
-    d.withdrawn = d.withdrawn || std::abs(f.z) > kStrong;
+    d.withdrawn = d.withdrawn || (says.against() && std::abs(f.z) > kStrong);
     if (weakest == nullptr || std::abs(f.z) < std::abs(weakest->z)) weakest = &f;
   }
   const Candidate* result = weakest == nullptr ? nullptr : weakest->candidate;

@@ -244,9 +244,11 @@ inline Normal normal_equations(const Fit& fit, const ActiveSet& active) {
   return normal;
 }
 
-/// Best scaled step within bounds, damped by Levenberg and Marquardt's rule: what would leave its bounds is
-/// held there, the worst first, and the others are solved again.
-inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& at, double damping) {
+/// Best scaled step from `at` within bounds, of which `least` are the lower ones, damped by Levenberg and
+/// Marquardt's rule: what would leave its bounds is held there, the worst first, and the others are solved
+/// again.
+inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& at, const UnknownVector& least,
+                                    double damping) {
   const Eigen::Index n = static_cast<Eigen::Index>(normal.free.size());
   Eigen::MatrixXd information = normal.information;
   information.diagonal() *= 1.0 + damping;
@@ -259,11 +261,10 @@ inline Eigen::VectorXd bounded_step(const Normal& normal, const UnknownVector& a
     Eigen::Index worst = -1;
     double most = 0.0, bound = 0.0;
     for (const Eigen::Index i : moving) {
-      const UnknownInfo& info =
-          kUnknownInfos[static_cast<std::size_t>(normal.free[static_cast<std::size_t>(i)])];
-      const double here = at[normal.free[static_cast<std::size_t>(i)]];
-      const double wanted = here + step[i] * info.scale,
-                   nearest = std::clamp(wanted, info.minimum, info.maximum);
+      const int u = normal.free[static_cast<std::size_t>(i)];
+      const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
+      const double here = at[u], wanted = here + step[i] * info.scale,
+                   nearest = std::clamp(wanted, least[u], info.maximum);
       const double beyond = std::abs(wanted - nearest) / info.scale * std::sqrt(information(i, i));
       if (beyond > most) worst = i, most = beyond, bound = (nearest - here) / info.scale;
     }

@@ -15,6 +15,7 @@
 #include "diabolo/diagnose/fast_swings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/law_guesses.hpp"
+#include "diabolo/diagnose/left_out_says.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/significance.hpp"
@@ -227,17 +228,10 @@ inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, co
   if (compared.position.worsening_ci95.empty()) return false;
   learnt.worsening_ci95 = compared.position.worsening_ci95.front();
   learnt.spin_worsening_ci95 = compared.spin.worsening_ci95.front();
-  const auto any = [](const std::vector<std::optional<Interval>>& horizons, auto says) {
-    return std::ranges::any_of(horizons, [&](const auto& interval) { return interval && says(*interval); });
-  };
-  const auto worse = [](const Interval& i) { return i.high < 0.0; };
-  const auto& judges = learnt.law.acts == Acts::kSpin ? learnt.spin_worsening_ci95 : learnt.worsening_ci95;
-  const bool better = any(judges, [](const Interval& i) { return i.low > 0.0; });
-  double leaning = 0.0;  // over all horizons, each in its own width
-  for (const std::optional<Interval>& i : judges)
-    if (i && i->high > i->low) leaning += (i->low + i->high) / (i->high - i->low);
-  return !any(learnt.worsening_ci95, worse) && !any(learnt.spin_worsening_ci95, worse) &&
-         (better || (learnt.gain > kGainAlone && leaning >= 0.0));
+  const LeftOutSays position(learnt.worsening_ci95), spin(learnt.spin_worsening_ci95),
+      &judge = learnt.law.acts == Acts::kSpin ? spin : position;
+  return position.worse == 0 && spin.worse == 0 &&
+         (judge.better > 0 || (learnt.gain > kGainAlone && judge.leaning >= 0.0));
 }
 
 }  // namespace diagnose_detail

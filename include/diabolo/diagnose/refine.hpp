@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/fit.hpp"
+#include "diabolo/diagnose/fitted_spring.hpp"
 #include "diabolo/diagnose/time_budget.hpp"
 
 namespace diabolo {
@@ -82,7 +83,8 @@ void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iter
     double largest = 0.0;
     for (int attempt = 0; attempt < kMostAttempts && !found; ++attempt) {
       if (attempt > 0) damping = std::max(0.1, 10.0 * damping);
-      const Eigen::VectorXd step = bounded_step(normal, best.at, damping);
+      const Eigen::VectorXd step =
+          bounded_step(normal, best.at, diagnose_detail::least_values(best.at, best.centre), damping);
       UnknownVector scaled_step = UnknownVector::Zero();
       scaled_step(normal.free) = step;
       fit.at = best.at + scaled_step.cwiseProduct(scales());
