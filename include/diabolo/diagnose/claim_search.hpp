@@ -71,8 +71,9 @@ class ClaimSearch {
     before_ = fit_.systems;
   }
 
-  /// Fits everything, keeps what is sure and exchanges it for what explains more. Another delay than thought
-  /// at first changes what all else looks like, as do springs so soft that it bounces: all is asked again.
+  /// Fits everything, keeps what is sure and exchanges it for what explains more. Another delay or rate than
+  /// thought at first changes what all else looks like, as do springs so soft that it bounces: all is asked
+  /// again.
   void fit_all() {
     set_ = asked_at_first(bank_);
     if (std::ranges::none_of(fit_.fit_takes, has_spin)) without_spin(bank_, set_);
@@ -84,11 +85,11 @@ class ClaimSearch {
         return;
       }
       keep_what_is_sure(again);
-      const Delay before = fit_.delay;
+      const auto clock = [&] { return std::pair(fit_.delay, set_[index_of(Unknown::kGravity)]); };
+      const auto before = clock();
       exchange(again);
       const bool soft = !fit_.bounces && is_bouncy(fit_.at);
-      if ((fit_.delay == before && !soft) ||
-          !budget_.allows("asking all again with what was found", kFitsShare))
+      if ((clock() == before && !soft) || !budget_.allows("asking all again with what was found", kFitsShare))
         return;
       ask_again(soft);
     }
@@ -139,7 +140,8 @@ class ClaimSearch {
     fit_.noise_is_known = false;
     fit_.bounces = fit_.bounces || soft;
     std::erase_if(exchanged_, [](const Replacement& e) {  // what is asked again
-      return e.name != "string_wrap" && alternative_to(e.name) != "time_offset";
+      const std::string_view other_than = alternative_to(e.name);
+      return e.name != "string_wrap" && other_than != "time_offset" && other_than != "length_scale";
     });
     for (const Candidate* candidate : bank_)
       if (candidate->kind == CandidateKind::kPhysics && first_of(*candidate) != Unknown::kRestitution)
