@@ -4,7 +4,7 @@
 Each play has a body, a string and air of its own; the estimator's model is off in each constant by a drawn
 amount, and knows neither the string's stretch nor the axle's tilt. Tips are known, as two arms know them.
 Forces on the tips are read at 500 Hz with a noise of 0.1 N. The camera sees a position 30 times a second,
-50 ms late, with a noise of 5 mm, and misses one in twenty. Every estimate begins from a look: 10 mm, 0.05
+50 ms late, with a noise of 5 mm, and misses one in twenty. Every estimate begins from a frame: 10 mm, 0.05
 m/s, 2 % of the spin.
 """
 
@@ -40,8 +40,8 @@ from . import plant
 
 RATE = 500  # of forces and steps [Hz]
 DURATION = 5.4  # [s]
-FORCE_NOISE, LOOK_NOISE = 0.1, 5e-3  # [N], [m]
-LOOK_RATE, LOOK_DELAY, LOOK_DROPOUTS = 30.0, 0.05, 0.05  # [Hz], [s], share
+FORCE_NOISE, CAMERA_NOISE = 0.1, 5e-3  # [N], [m]
+CAMERA_RATE, CAMERA_DELAY, CAMERA_DROPOUTS = 30.0, 0.05, 0.05  # [Hz], [s], share
 STRING_RADIUS = 8e-4  # the plant's own [m]
 SENSORS = ("forces", "tensions", "camera", "camera and tensions", "camera and forces")
 
@@ -172,21 +172,21 @@ def read_truth(path: Path) -> Truth:
     )
 
 
-class Look(NamedTuple):
+class Frame(NamedTuple):
     known: float
     """When it is there [s]."""
     seen: float
     position: Array
 
 
-def filmed(truth: Truth, generator: np.random.Generator) -> list[Look]:
-    looks = []
-    for at in np.arange(0.0, truth.time[-1], 1.0 / LOOK_RATE):
+def filmed(truth: Truth, generator: np.random.Generator) -> list[Frame]:
+    frames = []
+    for at in np.arange(0.0, truth.time[-1], 1.0 / CAMERA_RATE):
         row = int(np.searchsorted(truth.time, at))
-        if generator.random() >= LOOK_DROPOUTS:
-            seen = truth.position[row] + generator.normal(0.0, LOOK_NOISE, 3)
-            looks.append(Look(truth.time[row] + LOOK_DELAY, truth.time[row], seen))
-    return looks
+        if generator.random() >= CAMERA_DROPOUTS:
+            seen = truth.position[row] + generator.normal(0.0, CAMERA_NOISE, 3)
+            frames.append(Frame(truth.time[row] + CAMERA_DELAY, truth.time[row], seen))
+    return frames
 
 
 class Run(NamedTuple):
@@ -210,7 +210,7 @@ def run(truth: Truth, model: Model, sensors: str, seed: int) -> Run:
         axis=truth.axle[0],
     )
     pulls = truth.forces + generator.normal(0.0, FORCE_NOISE, truth.forces.shape)
-    looks = filmed(truth, generator) if "camera" in sensors else []
+    frames = filmed(truth, generator) if "camera" in sensors else []
     spread = Spread(0.01, 0.05, 0.02 * abs(truth.spin[0]), 0.02)
     estimator = Estimator(model, start, truth.tips[0], time=truth.time[0], spread=spread)
     errors, inside, on_string = [], [], []
@@ -222,9 +222,9 @@ def run(truth: Truth, model: Model, sensors: str, seed: int) -> Run:
         if "tensions" in sensors:
             left, right = np.linalg.norm(truth.forces[row], axis=1) + generator.normal(0.0, FORCE_NOISE, 2)
             estimator.tensions(left, right, noise=FORCE_NOISE)
-        while looks and looks[0].known <= truth.time[row]:
-            look = looks.pop(0)
-            estimator.look(look.seen, look.position, noise=LOOK_NOISE)
+        while frames and frames[0].known <= truth.time[row]:
+            frame = frames.pop(0)
+            estimator.camera(frame.seen, frame.position, noise=CAMERA_NOISE)
         now = estimator.now
         true = np.concatenate([truth.position[row], truth.velocity[row], truth.spin[row : row + 1]])
         low, high = now.interval(0.9)
@@ -234,12 +234,12 @@ def run(truth: Truth, model: Model, sensors: str, seed: int) -> Run:
     return Run(np.array(errors), np.array(inside), np.array(on_string))
 
 
-def held_looks(truth: Truth, seed: int) -> Array:
-    """How far the last look is off, as it comes [m]."""
-    looks = filmed(truth, np.random.default_rng(seed))
-    known = np.array([look.known for look in looks])
+def held_frames(truth: Truth, seed: int) -> Array:
+    """How far the last frame is off, as it comes [m]."""
+    frames = filmed(truth, np.random.default_rng(seed))
+    known = np.array([frame.known for frame in frames])
     last = np.searchsorted(known, truth.time, side="right") - 1
-    seen = np.array([look.position for look in looks])
+    seen = np.array([frame.position for frame in frames])
     distance: Array = np.linalg.norm(seen[last] - truth.position, axis=1)
     return distance[last >= 0]
 
@@ -302,9 +302,9 @@ def act(arguments: argparse.Namespace) -> int:
                 play(arguments.plant, motion, number, arguments.seed, Path(name))
                 for number in range(arguments.plays)
             ]
-            looks = 1e3 * np.concatenate([held_looks(truth, seed) for truth, _, seed in plays])
-            middle, most = np.percentile(looks, [50, 95])
-            print(f"| {motion} | last look | {middle:.1f} | {most:.1f} | | | | | |")
+            frames = 1e3 * np.concatenate([held_frames(truth, seed) for truth, _, seed in plays])
+            middle, most = np.percentile(frames, [50, 95])
+            print(f"| {motion} | last frame | {middle:.1f} | {most:.1f} | | | | | |")
             for sensors in SENSORS:
                 runs = [(truth, run(truth, model, sensors, seed)) for truth, model, seed in plays]
                 all_runs[sensors] += runs

@@ -38,13 +38,13 @@ left, right, *velocities = tips.at(begin)
 spread = Spread(0.01, 0.2, 20.0, 0.1)
 noise = ProcessNoise(acceleration=0.3, string_length=0.01)  # the sticks bend, which the model does not know
 estimator = Estimator(model, start, (left, right), time=begin, spread=spread, noise=noise)
-looks = [(clock[row], recording.diabolo[row]) for row in seen if row > first and row % EVERY == 0]
+frames = [(clock[row], recording.diabolo[row]) for row in seen if row > first and row % EVERY == 0]
 time, place, deviation = [], [], []
 for i in range(1, steps + 1):
     left, right, *velocities = tips.at(begin + i * DT)
     estimator.step(left, right, dt=DT, velocities=velocities)
-    while looks and looks[0][0] + LATE <= estimator.now.time:
-        estimator.look(*looks.pop(0), noise=NOISE)
+    while frames and frames[0][0] + LATE <= estimator.now.time:
+        estimator.camera(*frames.pop(0), noise=NOISE)
     now = estimator.now
     time.append(now.time)
     place.append(now.state.position)

@@ -38,16 +38,16 @@ Tips<double> tips_at(const Array& left, const Array& right, const Array& left_ve
   return tips;
 }
 
-std::string name_of(Taken taken) {
-  switch (taken) {
-    case Taken::kYes:
-      return "yes";
-    case Taken::kTooOld:
+std::string name_of(MeasurementStatus status) {
+  switch (status) {
+    case MeasurementStatus::kAccepted:
+      return "accepted";
+    case MeasurementStatus::kTooOld:
       return "too_old";
-    case Taken::kTooNew:
+    case MeasurementStatus::kTooNew:
       return "too_new";
     default:
-      return "occupied";
+      return "duplicate";
   }
 }
 
@@ -61,7 +61,7 @@ FullEstimator make(const Model& model, const State<double>& start, const Array& 
                        time, history);
 }
 
-ForceReading force_reading(const Array& left, const Array& right, double noise) {
+ForceMeasurement force_measurement(const Array& left, const Array& right, double noise) {
   return {{to_vector3(left, "left"), to_vector3(right, "right")},
           noise * MatrixOf<3>::Identity(),
           noise * MatrixOf<3>::Identity()};
@@ -90,8 +90,8 @@ void bind_estimate(py::module_& module) {
                                return Array({kSize, kSize}, covariance.data());
                              })
       .def_readonly("string_weights", &FullBelief::string_weights)
-      .def_readonly("surprise", &FullBelief::surprise)
-      .def_property_readonly("strange", [](const FullBelief& belief) { return belief.strange > 0; });
+      .def_readonly("normalized_innovation_squared", &FullBelief::normalized_innovation_squared)
+      .def_property_readonly("gated", [](const FullBelief& belief) { return belief.gated > 0; });
 
   py::class_<FullEstimator>(module, "Estimator", "See diabolo.estimate.Estimator.")
       .def("__copy__", [](const FullEstimator& own) { return own; })
@@ -108,42 +108,43 @@ void bind_estimate(py::module_& module) {
           },
           "left"_a, "right"_a, "left_velocity"_a, "right_velocity"_a, "dt"_a)
       .def(
-          "take_forces",
+          "update_by_forces",
           [](FullEstimator& estimator, const Array& left, const Array& right, double noise,
              const std::optional<double>& time) {
-            return name_of(estimator.take(force_reading(left, right, noise), at(estimator, time)));
+            return name_of(estimator.update(force_measurement(left, right, noise), at(estimator, time)));
           },
           "left"_a, "right"_a, "noise"_a, "time"_a)
       .def(
-          "take_tensions",
+          "update_by_tensions",
           [](FullEstimator& estimator, double left, double right, double noise,
              const std::optional<double>& time) {
-            return name_of(estimator.take(TensionReading{left, right, noise}, at(estimator, time)));
+            return name_of(estimator.update(TensionMeasurement{left, right, noise}, at(estimator, time)));
           },
           "left"_a, "right"_a, "noise"_a, "time"_a)
       .def(
-          "take_torques",
+          "update_by_torques",
           [](FullEstimator& estimator, const std::array<StickArm, 2>& arms,
              const std::array<Array, 2>& joints, const std::array<Array, 2>& torques, double noise,
              const std::optional<double>& time) {
             const auto read = [&](std::size_t i) {
               return JointTorques{to_joints(joints[i], "joints"), to_joints(torques[i], "torques"), noise};
             };
-            const ForceReading forces = forces_by_torques(arms[0], read(0), arms[1], read(1));
-            return name_of(estimator.take(forces, at(estimator, time)));
+            const ForceMeasurement forces = forces_by_torques(arms[0], read(0), arms[1], read(1));
+            return name_of(estimator.update(forces, at(estimator, time)));
           },
           "arms"_a, "joints"_a, "torques"_a, "noise"_a, "time"_a)
       .def(
-          "take_look",
+          "update_by_camera",
           [](FullEstimator& estimator, double time, const Array& position, double noise,
              const std::optional<Array>& axle, double axle_noise, const std::optional<double>& spin,
              double spin_noise) {
-            CameraLook look{.time = time, .position = to_vector3(position, "position"), .noise = noise};
-            if (axle) look.axle = to_vector3(*axle, "axle");
-            look.axle_noise = axle_noise;
-            look.spin = spin;
-            look.spin_noise = spin_noise;
-            return name_of(estimator.take(look));
+            CameraMeasurement measured{
+                .time = time, .position = to_vector3(position, "position"), .noise = noise};
+            if (axle) measured.axle = to_vector3(*axle, "axle");
+            measured.axle_noise = axle_noise;
+            measured.spin = spin;
+            measured.spin_noise = spin_noise;
+            return name_of(estimator.update(measured));
           },
           "time"_a, "position"_a, "noise"_a, "axle"_a, "axle_noise"_a, "spin"_a, "spin_noise"_a)
       .def("now", [](const FullEstimator& estimator) { return estimator.now(); })

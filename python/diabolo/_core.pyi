@@ -2067,6 +2067,37 @@ class LevelHands:
   @property
   def lead(self) -> float:
     """How far the hands are turned to the left beyond the heading [rad]."""
+class LevelHorizon:
+  """
+  Hands that keep the axle level as LevelHands do, by a receding horizon.
+  
+  Each 0.1 s they plan lead and turn of the next 1.2 s on the model with its free axle, for the motion that they
+  play meanwhile: pulls, throws, flights and catches to come count, and the place of the diabolo.
+  """
+  def __init__(self, model: Model, left: _Reals, right: _Reals, spin: _Real, *, lead: _Real = 0.9, turn: _Real = 1.0, quickness: _Real = 10.0) -> None:
+    """
+    left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
+    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the
+    rate `quickness` [1/s].
+    """
+  def advance(self, dt: _Real) -> None:
+    """Let the hands follow for `dt` [s]."""
+  def see(self, time: _Real, state: State, path: TipPath) -> None:
+    """
+    Take in the state that is seen at a time [s], with its axis; path: what the hands are to play, not turned.
+    """
+  def tips(self, left: _Reals, right: _Reals, left_velocity: _Reals = ..., right_velocity: _Reals = ...) -> tuple:
+    """
+    The motion's tips [m] and their velocities [m/s] as these hands play them now.
+    
+    Returns left, right, left_velocity, right_velocity, each of the shape (3,).
+    """
+  @property
+  def heading(self) -> float:
+    """Where the player faces, from where the play began to the left [rad]."""
+  @property
+  def lead(self) -> float:
+    """How far the hands are turned to the left beyond the heading [rad]."""
 class Waypoint:
   """A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle."""
   def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: _Real = 1.0, velocity_weight: _Real = 0.0, direction_weight: _Real = 0.0) -> None: ...
@@ -2407,13 +2438,13 @@ class Belief:
   @property
   def covariance(self) -> _Array: ...
   @property
+  def gated(self) -> bool: ...
+  @property
+  def normalized_innovation_squared(self) -> float: ...
+  @property
   def state(self) -> State: ...
   @property
-  def strange(self) -> bool: ...
-  @property
   def string_weights(self) -> typing.Annotated[list[float], "FixedSize(3)"]: ...
-  @property
-  def surprise(self) -> float: ...
   @property
   def time(self) -> float: ...
 class Estimator:
@@ -2423,10 +2454,10 @@ class Estimator:
   def now(self) -> Belief: ...
   def past(self, ago: _Whole) -> Belief: ...
   def step(self, left: _Reals, right: _Reals, left_velocity: _Reals, right_velocity: _Reals, dt: _Real) -> None: ...
-  def take_forces(self, left: _Reals, right: _Reals, noise: _Real, time: _Real | None) -> str: ...
-  def take_look(self, time: _Real, position: _Reals, noise: _Real, axle: _Reals | None, axle_noise: _Real, spin: _Real | None, spin_noise: _Real) -> str: ...
-  def take_tensions(self, left: _Real, right: _Real, noise: _Real, time: _Real | None) -> str: ...
-  def take_torques(self, arms: typing.Annotated[collections.abc.Sequence[StickArm], "FixedSize(2)"], joints: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(2)"], torques: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(2)"], noise: _Real, time: _Real | None) -> str: ...
+  def update_by_camera(self, time: _Real, position: _Reals, noise: _Real, axle: _Reals | None, axle_noise: _Real, spin: _Real | None, spin_noise: _Real) -> str: ...
+  def update_by_forces(self, left: _Reals, right: _Reals, noise: _Real, time: _Real | None) -> str: ...
+  def update_by_tensions(self, left: _Real, right: _Real, noise: _Real, time: _Real | None) -> str: ...
+  def update_by_torques(self, arms: typing.Annotated[collections.abc.Sequence[StickArm], "FixedSize(2)"], joints: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(2)"], torques: typing.Annotated[collections.abc.Sequence[_Reals], "FixedSize(2)"], noise: _Real, time: _Real | None) -> str: ...
 def action(name: str, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], start: State, string_length: _Real, size: _Real = 1.0, pace: _Real = 1.0, height: _Real = 0.5, sideways: _Real = 0.3, spin_gain: _Real | None = None, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> Action:
   """The figure of that name from a pose of the tips and a state of the diabolo."""
 def aimed_again(aim: _Reals, wanted: _Reals, came: _Reals) -> tuple[float, float]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where the diabolo is, by what the hands feel and a camera sees: docs/estimation.md."""
+"""Where the diabolo is, by forces on the tips and a camera: docs/estimation.md."""
 
 from __future__ import annotations
 
@@ -65,10 +65,11 @@ class Estimate(NamedTuple):
     """Of position [m], velocity [m/s], spin [rad/s] and the axle's direction [rad], shape (9, 9)."""
     string_weights: dict[StringState, float]
     """How likely the string is on the axle, loose or off it."""
-    surprise: float
+    normalized_innovation_squared: float
     """Squared innovation of the last pulls over its covariance, of each number; 1 is expected."""
-    strange: bool
-    """Whether the diabolo went by the measured tensions, for the model's string could not have them."""
+    gated: bool
+    """Whether a tension failed the innovation gate: the measured ones then move the diabolo, for the model's
+    string could not have them."""
 
     @property
     def deviations(self) -> NDArray[np.float64]:
@@ -89,7 +90,7 @@ class Estimate(NamedTuple):
 
 class Estimator:
     """Estimates position, velocity, spin and axle from the tips' motion and from any of: forces on the tips,
-    tensions, joint torques of two arms, looks of a camera.
+    tensions, joint torques of two arms, a camera.
 
     A square-root unscented Kalman filter whose process is the predictor. Measurements may come late, and in
     any order: it goes back, and the estimate is as if they had come in time.
@@ -97,11 +98,11 @@ class Estimator:
         estimator = Estimator(model, start, (left, right), history=100)
         estimator.step(left, right, dt=0.002, velocities=(left_velocity, right_velocity))
         estimator.forces(on_left, on_right, noise=0.1)
-        estimator.look(seen_at, position, noise=0.005)
+        estimator.camera(seen_at, position, noise=0.005)
         estimator.now.interval(0.9)
 
-    Each measurement tells what became of it: "yes", it was taken; "too_old", from before the history;
-    "too_new", from after the last step; "occupied", its step has one of that kind.
+    Each measurement tells what became of it: "accepted"; "too_old", from before the history;
+    "too_new", from after the last step; "duplicate", its step has one of that kind.
 
     Raises ValueError about bad input.
     """
@@ -150,17 +151,17 @@ class Estimator:
     def forces(
         self, left: ArrayLike, right: ArrayLike, *, noise: float = 0.1, time: float | None = None
     ) -> str:
-        """Take the string's forces on the tips [N], world frame, at the end of the step nearest to `time`.
+        """Update by the string's forces on the tips [N], world frame, at the step's end nearest to `time`.
 
         Without what sticks and arms weigh; `noise` is of each component, `time` by default that of the last
         step.
         """
-        return str(self._own.take_forces(left, right, number("noise", noise), time))
+        return str(self._own.update_by_forces(left, right, number("noise", noise), time))
 
     def tensions(self, left: float, right: float, *, noise: float = 0.1, time: float | None = None) -> str:
-        """Take the tensions of the strands alone [N]; `noise` and `time` as for `forces`."""
+        """Update by the tensions of the strands alone [N]; `noise` and `time` as for `forces`."""
         return str(
-            self._own.take_tensions(
+            self._own.update_by_tensions(
                 number("left", left), number("right", right), number("noise", noise), time
             )
         )
@@ -174,13 +175,13 @@ class Estimator:
         noise: float = 0.2,
         time: float | None = None,
     ) -> str:
-        """Take the torques [N m] that the string puts on the joints [rad] of two `StickArm`, left and right.
+        """Update by the string's torques [N m] on the joints [rad] of two `StickArm`, left and right.
 
         Less what arms, sticks and their motion need. `noise` [N m] is of each joint; `time` as for `forces`.
         """
-        return str(self._own.take_torques(arms, joints, torques, number("noise", noise), time))
+        return str(self._own.update_by_torques(arms, joints, torques, number("noise", noise), time))
 
-    def look(
+    def camera(
         self,
         time: float,
         position: ArrayLike,
@@ -191,11 +192,11 @@ class Estimator:
         spin: float | None = None,
         spin_noise: float = 1.0,
     ) -> str:
-        """Take what a camera saw at `time` [s], whenever that becomes known: the position [m] and, where it
-        sees them, the axle (a unit vector, noise in [rad]) and the spin [rad/s].
+        """Update by what a camera saw at `time` [s], whenever that becomes known: the position [m] and,
+        where it sees them, the axle (a unit vector, noise in [rad]) and the spin [rad/s].
         """
         return str(
-            self._own.take_look(
+            self._own.update_by_camera(
                 number("time", time),
                 position,
                 number("noise", noise),
@@ -228,7 +229,14 @@ def with_rigid_string(model: Model | str) -> Model:
 
 def _estimate(belief: _core.Belief) -> Estimate:
     weights = dict(zip(StringState, belief.string_weights, strict=True))
-    return Estimate(belief.time, belief.state, belief.covariance, weights, belief.surprise, belief.strange)
+    return Estimate(
+        belief.time,
+        belief.state,
+        belief.covariance,
+        weights,
+        belief.normalized_innovation_squared,
+        belief.gated,
+    )
 
 
 def _pair(name: str, given: Pair) -> tuple[ArrayLike, ArrayLike]:

@@ -62,8 +62,8 @@ class Normal {
 /// A play, tick by tick, and what was read of it.
 struct Play {
   std::vector<State<double>> states;
-  std::vector<ForceReading> forces;
-  std::vector<CameraLook> looks;  ///< one a tick
+  std::vector<ForceMeasurement> forces;
+  std::vector<CameraMeasurement> frames;  ///< one a tick
 };
 
 Play played(const Rubbing& predictor, int ticks, unsigned seed, double mirror = 1.0) {
@@ -76,13 +76,13 @@ Play played(const Rubbing& predictor, int ticks, unsigned seed, double mirror = 
     State<double> state = play.states.back();
     const Tips<double> begin = beating((i - 1) * kTick, mirror), end = beating(i * kTick, mirror);
     predictor.step(state, begin, end, kTick);
-    ForceReading reading;
+    ForceMeasurement reading;
     reading.forces = tip_forces(predictor, play.states.back(), state, begin, end, kTick);
     reading.forces.left += normal.vector(0.1);
     reading.forces.right += normal.vector(0.1);
     play.states.push_back(state);
     play.forces.push_back(reading);
-    play.looks.push_back({.time = i * kTick, .position = state.position + normal.vector(0.005)});
+    play.frames.push_back({.time = i * kTick, .position = state.position + normal.vector(0.005)});
   }
   return play;
 }
@@ -132,20 +132,20 @@ TEST_CASE("measurements that come late, and in any order, give the bits of those
     const Tips<double> tips = beating(static_cast<double>(i + 1) * kTick);
     in_time.step(tips, kTick);
     late.step(tips, kTick);
-    CHECK(in_time.take(play.forces[i]) == Taken::kYes);
-    if (i % 15 == 0) CHECK(in_time.take(play.looks[i]) == Taken::kYes);
+    CHECK(in_time.update(play.forces[i]) == MeasurementStatus::kAccepted);
+    if (i % 15 == 0) CHECK(in_time.update(play.frames[i]) == MeasurementStatus::kAccepted);
   }
   for (std::size_t i = 120; i-- > 0;) {
-    if (i % 15 == 0) CHECK(late.take(play.looks[i]) == Taken::kYes);
-    CHECK(late.take(play.forces[i], play.looks[i].time) == Taken::kYes);
+    if (i % 15 == 0) CHECK(late.update(play.frames[i]) == MeasurementStatus::kAccepted);
+    CHECK(late.update(play.forces[i], play.frames[i].time) == MeasurementStatus::kAccepted);
   }
   CHECK(same(in_time.now(), late.now()));
   CHECK(same(in_time.past(60), late.past(60)));
 }
 
-TEST_CASE("an estimate is true as often as it says, by forces, by looks and by both") {
+TEST_CASE("an estimate is true as often as it says, by forces, by a camera and by both") {
   const Rubbing predictor = rubbing();
-  for (const auto& [forces, looks] :
+  for (const auto& [forces, frames] :
        {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
     double squares = 0.0;
     int covered = 0, counted = 0, plays = 0;
@@ -159,8 +159,8 @@ TEST_CASE("an estimate is true as often as it says, by forces, by looks and by b
       auto estimator = begun(predictor, start);
       for (std::size_t i = 0; i < 300; ++i) {
         estimator.step(beating(static_cast<double>(i + 1) * kTick), kTick);
-        if (forces) estimator.take(play.forces[i]);
-        if (looks && i % 15 == 0) estimator.take(play.looks[i]);
+        if (forces) estimator.update(play.forces[i]);
+        if (frames && i % 15 == 0) estimator.update(play.frames[i]);
       }
       const Belief<true>& now = estimator.now();
       CHECK(now.factor.diagonal().minCoeff() > 0.0);
@@ -170,7 +170,7 @@ TEST_CASE("an estimate is true as often as it says, by forces, by looks and by b
       ++plays;
       for (int k = 0; k < 7; ++k, ++counted) covered += std::abs(error[k]) < 1.645 * now.deviations()[k];
     }
-    CAPTURE(forces, looks, squares / plays, covered, counted);
+    CAPTURE(forces, frames, squares / plays, covered, counted);
     // The play has no noise of its own: intervals may be wider than needed, not narrower. 24 plays of some
     // four free numbers are off from 90 % by 3 % in one standard deviation.
     CHECK(covered > 0.81 * counted);
@@ -178,7 +178,7 @@ TEST_CASE("an estimate is true as often as it says, by forces, by looks and by b
   }
 }
 
-TEST_CASE("forces see what is not known at the beginning, and looks add to them") {
+TEST_CASE("forces see what is not known at the beginning, and a camera adds to them") {
   const Rubbing predictor = rubbing();
   const Play play = played(predictor, 500, 5);
   State<double> start = play.states[0];
@@ -187,9 +187,9 @@ TEST_CASE("forces see what is not known at the beginning, and looks add to them"
   for (std::size_t i = 0; i < 500; ++i) {
     const Tips<double> tips = beating(static_cast<double>(i + 1) * kTick);
     for (auto* estimator : {&blind, &feeling, &both}) estimator->step(tips, kTick);
-    feeling.take(play.forces[i]);
-    both.take(play.forces[i]);
-    if (i % 15 == 0) both.take(play.looks[i]);
+    feeling.update(play.forces[i]);
+    both.update(play.forces[i]);
+    if (i % 15 == 0) both.update(play.frames[i]);
   }
   const auto place = [](const auto& estimator) {
     return estimator.now().deviations().template head<3>().norm();
@@ -213,10 +213,10 @@ TEST_CASE("a mirrored play has the mirrored estimate") {
     const double t = static_cast<double>(i + 1) * kTick;
     estimator.step(beating(t), kTick);
     mirror.step(beating(t, -1.0), kTick);
-    estimator.take(play.forces[i]);
-    ForceReading reading;
+    estimator.update(play.forces[i]);
+    ForceMeasurement reading;
     reading.forces = {mirrored(play.forces[i].forces.right), mirrored(play.forces[i].forces.left)};
-    mirror.take(reading);
+    mirror.update(reading);
   }
   // Sigma points are not mirrored one by one, only all together: what is left is of fourth order in the
   // spread.
@@ -226,7 +226,7 @@ TEST_CASE("a mirrored play has the mirrored estimate") {
         Approx(estimator.now().deviations().head<3>().norm()).epsilon(1e-3));
 }
 
-TEST_CASE("a string that goes slack is felt, and a fall without a pull is a fall") {
+TEST_CASE("a string that goes slack is measured, and a fall without a pull is a fall") {
   const Rubbing predictor = rubbing();
   Tips<double> tips = beating(0.0);
   State<double> truth = hanging_state(tips.left, tips.right, predictor.parameters().string_length, 100.0);
@@ -239,7 +239,7 @@ TEST_CASE("a string that goes slack is felt, and a fall without a pull is a fall
   for (int i = 0; i < 100; ++i) {
     predictor.step(truth, tips, tips, kTick);
     estimator.step(tips, kTick);
-    estimator.take(ForceReading{});
+    estimator.update(ForceMeasurement{});
     CHECK(estimator.now().string_weights[0] < 1e-9);
     if (i == 10) at_first = off();
   }
@@ -255,26 +255,25 @@ TEST_CASE("a step and a measurement allocate nothing, however late") {
   const long before = allocations;
   for (std::size_t i = 0; i < 40; ++i) {
     estimator.step(beating(static_cast<double>(i + 1) * kTick), kTick);
-    estimator.take(play.forces[i]);
-    if (i == 20) estimator.take(play.looks[3]);
+    estimator.update(play.forces[i]);
+    if (i == 20) estimator.update(play.frames[3]);
   }
   CHECK(allocations == before);
 }
 
-TEST_CASE(
-    "a measurement from before the history, after the last step, or once too often is told, not taken") {
+TEST_CASE("a measurement from before the history, after the last step, or once too often is told, not used") {
   const Rubbing predictor = rubbing();
   const Play play = played(predictor, 40, 8);
   auto estimator = begun(predictor, play.states[0], 20);
   for (int i = 1; i <= 40; ++i) estimator.step(beating(i * kTick), kTick);
   const Belief<true> before = estimator.now();
-  CHECK(estimator.take(play.looks[3]) == Taken::kTooOld);
-  CHECK(estimator.take(CameraLook{.time = 1.0}) == Taken::kTooNew);
-  CHECK(estimator.take(play.forces[3], play.looks[3].time) == Taken::kTooOld);
+  CHECK(estimator.update(play.frames[3]) == MeasurementStatus::kTooOld);
+  CHECK(estimator.update(CameraMeasurement{.time = 1.0}) == MeasurementStatus::kTooNew);
+  CHECK(estimator.update(play.forces[3], play.frames[3].time) == MeasurementStatus::kTooOld);
   CHECK(same(estimator.now(), before));
   CHECK(estimator.history() == 20);
-  CHECK(estimator.take(play.looks[35]) == Taken::kYes);
-  CHECK(estimator.take(play.looks[35]) == Taken::kOccupied);
+  CHECK(estimator.update(play.frames[35]) == MeasurementStatus::kAccepted);
+  CHECK(estimator.update(play.frames[35]) == MeasurementStatus::kDuplicate);
   CHECK_THROWS_WITH(estimator.past(21), Contains("ago") && Contains("at most 20"));
 }
 
@@ -284,14 +283,15 @@ TEST_CASE("what an estimator cannot use is refused with its name") {
   auto estimator = begun(predictor, start);
   const double nan = std::nan("");
   CHECK_THROWS_WITH(estimator.step(beating(0.0), 0.0), Contains("dt") && Contains("a positive number"));
-  CHECK_THROWS_WITH(estimator.take(CameraLook{.position = {0.0, nan, 0.0}}), Contains("look, position"));
-  CHECK_THROWS_WITH(estimator.take(CameraLook{.noise = -1.0}), Contains("look, noise"));
-  CHECK_THROWS_WITH(estimator.take(CameraLook{.axle = Vector3<double>(1.0, 1.0, 0.0)}),
-                    Contains("look, axle"));
-  CHECK_THROWS_WITH(estimator.take(TensionReading{1.0, nan}), Contains("tensions, right"));
-  ForceReading blunt;
+  CHECK_THROWS_WITH(estimator.update(CameraMeasurement{.position = {0.0, nan, 0.0}}),
+                    Contains("camera, position"));
+  CHECK_THROWS_WITH(estimator.update(CameraMeasurement{.noise = -1.0}), Contains("camera, noise"));
+  CHECK_THROWS_WITH(estimator.update(CameraMeasurement{.axle = Vector3<double>(1.0, 1.0, 0.0)}),
+                    Contains("camera, axle"));
+  CHECK_THROWS_WITH(estimator.update(TensionMeasurement{1.0, nan}), Contains("tensions, right"));
+  ForceMeasurement blunt;
   blunt.left_noise.setZero();
-  CHECK_THROWS_WITH(estimator.take(blunt), Contains("forces, noise"));
+  CHECK_THROWS_WITH(estimator.update(blunt), Contains("forces, noise"));
   State<double> lost = start;
   lost.spin = nan;
   CHECK_THROWS_WITH(begun(predictor, lost), Contains("start"));

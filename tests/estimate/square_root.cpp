@@ -71,7 +71,8 @@ TEST_CASE("a linear measurement leaves what the Kalman filter leaves") {
     CHECK(difference(correction.shift, gain * innovation) < 1e-9);  // the inverse is not well conditioned
     CHECK(difference(correction.factor * correction.factor.transpose(), before - gain * measured * before) <
           1e-9);
-    CHECK(correction.surprise == Approx(innovation.dot(spread.inverse() * innovation)).epsilon(1e-6));
+    CHECK(correction.normalized_innovation_squared ==
+          Approx(innovation.dot(spread.inverse() * innovation)).epsilon(1e-6));
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "diabolo/plan/level_gains.hpp"
+#include "diabolo/plan/level_regulator.hpp"
 
 /// A diabolo with a free axle between level hands.
 namespace level_scene {

@@ -13,7 +13,18 @@ import diabolo
 import numpy as np
 import pytest
 from conftest import rotation
-from diabolo import Groove, GyroscopicTilt, LevelHands, Model, Parameters, Predictor, Recording, State
+from diabolo import (
+    Groove,
+    GyroscopicTilt,
+    LevelHands,
+    LevelHorizon,
+    Model,
+    Parameters,
+    Predictor,
+    Recording,
+    State,
+    StickSpline,
+)
 from diabolo.cli import main
 from diabolo.cli.plan import recording_of
 from diabolo.live.page import live_html
@@ -212,6 +223,28 @@ def test_hands_level_an_axle() -> None:
         predictor.step(state, *before, left, right, 1e-3)
     assert abs(state.axis[2]) < 0.02
     assert np.arctan2(state.axis[1], state.axis[0]) == pytest.approx(hands.heading, abs=0.05)
+
+
+def test_hands_level_an_axle_by_a_receding_horizon() -> None:
+    hands = LevelHorizon(RIGID, LEFT, RIGHT, 60.0)
+    still = StickSpline([0.0, 0.5], [LEFT] * 2, [RIGHT] * 2).path()
+    state = diabolo.hang_at_rest(RIGID, LEFT, RIGHT, 60.0)
+    state.axis = [np.cos(0.3), 0.0, np.sin(0.3)]
+    predictor = Predictor(RIGID)
+    left, right, _, _ = hands.tips(LEFT, RIGHT)
+    for step in range(6000):
+        if step % 10 == 0:
+            hands.see(1e-3 * step, state, still)
+        hands.advance(1e-3)
+        before = left, right
+        left, right, _, _ = hands.tips(LEFT, RIGHT)
+        predictor.step(state, *before, left, right, 1e-3)
+    assert abs(state.axis[2]) < 0.02
+    assert np.arctan2(state.axis[1], state.axis[0]) == pytest.approx(hands.heading, abs=0.05)
+    with pytest.raises(ValueError, match="time"):
+        hands.see(float("nan"), state, still)
+    with pytest.raises(ValueError, match="gyroscopic_tilt gain: 0 1/m"):
+        LevelHorizon(Model(), LEFT, RIGHT, 60.0)
 
 
 def test_a_rollout_goes_on_from_a_state() -> None:

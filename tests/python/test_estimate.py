@@ -68,24 +68,24 @@ def test_an_estimate_has_a_state_a_covariance_and_intervals():
     assert sum(now.string_weights.values()) == pytest.approx(1.0)
 
 
-def test_forces_tensions_and_looks_make_it_surer_and_late_ones_count():
+def test_forces_tensions_and_a_camera_make_it_surer_and_late_ones_count():
     blind = held(estimator(), 100).now.deviations
-    feeling = estimator()
+    pulling = estimator()
     forces = hanging_forces()
     for _ in range(100):
-        held(feeling, 1)
-        assert feeling.forces(*forces) == "yes"
-    assert feeling.now.deviations[0] < 0.5 * blind[0]
+        held(pulling, 1)
+        assert pulling.forces(*forces) == "accepted"
+    assert pulling.now.deviations[0] < 0.5 * blind[0]
     pulled = held(estimator(), 100)
-    assert pulled.tensions(*np.linalg.norm(forces, axis=1)) == "yes"
+    assert pulled.tensions(*np.linalg.norm(forces, axis=1)) == "accepted"
     assert pulled.now.deviations[2] <= blind[2]
     seeing = held(estimator(), 100)
-    assert seeing.look(0.1, HANGING.position, axle=[1.0, 0.0, 0.0], spin=101.0) == "yes"
+    assert seeing.camera(0.1, HANGING.position, axle=[1.0, 0.0, 0.0], spin=101.0) == "accepted"
     assert seeing.now.deviations[0] < 0.6 * blind[0]
     assert 100.0 < seeing.now.state.spin < 101.5
-    assert seeing.look(0.1, HANGING.position) == "occupied"
-    assert seeing.look(-5.0, HANGING.position) == "too_old"
-    assert seeing.look(5.0, HANGING.position) == "too_new"
+    assert seeing.camera(0.1, HANGING.position) == "duplicate"
+    assert seeing.camera(-5.0, HANGING.position) == "too_old"
+    assert seeing.camera(5.0, HANGING.position) == "too_new"
     assert seeing.past(50).time == pytest.approx(0.1)
 
 
@@ -103,10 +103,10 @@ def test_what_cannot_be_used_is_refused_in_a_sentence():
     one = held(estimator(history=3), 5)
     with pytest.raises(ValueError, match="dt"):
         one.step(LEFT, RIGHT, dt=0.0, velocities=STILL)
-    with pytest.raises(ValueError, match="look, noise"):
-        one.look(0.01, [0.0, 0.0, 0.0], noise=0.0)
+    with pytest.raises(ValueError, match="camera, noise"):
+        one.camera(0.01, [0.0, 0.0, 0.0], noise=0.0)
     with pytest.raises(ValueError, match="position"):
-        one.look(0.01, [0.0, math.nan, 0.0])
+        one.camera(0.01, [0.0, math.nan, 0.0])
     with pytest.raises(ValueError, match="at most 3"):
         one.past(4)
     with pytest.raises(ValueError, match="share"):

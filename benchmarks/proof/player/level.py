@@ -6,11 +6,13 @@ Its hands raise the spin by cycles of linear acceleration, each planned on the p
 raise   a minute that gains 60 rad/s or more; the axle shall stay within 5 degrees of the heading
 back    a tilt of 20 degrees shall be below 5 within 3 s, and stay there
 throw   twenty throws and catches in a row, with cycles of acceleration between, shall lose nothing
+catch   a throw whose axle is tilted by 20 degrees shall be caught, and be level 3 s after that
 
-Hands that do not level play the same beside them. Those that do know the plant's numbers; with `--by
-diagnosis` they go by what a diagnosis makes of a filmed play, with `--by linear` by a linear map that they
-learn in play. Each plant has its own numbers, friction and groove among them; the hands see its axle three
-frames late, with half a degree of noise, and its true spin.
+`--by` says who plays: `model`, the linear-quadratic regulator of LevelHands, and `horizon`, LevelHorizon,
+both on the plant's numbers; `diagnosis`, LevelHands on what a diagnosis makes of a filmed play; `linear`, a
+linear map that is learnt in play; `none`, hands that do not level. Each plant has its own numbers, friction
+and groove among them; the hands see its axle three frames late, with half a degree of noise, and its true
+spin.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import argparse
 import contextlib
 import math
 import sys
+import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -32,13 +35,13 @@ from numpy.typing import NDArray
 
 from ... import command
 from .. import plant as driver
-from .level_peers import LEARNS, LinearHands, Shaking, diagnosed
+from .level_peers import LEARNS, LinearHands, Shaking, StillHands, diagnosed
 from .plant import STICKS, Plant
 from .session import GAINS, LIMITS, REACTION, draw
 
 EXAMPLE = """\
   make plant && python -m benchmarks.proof.player.level raise --count 100
-  python -m benchmarks.proof.player.level back --count 100 --seed 2"""
+  python -m benchmarks.proof.player.level back --count 100 --by horizon --seed 2"""
 
 PERIOD = 0.01
 """Of the hands [s]."""
@@ -49,13 +52,15 @@ NOISE = np.radians(0.5)
 WARM_UP = 0.3  # that the plant hangs before [s]
 RAISED = 60.0
 """How much spin a play of `raise` shall gain [rad/s]."""
-PLAYS = {"raise": 60.0, "back": 6.0, "throw": 300.0}
+PLAYS = {"raise": 60.0, "back": 6.0, "throw": 300.0, "catch": 8.0}
 """How long a play lasts at most [s]."""
+BY = ("model", "horizon", "diagnosis", "linear", "none")
+"""What the hands go by; see above."""
 THROWS = 20
 HEIGHT = 0.5  # of a throw above the tips [m]
 THROWN = 100.0  # a diabolo that spins faster is [rad/s]
 LEVEL = 5.0  # [deg]
-TILT = 20.0  # that `back` begins with [deg]
+TILT = 20.0  # that `back` and `catch` begin with [deg]
 SOON = 3.0  # [s]
 LOST = 0.15  # a diabolo below is [m]
 FILMED = 200.0  # a play to diagnose begins with [rad/s]
@@ -116,7 +121,8 @@ class Hands:
 @dataclass
 class Levelled:
     """What came of a play: times [s], tilt and yaw of the axle against the heading [deg], the heading [deg],
-    spin [rad/s], throws that were caught, and whether the diabolo was lost."""
+    spin [rad/s], throws that were caught and when the last one was [s], whether the diabolo was lost, and how
+    long the hands thought of the axle for a second of play [s]."""
 
     time: NDArray[np.float64]
     tilt: NDArray[np.float64]
@@ -124,7 +130,9 @@ class Levelled:
     heading: NDArray[np.float64]
     spin: NDArray[np.float64]
     caught: int
+    caught_at: float
     lost: bool
+    thought: float
 
 
 Tips = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -133,16 +141,28 @@ Tips = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 class Playing:
     """Pieces of play, one planned after the other from what is seen REACTION before it sets in: cycles of
-    linear acceleration; and, where it throws, a throw and its catch as soon as the spin is high enough."""
+    linear acceleration; and up to `throws` times a throw and its catch, once the spin is above `throws_from`
+    [rad/s]."""
 
-    def __init__(self, plant: Plant, spin: float, *, throws: bool) -> None:
-        self._models, self._length, self._throws = [plant.known()], plant.length, throws
+    def __init__(self, plant: Plant, spin: float, *, throws: int = 0, throws_from: float = THROWN) -> None:
+        self._models, self._length = [plant.known()], plant.length
+        self._throws, self._throws_from = throws, throws_from
         left, right = _core.home_pose("linear_acceleration", plant.length)
         start = diabolo.hang_at_rest(self._models[0], left, right, spin, STICKS)
         self._horizon = diabolo.RecedingHorizon(self._models[0], left, right, start, 0.0, STICKS)
         self._piece = "linear_acceleration"
         self.home = np.concatenate([left, right])
         self.caught = 0
+        self.caught_at = math.inf
+
+    @property
+    def throws(self) -> bool:
+        """From the begin of a throw to the end of its catch."""
+        return self._piece in ("throw", "catch")
+
+    @property
+    def path(self) -> diabolo.TipPath:
+        return self._horizon.path
 
     def at(self, time: float, seen: State) -> Tips:
         """The tips at a time [s], which grows from call to call; `seen` a period before it."""
@@ -156,11 +176,13 @@ class Playing:
 
     def _go_on(self, later: float, spin: float) -> None:
         seam = self._horizon.seam_at(self._horizon.path.end + later)
-        self.caught += self._piece == "catch"
+        if self._piece == "catch":
+            self.caught += 1
+            self.caught_at = self._horizon.path.end
         if self._piece == "throw":
             self._piece = "catch"
             action = seam.catch(*_core.home_pose("throw", self._length), self._models[0])
-        elif self._throws and spin > THROWN:
+        elif self.caught < self._throws and spin > self._throws_from:
             self._piece = "throw"
             action = self._figure(seam, height=HEIGHT)
         else:
@@ -199,12 +221,14 @@ def groove_of(axle: FreeAxle) -> dict[str, float]:
     }
 
 
-Levelling: TypeAlias = diabolo.LevelHands | LinearHands
+Levelling: TypeAlias = diabolo.LevelHands | diabolo.LevelHorizon | LinearHands
 
 
 def hands_that_level(plant: Plant, axle: FreeAxle, by: str) -> Levelling:
-    """Hands that have learnt what they shall; `by` is model, diagnosis or linear."""
-    home = Playing(plant, axle.spin, throws=False).home
+    """Hands that have learnt what they shall, by one of BY."""
+    home = Playing(plant, axle.spin).home
+    if by == "none":
+        return StillHands(home, np.zeros((2, 2)), np.zeros(2))
     if by == "linear":
         shaking = Shaking(home, plant.seed)
         play_level(plant, axle._replace(pitch=0.0), "raise", shaking, LEARNS)
@@ -212,7 +236,8 @@ def hands_that_level(plant: Plant, axle: FreeAxle, by: str) -> Levelling:
     model = model_of(plant, axle)
     if by == "diagnosis":
         model = diagnosed(plant.program, filmed(plant, axle, home))
-    return diabolo.LevelHands(model, home[:3], home[3:], axle.spin)
+    kind = diabolo.LevelHorizon if by == "horizon" else diabolo.LevelHands
+    return kind(model, home[:3], home[3:], axle.spin)
 
 
 def filmed(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[str, Any]:
@@ -233,17 +258,27 @@ def filmed(plant: Plant, axle: FreeAxle, home: NDArray[np.float64]) -> dict[str,
 
 
 def play_level(
-    plant: Plant, axle: FreeAxle, what: str, level: Levelling | None, longest: float = math.inf
+    plant: Plant,
+    axle: FreeAxle,
+    what: str,
+    level: Levelling,
+    longest: float = math.inf,
+    *,
+    hold: bool = False,
 ) -> Levelled:
-    """The plant's diabolo in a play of PLAYS, by hands that turn their motion to the axle, or not."""
+    """The plant's diabolo in a play of PLAYS, by hands that turn their motion to the axle; where they `hold`,
+    not while they throw and catch."""
     rng = np.random.default_rng(plant.seed)
-    motion = Playing(plant, axle.spin, throws=what == "throw")
-    levels = level is not None
-    level = level or LinearHands(motion.home, np.zeros((2, 2)), np.zeros(2))
+    throws: dict[str, dict[str, Any]] = {
+        "throw": {"throws": THROWS},
+        "catch": {"throws": 1, "throws_from": 0.0},
+    }
+    motion = Playing(plant, axle.spin, **throws.get(what, {}))
     hands = Hands(motion.home)
     rows: list[tuple[float, ...]] = []
     looks: list[NDArray[np.float64]] = []
     late = int(np.ceil(DELAY / 120.0 / PERIOD))
+    thought = 0.0
     lost = True  # also where a tip touches the axle, which ends the plant's program
     with (
         contextlib.suppress(driver.FailedError),
@@ -253,7 +288,7 @@ def play_level(
             moment = live.moment
             if moment.mode == "MISSED" or moment.position[2] < LOST:
                 break
-            if motion.caught == THROWS:
+            if what == "throw" and motion.caught == THROWS:
                 lost = False
                 break
             tilt, yaw = angles(moment.axis)
@@ -262,17 +297,35 @@ def play_level(
             rows.append((step * PERIOD, tilt, beside, heading, moment.spin))
             look = moment.axis + NOISE * rng.standard_normal(3)
             looks.append(look / np.linalg.norm(look))
-            if levels:
-                level.see(looks[max(0, step - late)], moment.spin)
-            level.advance(PERIOD)
+            held = hold and motion.throws
+            if not held:
+                began = time.thread_time()
+                see(level, looks[max(0, step - late)], moment, step * PERIOD, motion.path)
+                thought += time.thread_time() - began
+                level.advance(PERIOD)
             seen = as_the_hands_see(moment, level.heading + level.lead, motion.home)
             place, velocity = motion.at((step + 1) * PERIOD, seen)
             tips = level.tips(place[:3], place[3:], velocity[:3], velocity[3:])
-            live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), np.concatenate(tips[2:])))
+            moves = np.concatenate(tips[2:])
+            if held:
+                moves -= np.concatenate(level.tips(place[:3], place[3:], np.zeros(3), np.zeros(3))[2:])
+            live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), moves))
         else:
             lost = False
     times, tilts, yaws, headings, spins = np.array(rows or [(0.0,) * 5]).T
-    return Levelled(times, tilts, yaws, headings, spins, motion.caught, lost)
+    thought /= max(1, len(rows)) * PERIOD
+    return Levelled(times, tilts, yaws, headings, spins, motion.caught, motion.caught_at, lost, thought)
+
+
+def see(
+    level: Levelling, axis: NDArray[np.float64], moment: driver.Moment, time: float, path: diabolo.TipPath
+) -> None:
+    """Show the hands the axle, and what else they look at."""
+    if isinstance(level, diabolo.LevelHorizon):
+        mode = StringState[moment.mode]
+        level.see(time, State(moment.position, moment.velocity, moment.spin, mode, axis=axis), path)
+    else:
+        level.see(axis, moment.spin)
 
 
 def as_the_hands_see(moment: driver.Moment, heading: float, home: NDArray[np.float64]) -> State:
@@ -291,20 +344,34 @@ def angles(axis: NDArray[np.float64]) -> tuple[float, float]:
     )
 
 
-def outcome(what: str, number: int, given: argparse.Namespace, *, levels: bool) -> tuple[bool, str]:
-    """Whether one plant's play is what is wanted, and what became of it."""
+class Outcome(NamedTuple):
+    """Whether one plant's play is what is wanted, what became of it, how far the axle was off from SOON on at
+    most and in the median [deg], and how long the hands thought of it for a second of play [s]."""
+
+    well: bool
+    said: str
+    most: float = math.inf
+    median: float = math.inf
+    thought: float = math.nan
+
+
+def outcome(what: str, number: int, given: argparse.Namespace) -> Outcome:
     rng = np.random.default_rng([given.seed, number])
     plant = draw(given.plant, rng)
-    axle = draw_axle(rng, TILT if what == "back" else 0.0)
+    axle = draw_axle(rng, TILT if what in ("back", "catch") else 0.0)
     try:
-        play = play_level(plant, axle, what, hands_that_level(plant, axle, given.by) if levels else None)
+        play = play_level(plant, axle, what, hands_that_level(plant, axle, given.by), hold=given.hold)
     except ValueError as error:
-        return False, str(error)
+        return Outcome(False, str(error))
     off = np.maximum(np.abs(play.tilt), np.abs(play.yaw))
     if what == "back":
         well = not play.lost and bool((off[play.time >= SOON] < LEVEL).all())
         then = off[np.searchsorted(play.time, SOON) - 1]
         said = f"tilt {abs(play.tilt[0]):.0f} deg, {then:.1f} after {SOON:g} s"
+    elif what == "catch":
+        after = off[play.time >= play.caught_at + SOON]
+        well = not play.lost and play.caught == 1 and bool((after < LEVEL).all())
+        said = f"{play.caught} caught, off by {after.max(initial=0.0):.1f} deg from {SOON:g} s after it on"
     elif what == "throw":
         well = not play.lost and play.caught == THROWS
         said = f"{play.caught} throws caught, off by {off.max():.0f} deg at most"
@@ -313,40 +380,47 @@ def outcome(what: str, number: int, given: argparse.Namespace, *, levels: bool) 
         well = not play.lost and bool((off < LEVEL).all()) and gained >= RAISED
         said = f"off by {off.max():.1f} deg at most, {np.median(off):.1f} in the median, {gained:+.0f} rad/s"
     lost = f", lost after {play.time[-1]:.1f} s" if play.lost else ""
-    return well, f"{said}, hands turned by {np.abs(play.heading).max():.0f} deg{lost}"
+    said = f"{said}, hands turned by {np.abs(play.heading).max():.0f} deg{lost}"
+    later = off[play.time >= SOON]
+    if not len(later):
+        return Outcome(well, said, thought=play.thought)
+    return Outcome(well, said, float(later.max()), float(np.median(later)), play.thought)
 
 
 def run(given: argparse.Namespace) -> int:
     driver.check(given.plant)
-    done: dict[bool, int] = {}
-    for levels in (True, False):
-        who = "level" if levels else "do not level"
 
-        def one(number: int, levels: bool = levels, who: str = who) -> bool:
-            well, said = outcome(given.what, number, given, levels=levels)
-            print(f"plant {number}, hands {who}: {said}{'' if well else ' - FAILED'}", flush=True)
-            return well
+    def one(number: int) -> Outcome:
+        play = outcome(given.what, number, given)
+        print(f"plant {number}: {play.said}{'' if play.well else ' - FAILED'}", flush=True)
+        return play
 
-        with ThreadPoolExecutor(given.jobs) as pool:
-            done[levels] = sum(pool.map(one, range(given.count)))
+    with ThreadPoolExecutor(given.jobs) as pool:
+        plays = list(pool.map(one, range(given.first, given.first + given.count)))
+    well = sum(play.well for play in plays)
+    most, median, thought = np.array([(play.most, play.median, play.thought) for play in plays]).T
     print(
-        f"{given.what}: {done[True]} of {given.count} where the hands level, {done[False]} where they do not"
+        f"{given.what}, {given.by}: {well} of {given.count}; from {SOON:g} s on off by {np.median(most):.1f} "
+        f"deg at most in the median plant, {max(most):.1f} in the worst, by {np.median(median):.2f} in the "
+        f"median; {1e3 * np.nanmedian(thought):.1f} ms of thought for a second of play"
     )
-    return 0 if done[True] >= given.wanted * given.count else 1
+    return 0 if well >= given.wanted * given.count else 1
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = command.make_parser("benchmarks.proof.player.level", __doc__, EXAMPLE)
     parser.add_argument("what", choices=tuple(PLAYS))
     parser.add_argument("--count", metavar="N", type=int, default=10, help="plants (%(default)s)")
+    parser.add_argument("--first", metavar="N", type=int, default=0, help="number of the first (%(default)s)")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the plants (%(default)s)")
     parser.add_argument("--jobs", metavar="N", type=int, default=1, help="plants at once (%(default)s)")
     parser.add_argument(
         "--wanted", metavar="SHARE", type=float, default=0.95,
         help="exit with 1 where fewer are well (%(default)s)",
     )  # fmt: skip
+    parser.add_argument("--by", choices=BY, default="model", help="what levels (%(default)s)")
     parser.add_argument(
-        "--by", choices=("model", "diagnosis", "linear"), default="model", help="what levels (%(default)s)"
+        "--hold", action="store_true", help="the hands do not turn while they throw and catch"
     )
     driver.add_option(parser)
     return command.run(parser, run, arguments)

@@ -101,6 +101,13 @@ class LinearHands:
         return (*places, *velocities)
 
 
+class StillHands(LinearHands):
+    """Hands that do not turn, whatever they see."""
+
+    def see(self, axis: NDArray[np.float64], spin: float) -> None:
+        pass
+
+
 class Shaking(LinearHands):
     """Hands that lead to one side and the other, to learn from; they keep what they saw."""
 

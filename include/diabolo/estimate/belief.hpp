@@ -55,9 +55,11 @@ struct Belief {
   MatrixOf<kSize> factor = MatrixOf<kSize>::Identity();  ///< lower; see covariance()
   /// How likely the string is taut, loose or off, in the order of StringState.
   std::array<double, 3> string_weights{};
-  bool pulled = false;    ///< the string pulled in the last step
-  double surprise = 0.0;  ///< squared innovation over its covariance of the last pulls, each; 1 expected
-  int strange = 0;        ///< above zero: the diabolo went by measured tensions, see TickFilter
+  bool pulled = false;  ///< the string pulled in the last step
+  /// Of the last pulls: squared innovation over its covariance, of each number; 1 expected.
+  double normalized_innovation_squared = 0.0;
+  int gated =
+      0;  ///< above zero: a tension failed the gate, so that measured ones move the diabolo; see TickFilter
 
   static Belief begin(double time, const State<double>& state, const Spread& spread) {
     ColumnOf<kSize> deviations;
@@ -79,8 +81,8 @@ struct Belief {
   /// Their standard deviations: an interval of 90 % is 1.645 of these to both sides.
   ColumnOf<kSize> deviations() const { return factor.rowwise().norm(); }
 
-  /// Takes over what a measurement says.
-  void take(const Correction<kSize>& correction) {
+  /// The measurement update.
+  void update(const Correction<kSize>& correction) {
     state = Chart::at(state, correction.shift);
     factor = correction.factor;
   }

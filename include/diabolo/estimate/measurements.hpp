@@ -16,7 +16,7 @@
 namespace diabolo {
 
 /// The diabolo as a camera saw it. Noises are standard deviations.
-struct CameraLook {
+struct CameraMeasurement {
   double time = 0.0;                                   ///< when it was seen, not when that is known [s]
   Vector3<double> position = Vector3<double>::Zero();  ///< [m], world frame
   double noise = 5e-3;                                 ///< of each coordinate [m]
@@ -28,20 +28,20 @@ struct CameraLook {
 };
 
 /// Forces of the string on both tips at the end of a step, world frame, less what sticks and arms weigh.
-struct ForceReading {
+struct ForceMeasurement {
   TipForces<double> forces;  ///< [N]
   /// Lower factors of the covariances of both readings [N].
   MatrixOf<3> left_noise = 0.1 * MatrixOf<3>::Identity(), right_noise = 0.1 * MatrixOf<3>::Identity();
 };
 
 /// Tensions of both strands alone.
-struct TensionReading {
+struct TensionMeasurement {
   double left = 0.0, right = 0.0;  ///< [N]
   double noise = 0.1;              ///< of each, a standard deviation [N]
 };
 
 /// What a step's end has of the strands.
-using PullReading = std::variant<std::monostate, ForceReading, TensionReading>;
+using PullMeasurement = std::variant<std::monostate, ForceMeasurement, TensionMeasurement>;
 
 namespace estimate_detail {
 
@@ -57,18 +57,19 @@ inline void expect_within(const char* what, const char* field, const Vector3<dou
 }  // namespace estimate_detail
 
 /// Throws std::invalid_argument naming the field, what was found and what was expected.
-inline void validate(const CameraLook& look) {
-  estimate_detail::expect_finite("look, time", std::isfinite(look.time));
-  estimate_detail::expect_within("look", "position", look.position, 1e4);
-  expect_positive("look, noise", look.noise);
-  expect_positive("look, axle_noise", look.axle_noise);
-  expect_positive("look, spin_noise", look.spin_noise);
-  if (look.axle && !(std::abs(look.axle->norm() - 1.0) < 1e-6))
-    throw std::invalid_argument("look, axle: norm " + shown(look.axle->norm()) + "; expected a unit vector");
-  if (look.spin && !(std::abs(*look.spin) <= 1e5))
-    throw std::invalid_argument("look, spin: " + shown(*look.spin) + " rad/s; expected at most 100000");
+inline void validate(const CameraMeasurement& measured) {
+  estimate_detail::expect_finite("camera, time", std::isfinite(measured.time));
+  estimate_detail::expect_within("camera", "position", measured.position, 1e4);
+  expect_positive("camera, noise", measured.noise);
+  expect_positive("camera, axle_noise", measured.axle_noise);
+  expect_positive("camera, spin_noise", measured.spin_noise);
+  if (measured.axle && !(std::abs(measured.axle->norm() - 1.0) < 1e-6))
+    throw std::invalid_argument("camera, axle: norm " + shown(measured.axle->norm()) +
+                                "; expected a unit vector");
+  if (measured.spin && !(std::abs(*measured.spin) <= 1e5))
+    throw std::invalid_argument("camera, spin: " + shown(*measured.spin) + " rad/s; expected at most 100000");
 }
-inline void validate(const ForceReading& reading) {
+inline void validate(const ForceMeasurement& reading) {
   estimate_detail::expect_within("forces", "left", reading.forces.left, 1e5);
   estimate_detail::expect_within("forces", "right", reading.forces.right, 1e5);
   for (const MatrixOf<3>& noise : {reading.left_noise, reading.right_noise})
@@ -77,7 +78,7 @@ inline void validate(const ForceReading& reading) {
       estimate_detail::expect_finite("forces, noise", noise.allFinite());
     }
 }
-inline void validate(const TensionReading& reading) {
+inline void validate(const TensionMeasurement& reading) {
   for (const auto& [name, tension] : {std::pair("left", reading.left), {"right", reading.right}})
     if (!(std::abs(tension) <= 1e5))
       throw std::invalid_argument(std::string("tensions, ") + name + ": " + shown(tension) +

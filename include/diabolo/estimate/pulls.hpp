@@ -53,11 +53,11 @@ struct StrandPull {
 using StrandPulls = std::array<StrandPull, 2>;  ///< left, right
 
 /// Both strands' pulls by a reading.
-inline StrandPulls strand_pulls(const PullReading& reading, const Strands<double>& expected) {
-  if (const auto* forces = std::get_if<ForceReading>(&reading))
+inline StrandPulls strand_pulls(const PullMeasurement& reading, const Strands<double>& expected) {
+  if (const auto* forces = std::get_if<ForceMeasurement>(&reading))
     return {StrandPull::of_force(forces->forces.left, forces->left_noise, expected.left),
             StrandPull::of_force(forces->forces.right, forces->right_noise, expected.right)};
-  if (const auto* tensions = std::get_if<TensionReading>(&reading))
+  if (const auto* tensions = std::get_if<TensionMeasurement>(&reading))
     return {StrandPull::of_tension(tensions->left, tensions->noise),
             StrandPull::of_tension(tensions->right, tensions->noise)};
   return {};

@@ -76,9 +76,9 @@ struct SigmaPoints {
 /// What K measured numbers say of N others.
 template <int N>
 struct Correction {
-  ColumnOf<N> shift;   ///< of the mean
-  MatrixOf<N> factor;  ///< of the covariance that is left
-  double surprise{};   ///< innovation squared over its covariance; K on average
+  ColumnOf<N> shift;                       ///< of the mean
+  MatrixOf<N> factor;                      ///< of the covariance that is left
+  double normalized_innovation_squared{};  ///< innovation squared over its covariance; K on average
 };
 
 /// Conditions N numbers on K measured ones that are off by `innovation` from what was expected. `x` and `y`

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "diabolo/estimate/take_look.hpp"
-#include "diabolo/estimate/take_pulls.hpp"
+#include "diabolo/estimate/camera_update.hpp"
+#include "diabolo/estimate/process_models.hpp"
+#include "diabolo/estimate/pull_update.hpp"
 
 namespace diabolo {
 
@@ -15,8 +16,8 @@ struct Tick {
   Belief<kAxle> before, after;
   Tips<double> begin, end;
   double dt = 0.0;  ///< [s]; zero: no step, what was known at the beginning
-  PullReading pulls;
-  std::optional<CameraLook> look = std::nullopt;
+  PullMeasurement pulls;
+  std::optional<CameraMeasurement> camera = std::nullopt;
 };
 
 /// What predictor and measurements make of a tick.
@@ -30,17 +31,17 @@ class TickFilter {
 
   const Predictor<double, Effects...>& predictor() const { return predictor_; }
 
-  /// From `before` to `after`: a step, then pulls, then the look. The result does not depend on when these
+  /// From `before` to `after`: a step, then pulls, then the camera. The result does not depend on when these
   /// became known. Never allocates.
   void run(Tick<kAxle>& tick) const {
     tick.after = tick.before;
     if (tick.dt > 0.0) advance(tick);
-    if (tick.look) take_look(predictor_, *tick.look, tick.end, tick.after);
+    if (tick.camera) camera_update(predictor_, *tick.camera, tick.end, tick.after);
   }
 
  private:
-  /// After a strange tension the diabolo goes by what is measured, until so many steps had none.
-  static constexpr int kCalm = 5;
+  /// After a tension that fails the gate the measured ones move the diabolo, until so many steps had none.
+  static constexpr int kGatedSteps = 5;
 
   void advance(Tick<kAxle>& tick) const {
     Belief<kAxle>& now = tick.after;
@@ -50,20 +51,20 @@ class TickFilter {
         tick.begin, tick.end, tick.dt,
         strand_pulls(tick.pulls, pulling_strands(predictor_, from, from, tick.begin, tick.end))};
     Passage<kAxle> passage = pass_on_string(predictor_, step, tick.before);
-    const bool strange = reads && is_strange(noise_, passage, step.read);
-    now.strange = strange ? kCalm : std::max(0, tick.before.strange - 1);
-    if (reads && now.strange > 0) passage = pass_by_tensions(predictor_, step, tick.before);
+    const bool fails = reads && fails_gate(noise_, passage, step.read);
+    now.gated = fails ? kGatedSteps : std::max(0, tick.before.gated - 1);
+    if (reads && now.gated > 0) passage = pass_by_tensions(predictor_, step, tick.before);
     now.time = tick.before.time + tick.dt;
     now.string_weights = passage.string_weights;
     now.pulled = passage.pulled > 0.5;
-    now.surprise = 0.0;
+    now.normalized_innovation_squared = 0.0;
     now.state = StateChart<kAxle>::at(passage.centre, Passage<kAxle>::Points::deviate(passage.places));
     now.state.string_state =
         static_cast<StringState>(std::ranges::max_element(now.string_weights) - now.string_weights.begin());
     StepDeviations<kAxle> spread;
     spread << passage.places, passage_noise<kAxle>(noise_, passage, tick.end, tick.dt);
     if (reads)
-      take_pulls(noise_, step.read, passage, spread, now);
+      pull_update(noise_, step.read, passage, spread, now);
     else
       now.factor = lower_factor<Belief<kAxle>::kSize, StepDeviations<kAxle>::ColsAtCompileTime>(spread);
   }

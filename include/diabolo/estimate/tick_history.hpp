@@ -12,11 +12,11 @@
 namespace diabolo {
 
 /// What became of a measurement.
-enum class Taken {
-  kYes,
-  kTooOld,   ///< from before the history
-  kTooNew,   ///< from after the last step
-  kOccupied  ///< its step has one of that kind already
+enum class MeasurementStatus {
+  kAccepted,
+  kTooOld,    ///< from before the history
+  kTooNew,    ///< from after the last step
+  kDuplicate  ///< its step has one of that kind already
 };
 
 /// The last ticks of an estimator, in a ring. Number 0 is the last one; the first of all is the beginning,
@@ -48,17 +48,17 @@ class TickHistory {
     next.end = tips;
     next.dt = dt;
     next.pulls = {};
-    next.look.reset();
+    next.camera.reset();
     return next;
   }
 
   /// The tick whose end is nearest to a time [s].
-  Taken find(double time, std::size_t& ago) const {
+  MeasurementStatus find(double time, std::size_t& ago) const {
     const double half = 0.5 * (*this)[0].dt + 1e-9;
-    if (time > (*this)[0].after.time + half) return Taken::kTooNew;
+    if (time > (*this)[0].after.time + half) return MeasurementStatus::kTooNew;
     ago = 0;
     while (ago < steps() && time < middle(ago)) ++ago;
-    return time < middle(ago) - 1e-9 ? Taken::kTooOld : Taken::kYes;
+    return time < middle(ago) - 1e-9 ? MeasurementStatus::kTooOld : MeasurementStatus::kAccepted;
   }
 
  private:

@@ -29,11 +29,12 @@ inline MatrixOf<3> noise_with_model(const ProcessNoise& noise, const StrandPull&
 
 }  // namespace estimate_detail
 
-/// Whether a tension is so far from what the string would have that it is of one that gives, and bounces.
+/// The innovation gate: whether a tension is so far from what the string would have that it is of one that
+/// gives, and bounces.
 template <bool kAxle>
-bool is_strange(const ProcessNoise& noise, const Passage<kAxle>& passage, const StrandPulls& read) {
+bool fails_gate(const ProcessNoise& noise, const Passage<kAxle>& passage, const StrandPulls& read) {
   using Points = typename Passage<kAxle>::Points;
-  constexpr double kStrange = 5.0;  // standard deviations
+  constexpr double kGate = 5.0;  // standard deviations
   constexpr int kPulls = Passage<kAxle>::kPulls;
   MatrixOf<kPulls, Points::kCount> pulls = passage.pulls;
   const ColumnOf<kPulls> expected = Points::deviate(pulls);
@@ -41,15 +42,15 @@ bool is_strange(const ProcessNoise& noise, const Passage<kAxle>& passage, const 
     const StrandPull& one = read[static_cast<std::size_t>(side)];
     const double deviation =
         std::hypot(pulls.row(3 * side).norm(), estimate_detail::tension_noise(noise, one));
-    if (std::abs(one.tension - expected[3 * side]) > kStrange * deviation) return true;
+    if (std::abs(one.tension - expected[3 * side]) > kGate * deviation) return true;
   }
   return false;
 }
 
-/// Corrects a belief by pulls that were read at the end of a step; `spread` are the deviations there.
+/// Updates a belief by pulls that were measured at the end of a step; `spread` are the deviations there.
 template <bool kAxle>
-void take_pulls(const ProcessNoise& noise, const StrandPulls& read, const Passage<kAxle>& passage,
-                const StepDeviations<kAxle>& spread, Belief<kAxle>& now) {
+void pull_update(const ProcessNoise& noise, const StrandPulls& read, const Passage<kAxle>& passage,
+                 const StepDeviations<kAxle>& spread, Belief<kAxle>& now) {
   using Points = typename Passage<kAxle>::Points;
   constexpr int kSize = Belief<kAxle>::kSize, kPulls = Passage<kAxle>::kPulls;
   constexpr int kColumns = StepDeviations<kAxle>::ColsAtCompileTime;
@@ -65,8 +66,8 @@ void take_pulls(const ProcessNoise& noise, const StrandPulls& read, const Passag
   deviations.template leftCols<Points::kCount>() = pulls;
   const Correction<kSize> correction =
       condition<kSize, kPulls, kColumns>(spread, deviations, read_noise, innovation);
-  now.surprise = correction.surprise / kPulls;
-  now.take(correction);
+  now.normalized_innovation_squared = correction.normalized_innovation_squared / kPulls;
+  now.update(correction);
 }
 
 }  // namespace diabolo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/plan/level_gains.hpp"
+#include "diabolo/plan/level_regulator.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <numbers>
@@ -19,7 +19,7 @@ TEST_CASE("the regulator's gains calm the axle, and no others near them cost les
     for (const double profile : {0.0, 0.01}) {
       const AxleResponse response = axle_response(body(profile), home(), spin);
       const LevelWeights weights;
-      const auto gains = level_gains(response, weights);
+      const auto gains = level_regulator(response, weights).gains;
       const Eigen::Matrix3d closed = response.drift - response.drive * gains;
       // The hands' own way back is slow; the two others are calmed within seconds.
       const Eigen::Vector3cd rates = closed.eigenvalues();
@@ -61,6 +61,6 @@ TEST_CASE("levelling is refused where nothing turns the axle or it is too slow")
   CHECK_THROWS_WITH(axle_response(body(0.004), swapped, 60.0), Catch::Contains("side by side"));
   LevelWeights weights;
   weights.turn = 0.0;
-  CHECK_THROWS_WITH(level_gains(axle_response(body(0.004), home(), 60.0), weights),
+  CHECK_THROWS_WITH(level_regulator(axle_response(body(0.004), home(), 60.0), weights),
                     Catch::Contains("turn: 0"));
 }
