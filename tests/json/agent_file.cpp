@@ -31,7 +31,7 @@ std::string agent_complaint(const std::string& what, const std::string& by) {
 
 TEST_CASE("an agent reads back as it was written, bit for bit") {
   const Agent agent = drawn_agent(), again = read_agent(write_agent(agent), "a.json");
-  CHECK(again.task == agent.task);
+  CHECK(again.tasks == agent.tasks);
   CHECK(again.period == agent.period);
   CHECK(again.steps == agent.steps);
   CHECK(again.policy.layers()[0].weights == agent.policy.layers()[0].weights);
