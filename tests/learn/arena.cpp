@@ -121,7 +121,7 @@ TEST_CASE("a mixed arena plays the same bits alone and among others, with any nu
     one.seed(0, 100 + watched);
     one.reset(0);
     Random random(2414);
-    for (int k = 0; k < 1200; ++k) {
+    for (int k = 0; k < 600; ++k) {
       const std::vector<float> actions = random_actions(random, many.count());
       many.step(actions.data());
       one.step(actions.data() + 6 * watched);
