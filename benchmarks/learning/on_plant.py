@@ -3,8 +3,9 @@
 
 Each plant has numbers of its own, and a goal: a height and a place. An agent looks 50 times a second, at
 the true state or by a camera, and moves the hands of the plant; the player plans once, on a model, and its
-plan is played as it is. Both keep to the same limits of the hands, and to the same box. The plants are those
-of benchmarks.proof.player, or all near its usual one, on whose play benchmarks.learning.models is based.
+plan is played as it is. An agent that corrects plans is added to each of the player's. All
+keep to the same limits of the hands, and to the same box. The plants are those of benchmarks.proof.player,
+or all near its usual one, on whose play benchmarks.learning.models is based.
 """
 
 from __future__ import annotations
@@ -12,14 +13,17 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import diabolo
 import numpy as np
-from diabolo.envs import Agent, Camera, HandLimits, LiveAgent, shipped_agent
+from diabolo import Model, PlannedPlay
+from diabolo.envs import Agent, Camera, HandLimits, LiveAgent, hand_plan, shipped_agent
 from numpy.typing import NDArray
 
 from .. import command
@@ -29,12 +33,13 @@ from ..proof.player.session import draw
 
 EXAMPLE = """\
   make plant && python -m benchmarks.learning.on_plant
-  python -m benchmarks.learning.on_plant --agent robust/agent.json --plants 100 --height 0.6"""
+  python -m benchmarks.learning.on_plant --agent robust/agent.json correction/agent.json --model point.json"""
 TASK = "ThrowAndCatch"
 SECONDS = 4.0  # that an episode of the task lasts
 KEPT = 0.5  # after the catch [s]
 TAIL = 1.0  # of still hands, after a plan [s]
 SHORTEST = 0.1  # a flight [s]
+MIDDLE = np.array([FORWARD, 0.0, 1.25])  # of the player's hands at first [m]
 MODES = {"ON_STRING": "on_string", "LOOSE": "loose", "FLYING": "flying"}
 
 
@@ -58,6 +63,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = command.make_parser("benchmarks.learning.on_plant", __doc__, EXAMPLE)
     parser.add_argument(
         "--agent", metavar="FILE", nargs="+", type=Path, default=[], help="beside the shipped one"
+    )
+    parser.add_argument(
+        "--model",
+        metavar="FILE",
+        nargs="+",
+        type=Path,
+        default=[],
+        help="models that the player plans on, too",
     )
     parser.add_argument("--plants", type=int, default=100, metavar="N", help="drawn ones; default: 100")
     parser.add_argument(
@@ -87,9 +100,11 @@ def run(given: argparse.Namespace) -> int:
     if given.around is not None and not 0.0 <= given.around <= 0.5:
         raise ValueError(f"--around {given.around}; expected 0 to 0.5")
     program.check(given.plant)
-    players: dict[str, Any] = {"shipped agent": shipped_agent(TASK)}
-    players |= {str(path): Agent.load(str(path)) for path in given.agent}
-    found: dict[str, list[Thrown]] = {name: [] for name in (*players, *MODELS)}
+    agents = {"shipped agent": shipped_agent(TASK)} | {
+        str(path): Agent.load(str(path)) for path in given.agent
+    }
+    planners = MODELS | {f"player, {path}": partial(own_model, Model.load(str(path))) for path in given.model}
+    found: defaultdict[str, list[Thrown]] = defaultdict(list)
     wanted: list[tuple[float, float]] = []
     for number in range(given.plants):
         rng = np.random.default_rng([given.seed, number])
@@ -99,10 +114,16 @@ def run(given: argparse.Namespace) -> int:
         goal = (height, float(rng.uniform(-0.3, 0.3)))
         wanted.append(goal)
         camera = Camera() if given.camera else None
-        for name, agent in players.items():
-            found[name].append(tried(thrown_by_agent, plant, agent, goal, spin, camera, number))
-        for name in MODELS:
-            found[name].append(tried(thrown_by_player, plant, MODELS[name](plant), goal, spin))
+        for name, agent in agents.items():
+            if not agent.corrects:
+                found[name].append(tried(thrown_by_agent, plant, agent, goal, spin, camera, number))
+        for planner, model_for in planners.items():
+            planned = planned_on(model_for(plant), goal, spin)
+            found[planner].append(tried(thrown_by_player, plant, planned, spin))
+            for name, agent in agents.items():
+                if agent.corrects:
+                    throw = tried(thrown_by_agent, plant, agent, goal, spin, camera, number, planned)
+                    found[f"{planner}, with {name}"].append(throw)
         print(f"\rplant {number + 1} of {given.plants}", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
     print_table(found, np.array(wanted))
@@ -128,6 +149,11 @@ MODELS = {
 """What the player plans on."""
 
 
+def own_model(model: Model, plant: Plant) -> Model:
+    """One of a file, whatever the plant."""
+    return model
+
+
 def tried(throw: Callable[..., Thrown], *given: Any) -> Thrown:
     """A throw; one that the plant gives up on, as where a stick meets the axle, is not caught."""
     try:
@@ -137,13 +163,25 @@ def tried(throw: Callable[..., Thrown], *given: Any) -> Thrown:
 
 
 def thrown_by_agent(
-    plant: Plant, agent: Agent, goal: tuple[float, float], spin: float, camera: Camera | None, seed: int
+    plant: Plant,
+    agent: Agent,
+    goal: tuple[float, float],
+    spin: float,
+    camera: Camera | None,
+    seed: int,
+    planned: PlannedPlay | None = None,
 ) -> Thrown:
-    """An agent's hands on the plant, for an episode."""
+    """An agent's hands on the plant, for an episode; or its correction of a plan."""
     limits = HandLimits()
     aside = np.array([0.0, 0.288, 0.0])  # where an episode begins
-    left, right = limits.centre + aside, limits.centre - aside
-    hands = LiveAgent(agent, left, right, list(goal), string_length=plant.length, camera=camera, seed=seed)
+    left, right, plan = limits.centre + aside, limits.centre - aside, None
+    if planned is not None:
+        plan = hand_plan(planned, string_length=plant.length, period=agent.period)
+        left, right = plan.left, plan.right
+    length = plant.length
+    hands = LiveAgent(
+        agent, left, right, list(goal), string_length=length, camera=camera, seed=seed, plan=plan
+    )
     speeds = np.zeros(6)
     rows: list[Row] = []
     with plant.live(left, right, spin) as play:
@@ -159,17 +197,21 @@ def thrown_by_agent(
     return judged(rows)
 
 
-def thrown_by_player(plant: Plant, model: Any, goal: tuple[float, float], spin: float) -> Thrown:
-    """A plan of the player's, as the plant's hands play it."""
-    own, middle = HandLimits(), np.array([FORWARD, 0.0, 1.25])  # of its hands at first
+def planned_on(model: Any, goal: tuple[float, float], spin: float) -> PlannedPlay:
+    """The player's plan."""
+    own = HandLimits()
     limits = diabolo.TipLimits(
-        speed=own.speed, acceleration=own.acceleration, lowest=middle - own.half, highest=middle + own.half
+        speed=own.speed, acceleration=own.acceleration, lowest=MIDDLE - own.half, highest=MIDDLE + own.half
     )
-    planned = diabolo.plan_action(
+    return diabolo.plan_action(
         "throw_and_catch", model, spin=spin, height=goal[0], sideways=goal[1], limits=limits
     )
+
+
+def thrown_by_player(plant: Plant, planned: PlannedPlay, spin: float) -> Thrown:
+    """A plan as the plant's hands play it."""
     played = plant.play(planned.path, spin, tail=TAIL)
-    rows = list(zip(played.time, played.mode, played.position - middle, strict=True))
+    rows = list(zip(played.time, played.mode, played.position - MIDDLE, strict=True))
     if played.time[-1] < planned.path.end - planned.path.begin + 0.9 * TAIL:  # it ends where it misses
         rows.append((played.time[-1], "MISSED", rows[-1][2]))
     return judged(rows)

@@ -27,7 +27,8 @@ features = np.column_stack([np.tanh(seen @ weights.T + bias), np.ones(len(seen))
 normal = features.T @ features + RIDGE * np.eye(FEATURES + 1)
 output = np.linalg.solve(normal, features.T @ done).T
 
-clone = Agent(teacher.task, teacher.period, teacher.steps, [(weights, bias), (output[:, :-1], output[:, -1])])
+layers = [(weights, bias), (output[:, :-1], output[:, -1])]
+clone = Agent(teacher.tasks, teacher.period, teacher.steps, layers)
 Path("08_clone_an_agent.json").write_text(clone.to_json(), encoding="utf-8")
 print("agent: 08_clone_an_agent.json")
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "diabolo/batch/kernels.hpp"
@@ -27,11 +28,21 @@ namespace {
 using namespace py::literals;
 using Actions = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
-std::unique_ptr<Arena> make_arena(const std::string& task, std::vector<Model> models, std::size_t count,
+using GivenPlan = std::optional<std::shared_ptr<const HandPlan>>;
+
+/// One name or several.
+using Names = std::variant<std::string, std::vector<std::string>>;
+
+std::vector<std::string> list_of(const Names& names) {
+  if (const auto* one = std::get_if<std::string>(&names)) return {*one};
+  return std::get<std::vector<std::string>>(names);
+}
+
+std::unique_ptr<Arena> make_arena(const Names& tasks, std::vector<Model> models, std::size_t count,
                                   double period, int steps, const std::string& autoreset, int threads,
                                   const HandLimits& limits, const std::optional<Camera>& camera,
                                   std::vector<EpisodeStart> starts, double start_share, bool free_axis) {
-  const ArenaOptions options{.task = task,
+  const ArenaOptions options{.tasks = list_of(tasks),
                              .count = count,
                              .period = period,
                              .steps = steps,
@@ -90,10 +101,18 @@ std::size_t goal_size(const TaskInfo& task) {
       std::ranges::count_if(task.goal, [](const GoalInfo& info) { return !info.name.empty(); }));
 }
 
+/// `task`: as episodes draw one of several, it is given beside a goal.
 void reset(Arena& arena, std::size_t i, const std::optional<State<double>>& state,
-           const std::optional<std::vector<double>>& goal, const std::optional<std::size_t>& model) {
-  Given given{.state = state, .goal = {}, .model = model};
-  if (goal) given.goal = goal_of(*goal, goal_size(arena.task()), goal_size(arena.task()));
+           const std::optional<std::vector<double>>& goal, const std::optional<std::size_t>& model,
+           const std::optional<std::size_t>& task) {
+  const std::vector<std::string>& tasks = arena.options().tasks;
+  Given given{.state = state, .goal = {}, .model = model, .task = task};
+  if (goal && !task && tasks.size() > 1)
+    throw std::invalid_argument("goal: given without a task; expected both, as there are several tasks");
+  if (goal && task.value_or(0) < tasks.size()) {
+    const std::size_t size = goal_size(*task_named(tasks[task.value_or(0)]).info);
+    given.goal = goal_of(*goal, size, size);
+  }
   arena.reset(checked(arena, i), given);
 }
 
@@ -105,47 +124,60 @@ py::tuple pose(const Arena& arena, std::size_t i) {
 /// What an episode has come to, for tables.
 py::dict outcome(const Arena& arena, std::size_t i) {
   const Episode& episode = arena.episode(checked(arena, i));
+  std::size_t numbers = 0;  // of the longest goal: as many in each environment
+  for (const std::string& task : arena.options().tasks)
+    numbers = std::max(numbers, goal_size(*task_named(task).info));
   const std::vector<double> goal(episode.goal.begin(),
-                                 episode.goal.begin() + static_cast<std::ptrdiff_t>(goal_size(arena.task())));
+                                 episode.goal.begin() + static_cast<std::ptrdiff_t>(numbers));
   return py::dict("worth"_a = episode.worth, "seconds"_a = episode.periods * arena.options().period,
                   "over"_a = episode.over, "dropped"_a = episode.dropped, "first_spin"_a = episode.first_spin,
                   "spin"_a = episode.state.spin, "flights"_a = episode.memory.flights,
                   "apex"_a = episode.memory.apex, "level"_a = episode.memory.level, "goal"_a = goal,
-                  "model"_a = episode.model);
+                  "model"_a = episode.model, "task"_a = arena.task(i).name);
 }
 
 constexpr int kMostCounted = 1000;  // stages and flights of an episode's start
 
 EpisodeStart make_start(const State<double>& state, const Vector3<double>& left, const Vector3<double>& right,
                         const Vector3<double>& left_velocity, const Vector3<double>& right_velocity,
-                        const std::optional<std::vector<double>>& goal, int stage, int flights) {
+                        const std::optional<std::vector<double>>& goal, int stage, int flights,
+                        const std::string& task, const GivenPlan& plan) {
   for (const auto& [name, number] : {std::pair("stage", stage), std::pair("flights", flights)})
     if (number < 0 || number > kMostCounted)
       throw std::invalid_argument(std::string(name) + ": " + std::to_string(number) + "; expected 0 to " +
                                   std::to_string(kMostCounted));
-  EpisodeStart start{state, {{left, right}, {left_velocity, right_velocity}}, {}, stage, flights};
+  EpisodeStart start{state,
+                     {{left, right}, {left_velocity, right_velocity}},
+                     {},
+                     stage,
+                     flights,
+                     task,
+                     plan.value_or(nullptr)};
   if (goal) start.goal = goal_of(*goal, 1, kMostGoalNumbers);
   return start;
 }
 
 LiveAgent make_live(const Agent& agent, const Vector3<double>& left, const Vector3<double>& right,
                     const std::vector<double>& goal, const HandLimits& limits, double string_length,
-                    double gravity, const std::optional<Camera>& camera, std::uint64_t seed) {
-  const std::size_t size = goal_size(*task_named(agent.task).info);
-  const LiveOptions options{goal_of(goal, size, size), limits, string_length, gravity, camera, seed};
+                    double gravity, const std::optional<Camera>& camera, std::uint64_t seed,
+                    const std::string& task, const GivenPlan& plan) {
+  const std::size_t size = goal_size(*task_named(agent.tasks[task_number(agent, task)]).info);
+  const LiveOptions options{goal_of(goal, size, size), limits, string_length, gravity, camera, seed, task,
+                            plan.value_or(nullptr)};
   return {agent, Hands{{left, right}, {Vector3<double>::Zero(), Vector3<double>::Zero()}}, options};
 }
 
 using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Agent make_agent(const std::string& task, double period, int steps,
-                 const std::vector<std::pair<Weights, Eigen::VectorXf>>& layers) {
-  ArenaOptions{.task = task, .period = period, .steps = steps}.validate();
-  const std::size_t seen = observation_size(*task_named(task).info);
+Agent make_agent(const Names& names, double period, int steps,
+                 const std::vector<std::pair<Weights, Eigen::VectorXf>>& layers, bool corrects) {
+  const std::vector<std::string> tasks = list_of(names);
+  ArenaOptions{.tasks = tasks, .period = period, .steps = steps}.validate();
+  const std::size_t seen = observation_size(seen_too(tasks, corrects));
   std::vector<Layer> own;
   own.reserve(layers.size());
   for (const auto& [weights, bias] : layers) own.push_back({weights, bias});
-  return {task, period, steps, Policy(std::move(own), seen)};
+  return {tasks, period, steps, Policy(std::move(own), seen), corrects};
 }
 
 py::list layers_of(const Agent& agent) {
@@ -185,7 +217,8 @@ py::list task_infos() {
   return tasks;
 }
 
-py::list observation_infos(const std::optional<std::string>& task) {
+py::list observation_infos(const Names& tasks, bool corrects) {
+  const SeenToo too = seen_too(list_of(tasks), corrects);
   py::list infos;
   const auto append = [&infos](const auto& some) {
     for (const ObservationInfo& info : some)
@@ -193,8 +226,41 @@ py::list observation_infos(const std::optional<std::string>& task) {
                             "meaning"_a = info.meaning));
   };
   append(kObservations);
-  if (task && task_named(*task).info->axle) append(kAxleObservations);
+  if (too.axle) append(kAxleObservations);
+  for (std::size_t i = 0; i < too.tasks; ++i)
+    append(std::array{ObservationInfo{"task", "1", 1, "1 where the task is this one of several"}});
+  if (corrects) append(kPlanObservations);
   return infos;
+}
+
+void bind_hand_plan(py::module_& module) {
+  py::class_<HandPlan, std::shared_ptr<HandPlan>>(
+      module, "HandPlan",
+      "A planned play for an agent's hands to play and to correct, a period [s] at "
+      "a time. left and right [m]: the tips at first.")
+      .def_readonly("period", &HandPlan::period)
+      .def_property_readonly("left", [](const HandPlan& plan) { return plan.at(0).hands.position[0]; })
+      .def_property_readonly("right", [](const HandPlan& plan) { return plan.at(0).hands.position[1]; })
+      .def("__len__", [](const HandPlan& plan) { return plan.moments.size(); })
+      .def(py::pickle(
+          [](const HandPlan& plan) {
+            py::list moments;
+            for (const HandPlan::Moment& m : plan.moments)
+              moments.append(
+                  py::make_tuple(m.hands.position, m.hands.velocity, m.position, m.velocity, m.shares));
+            return py::make_tuple(plan.period, moments);
+          },
+          [](const py::tuple& t) {
+            HandPlan plan{.period = t[0].cast<double>(), .moments = {}};
+            for (const py::handle one : t[1]) {
+              const auto m = one.cast<py::tuple>();
+              plan.moments.push_back({{m[0].cast<Hands::Pair>(), m[1].cast<Hands::Pair>()},
+                                      m[2].cast<Vector3<double>>(),
+                                      m[3].cast<Vector3<double>>(),
+                                      m[4].cast<HandShares>()});
+            }
+            return plan;
+          }));
 }
 
 }  // namespace
@@ -262,6 +328,7 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
       .def_readonly("dropouts", &Camera::dropouts)
       .def_readonly("least_delay", &Camera::least_delay)
       .def_readonly("most_delay", &Camera::most_delay);
+  bind_hand_plan(module);
   const Vector3<double> none = Vector3<double>::Zero();
   py::class_<EpisodeStart>(
       module, "EpisodeStart",
@@ -270,17 +337,21 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
       "stage "
       "of a task that has several, and how many flights were caught.")
       .def(py::init(&make_start), "state"_a, "left"_a, "right"_a, "left_velocity"_a = none,
-           "right_velocity"_a = none, "goal"_a = py::none(), "stage"_a = 0, "flights"_a = 0)
+           "right_velocity"_a = none, "goal"_a = py::none(), "stage"_a = 0, "flights"_a = 0, "task"_a = "",
+           "plan"_a = py::none())
       .def(py::pickle(
           [](const EpisodeStart& s) {
-            return py::make_tuple(s.state, s.hands.position, s.hands.velocity, s.goal, s.stage, s.flights);
+            return py::make_tuple(s.state, s.hands.position, s.hands.velocity, s.goal, s.stage, s.flights,
+                                  s.task, s.plan);
           },
           [](const py::tuple& t) {
             return EpisodeStart{t[0].cast<State<double>>(),
                                 {t[1].cast<Hands::Pair>(), t[2].cast<Hands::Pair>()},
                                 t[3].cast<std::optional<Goal>>(),
                                 t[4].cast<int>(),
-                                t[5].cast<int>()};
+                                t[5].cast<int>(),
+                                t[6].cast<std::string>(),
+                                t[7].cast<std::shared_ptr<HandPlan>>()};
           }));
   py::class_<Arena>(module, "Arena",
                     "Environments side by side, in the compiled core: what diabolo.envs is made of. Its "
@@ -294,7 +365,8 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
           [](Arena& arena, std::size_t i, std::uint64_t seed) { arena.seed(checked(arena, i), seed); },
           "environment"_a, "seed"_a, "Its episodes begin anew with this seed.")
       .def("reset", &reset, "environment"_a, "state"_a = py::none(), "goal"_a = py::none(),
-           "model"_a = py::none(), "Begins its next episode, with what is given in place of what is drawn.")
+           "model"_a = py::none(), "task"_a = py::none(),
+           "Begins its next episode, with what is given in place of what is drawn.")
       .def("step", &step, "actions"_a,
            "Plays a period. actions: shares of the tips' accelerations, shape (count, 6).")
       .def("pose", &pose, "environment"_a, "State of the diabolo, left tip and right tip.")
@@ -320,22 +392,25 @@ nothing is seen; least_delay to most_delay [frames]: each episode draws one.)")
       R"(An agent: a network that sees observations and gives actions, and what it was trained for.
 
 task: its name; period [s] between its actions; steps of the simulation in a period; layers: (weights, bias) of each,
-weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1.)")
-      .def(py::init(&make_agent), "task"_a, "period"_a, "steps"_a, "layers"_a)
+weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1. corrects: whether
+they are added to a plan's motion.)")
+      .def(py::init(&make_agent), "task"_a, "period"_a, "steps"_a, "layers"_a, "corrects"_a = false)
       .def_static("load", &load_agent, "path"_a, Unlocked(), "Reads a file of the schema diabolo.agent/1.")
       .def("to_json", &write_agent, "decimals"_a = py::none(),
            "The text of its file; with its numbers rounded to so many decimals (1 to 6) it is a third as "
            "large.")
       .def("act", &act, "observations"_a,
            "Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each.")
-      .def_readonly("task", &Agent::task)
+      .def_readonly("tasks", &Agent::tasks)
       .def_readonly("period", &Agent::period)
       .def_readonly("steps", &Agent::steps)
+      .def_readonly("corrects", &Agent::corrects)
       .def_property_readonly("layers", &layers_of)
       .def("__repr__",
            [](const Agent& agent) {
-             std::string text = "Agent(" + agent.task + ", every " + shown(agent.period) +
-                                " s: " + std::to_string(agent.policy.inputs());
+             std::string text = "Agent(";
+             for (const std::string& task : agent.tasks) text.append(task).append(", ");
+             text += "every " + shown(agent.period) + " s: " + std::to_string(agent.policy.inputs());
              for (const Layer& layer : agent.policy.layers())
                text.append("-").append(std::to_string(layer.bias.size()));
              return text + ")";
@@ -347,11 +422,13 @@ weights of the shape (outputs, inputs), with tanh between them. Outputs are cut 
                         R"(An agent at the sticks of a robot or of somebody else's simulator.
 
 left and right [m]: where the tips are at first, at rest; goal: as many numbers as the task has; string_length [m];
-gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed. Raises
-ValueError where the tips are not within the limits.)")
+gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed; task: one of the
+agent's, where it knows several; plan: that it corrects, which begins with these tips. Raises ValueError where the
+tips are not within the limits.)")
       .def(py::init(&make_live), "agent"_a, "left"_a, "right"_a, "goal"_a = std::vector<double>(),
            py::arg_v("limits", usual, "HandLimits()"), "string_length"_a = live.string_length,
-           "gravity"_a = live.gravity, "camera"_a = py::none(), "seed"_a = 0)
+           "gravity"_a = live.gravity, "camera"_a = py::none(), "seed"_a = 0, "task"_a = "",
+           "plan"_a = py::none())
       .def_property_readonly("agent", &LiveAgent::agent)
       .def(
           "act",
@@ -365,9 +442,10 @@ ValueError where the tips are not within the limits.)")
           "Until then their accelerations are constant.");
   module.def("task_infos", &task_infos,
              "What can be played: name, meaning, reward, seconds, goal and first spin of each.");
-  module.def(
-      "observation_infos", &observation_infos, "task"_a = py::none(),
-      "What an agent sees: name, unit, size and meaning. Of a task, with what it adds to the usual ones.");
+  module.def("observation_infos", &observation_infos, "task"_a = std::vector<std::string>(),
+             "corrects"_a = false,
+             "What an agent of these tasks sees: name, unit, size and meaning. Last what one that corrects "
+             "plans does.");
 }
 
 }  // namespace diabolo::python

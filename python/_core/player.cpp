@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "diabolo/learn/taught_starts.hpp"
+#include "diabolo/learn/planned_starts.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/plan/success_rate.hpp"
 #include "diabolo/robot/motion/plan_limits.hpp"
@@ -206,16 +206,27 @@ PlannedPlay make_action(const std::string& action, const std::vector<Model>& mod
   return planned;
 }
 
+/// With a period of the agent [s], starts with the plans; without, moments along them.
 std::vector<EpisodeStart> make_taught_starts(const std::string& task, const std::vector<Model>& models,
-                                             int plays, std::uint64_t seed, const HandLimits& limits) {
+                                             int plays, std::uint64_t seed, const HandLimits& limits,
+                                             std::optional<double> period) {
   const std::vector<Simulator> by = simulators(models);
   LessonOptions options{.plays = plays, .seed = seed, .limits = limits};
+  if (period) ArenaOptions{.period = *period}.validate();
   std::vector<EpisodeStart> starts;
   run_interruptibly([&](const std::atomic<bool>& cancel) {
     options.cancelled = [&cancel] { return cancel.load(); };
-    starts = taught_starts(task, by, options);
+    starts = period ? planned_starts(task, by, options, *period) : taught_starts(task, by, options);
   });
   return starts;
+}
+
+HandPlan make_hand_plan(const PlannedPlay& planned, double string_length, const HandLimits& limits,
+                        double period) {
+  limits.validate();
+  ArenaOptions{.period = period}.validate();
+  expect_positive("string_length", string_length, kFarthest);
+  return planned_hands(planned, shift_to(limits.centre, planned), limits, string_length, period);
 }
 
 py::list lessons() {
@@ -486,7 +497,9 @@ void bind_played(py::module_& module) {
              "pace"_a, "height"_a, "sideways"_a, "spin_gain"_a, "limits"_a, "solver"_a, "seconds"_a,
              "random_seed"_a, "dt"_a, "sticks"_a, "See diabolo.plan_action.");
   module.def("taught_starts", &make_taught_starts, "task"_a, "models"_a, "plays"_a, "seed"_a, "limits"_a,
-             "See diabolo.envs.taught_starts.");
+             "period"_a = py::none(), "See diabolo.envs.taught_starts and diabolo.envs.planned_starts.");
+  module.def("hand_plan", &make_hand_plan, "planned"_a, "string_length"_a, "limits"_a, "period"_a,
+             "See diabolo.envs.hand_plan.");
   module.def("lessons", &lessons, "Tasks that the player teaches.");
   module.def(
       "success_rate",

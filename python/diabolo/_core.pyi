@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'Unbalance', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_orientation', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HandPlan', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'Unbalance', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hand_plan', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_orientation', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
   """Name, unit and range of a numeric parameter."""
   @property
@@ -1967,19 +1967,28 @@ class Camera:
   def noise(self) -> float: ...
   @property
   def spin_noise(self) -> float: ...
+class HandPlan:
+  """A planned play for an agent's hands to play and to correct, a period [s] at a time. left and right [m]: the tips at first."""
+  def __len__(self) -> int: ...
+  @property
+  def left(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
+  @property
+  def period(self) -> float: ...
+  @property
+  def right(self) -> typing.Annotated[_Array, "[3, 1]"]: ...
 class EpisodeStart:
   """What an episode may begin with in place of a hanging diabolo, as in the middle of somebody's play: the diabolo's state, the tips' places [m] and velocities [m/s], the goal (None: it is drawn), the stage of a task that has several, and how many flights were caught."""
-  def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[_Real] | None = None, stage: _Whole = 0, flights: _Whole = 0) -> None: ...
+  def __init__(self, state: State, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], left_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., right_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., goal: collections.abc.Sequence[_Real] | None = None, stage: _Whole = 0, flights: _Whole = 0, task: str = '', plan: HandPlan | None = None) -> None: ...
 class Arena:
   """Environments side by side, in the compiled core: what diabolo.envs is made of. Its arrays are its own memory, which each step overwrites."""
-  def __init__(self, task: str, models: collections.abc.Sequence[Model], count: _Whole = 1, period: _Real = 0.01, steps: _Whole = 10, autoreset: str = 'next_step', threads: _Whole = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: _Real = 0.0, free_axis: bool = False) -> None: ...
+  def __init__(self, task: str | collections.abc.Sequence[str], models: collections.abc.Sequence[Model], count: _Whole = 1, period: _Real = 0.01, steps: _Whole = 10, autoreset: str = 'next_step', threads: _Whole = 1, limits: HandLimits = ..., camera: Camera | None = None, starts: collections.abc.Sequence[EpisodeStart] = [], start_share: _Real = 0.0, free_axis: bool = False) -> None: ...
   def model_of(self, environment: _Whole) -> int:
     """Number of the model that it plays with."""
   def outcome(self, environment: _Whole) -> dict:
     """What its episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin and spin [rad/s], flights that ended in a catch, apex [m] of the last, level (how long the axle has been level by now [s], in a task that levels it), goal, model."""
   def pose(self, environment: _Whole) -> tuple:
     """State of the diabolo, left tip and right tip."""
-  def reset(self, environment: _Whole, state: State | None = None, goal: collections.abc.Sequence[_Real] | None = None, model: _Whole | None = None) -> None:
+  def reset(self, environment: _Whole, state: State | None = None, goal: collections.abc.Sequence[_Real] | None = None, model: _Whole | None = None, task: _Whole | None = None) -> None:
     """Begins its next episode, with what is given in place of what is drawn."""
   def seed(self, environment: _Whole, seed: _Whole) -> None:
     """Its episodes begin anew with this seed."""
@@ -2004,16 +2013,19 @@ class Agent:
   An agent: a network that sees observations and gives actions, and what it was trained for.
   
   task: its name; period [s] between its actions; steps of the simulation in a period; layers: (weights, bias) of each,
-  weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1.
+  weights of the shape (outputs, inputs), with tanh between them. Outputs are cut off at -1 and 1. corrects: whether
+  they are added to a plan's motion.
   """
   @staticmethod
   def load(path: os.PathLike | str | bytes) -> Agent:
     """Reads a file of the schema diabolo.agent/1."""
-  def __init__(self, task: str, period: _Real, steps: _Whole, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]]) -> None: ...
+  def __init__(self, task: str | collections.abc.Sequence[str], period: _Real, steps: _Whole, layers: collections.abc.Sequence[tuple[typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, n]"], typing.Annotated[numpy.typing.ArrayLike, numpy.float32, "[m, 1]"]]], corrects: bool = False) -> None: ...
   def act(self, observations: typing.Annotated[numpy.typing.ArrayLike, numpy.float32]) -> numpy.typing.NDArray[numpy.float32]:
     """Actions, shape (6,) or (n, 6), of observations, shape (k,) or (n, k), of k numbers each."""
   def to_json(self, decimals: _Whole | None = None) -> str:
     """The text of its file; with its numbers rounded to so many decimals (1 to 6) it is a third as large."""
+  @property
+  def corrects(self) -> bool: ...
   @property
   def layers(self) -> list: ...
   @property
@@ -2021,16 +2033,17 @@ class Agent:
   @property
   def steps(self) -> int: ...
   @property
-  def task(self) -> str: ...
+  def tasks(self) -> list[str]: ...
 class LiveAgent:
   """
   An agent at the sticks of a robot or of somebody else's simulator.
   
   left and right [m]: where the tips are at first, at rest; goal: as many numbers as the task has; string_length [m];
-  gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed. Raises
-  ValueError where the tips are not within the limits.
+  gravity [m/s^2]; camera: it sees what that makes of the states that it is shown, with noise of this seed; task: one of the
+  agent's, where it knows several; plan: that it corrects, which begins with these tips. Raises ValueError where the
+  tips are not within the limits.
   """
-  def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[_Real] = [], limits: HandLimits = ..., string_length: _Real = 1.45, gravity: _Real = 9.80665, camera: Camera | None = None, seed: _Whole = 0) -> None: ...
+  def __init__(self, agent: Agent, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], goal: collections.abc.Sequence[_Real] = [], limits: HandLimits = ..., string_length: _Real = 1.45, gravity: _Real = 9.80665, camera: Camera | None = None, seed: _Whole = 0, task: str = '', plan: HandPlan | None = None) -> None: ...
   def act(self, state: State) -> tuple[typing.Annotated[_Array, "[3, 1]"], typing.Annotated[_Array, "[3, 1]"], typing.Annotated[_Array, "[3, 1]"], typing.Annotated[_Array, "[3, 1]"]]:
     """Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant."""
   @property
@@ -2484,6 +2497,8 @@ def diagnosis_schema() -> str:
 def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: _Whole) -> ResidualFit: ...
 def foresee(model: Model, start: State, path: TipPath, dt: _Real = 0.001, flight: _Real = 0.0, down_to: _Real = ...) -> tuple:
   """What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`."""
+def hand_plan(planned: PlannedPlay, string_length: _Real, limits: HandLimits, period: _Real) -> HandPlan:
+  """See diabolo.envs.hand_plan."""
 def hang_at_rest(model: Model, left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], spin: _Real = 0.0, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ...) -> State:
   """See diabolo.hang_at_rest."""
 def hanging_state(left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], string_length: _Real, spin: _Real = 0.0) -> State:
@@ -2510,8 +2525,8 @@ def load_tip_plan(path: os.PathLike | str | bytes) -> TipMotion:
   """The TipMotion of a CSV with the columns time, left_x ... right_z [s, m], or a tidy recording's."""
 def model_for(model: Model, recording: Recording) -> Model:
   """See diabolo.model_for."""
-def observation_infos(task: str | None = None) -> list:
-  """What an agent sees: name, unit, size and meaning. Of a task, with what it adds to the usual ones."""
+def observation_infos(task: str | collections.abc.Sequence[str] = [], corrects: bool = False) -> list:
+  """What an agent of these tasks sees: name, unit, size and meaning. Last what one that corrects plans does."""
 def plan(models: collections.abc.Sequence[Model], starts: collections.abc.Sequence[State], seed: StickSpline, goals: Goals, limits: TipLimits, freedom: Freedom, solver: str, evaluations: _Whole, seconds: _Real, random_seed: _Whole, dt: _Real) -> Plan:
   """See diabolo.plan."""
 def plan_action(action: str, models: collections.abc.Sequence[Model], start: State | None, cycles: _Whole, spin: _Real, size: _Real, pace: _Real, height: _Real | None, sideways: _Real | None, spin_gain: _Real | None, limits: TipLimits, solver: str, seconds: _Real, random_seed: _Whole, dt: _Real, sticks: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]) -> PlannedPlay:
@@ -2552,8 +2567,8 @@ def success_rate(play: PlannedPlay, models: collections.abc.Sequence[Model]) -> 
   """See diabolo.success_rate."""
 def task_infos() -> list:
   """What can be played: name, meaning, reward, seconds, goal and first spin of each."""
-def taught_starts(task: str, models: collections.abc.Sequence[Model], plays: _Whole, seed: _Whole, limits: HandLimits) -> list[EpisodeStart]:
-  """See diabolo.envs.taught_starts."""
+def taught_starts(task: str, models: collections.abc.Sequence[Model], plays: _Whole, seed: _Whole, limits: HandLimits, period: _Real | None = None) -> list[EpisodeStart]:
+  """See diabolo.envs.taught_starts and diabolo.envs.planned_starts."""
 def trim_overlaps(recordings: collections.abc.Sequence[Recording]) -> tuple[list[Recording], list[str]]:
   """Recordings without the samples that they share with ones before, and what was trimmed."""
 def ur5e_inverse(flange: _Reals) -> _Array:

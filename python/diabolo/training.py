@@ -17,8 +17,8 @@ from stable_baselines3.common.callbacks import BaseCallback
 
 from ._core import Agent, EpisodeStart
 from .envs.sb3 import DiaboloVecEnv
-from .envs.spaces import AnyModels, limits_of, models_of
-from .envs.teaching import taught_starts
+from .envs.spaces import AnyModels, limits_of, models_of, tasks_of
+from .envs.teaching import TAUGHT, planned_starts, taught_starts
 
 PPO_OPTIONS: dict[str, Any] = {
     "n_steps": 64,
@@ -28,17 +28,17 @@ PPO_OPTIONS: dict[str, Any] = {
     "policy_kwargs": {"net_arch": [64, 64], "log_std_init": -0.5},
 }
 """Of PPO (Schulman et al., arXiv:1707.06347), for some hundred environments."""
-SURE = -1.5  # log of the spread of actions where a training begins with an agent, not with nothing
+SURE, CAREFUL = -1.5, -2.0  # logs of the spread of actions where a training begins with an agent, with plans
 LARGEST_WEIGHT = 1e3  # of a teacher
 RECENT = 200  # episodes that the progress looks at
 
 
 @dataclass(frozen=True)
 class Settings:
-    """What a training keeps to: the task, what is drawn, environments side by side, their period [s] and the
-    steps of the simulation in it, and what an agent sees (DiaboloEnv)."""
+    """What a training keeps to: the task or several, what is drawn, environments side by side, their period
+    [s] and the steps of the simulation in it, and what an agent sees (DiaboloEnv)."""
 
-    task: str
+    task: str | tuple[str, ...]
     seed: int = 0
     envs: int = 256
     period: float = 0.02
@@ -52,6 +52,10 @@ class Settings:
     """Of the hands: a player's, or "ur5e"."""
     teacher: str = ""
     """Digest of the agent that it begins with."""
+    corrects: bool = False
+    """Whether its actions are added to plans of the player's (envs.planned_starts)."""
+    planned_by: tuple[str, ...] = ()
+    """Digests of what plans are of, in place of what is played with."""
 
 
 @dataclass(frozen=True)
@@ -69,6 +73,7 @@ class Progress:
 class Trainer:
     """A learner on many environments. model: what is played with; of several, each episode draws one.
 
+    planner: models that the player plans on, where others than those that are played with.
     teacher: an agent whose network it begins with, trained for this task or for another one, on another
         diabolo or string.
     checkpoint, begun: a file of save(), and how far that was, to go on from.
@@ -80,6 +85,7 @@ class Trainer:
         settings: Settings,
         model: AnyModels = None,
         *,
+        planner: AnyModels = None,
         teacher: Agent | None = None,
         checkpoint: Path | None = None,
         begun: Progress | None = None,
@@ -93,22 +99,28 @@ class Trainer:
         self.settings, self.begun = settings, begun or Progress()
         models = models_of(model, settings.difficulty)
         limits = limits_of(settings.limits)
+        tasks = tasks_of(settings.task)
         starts: Sequence[EpisodeStart] = ()
-        if settings.taught:
-            starts = taught_starts(settings.task, models, seed=settings.seed, limits=limits)
+        if settings.corrects:
+            starts = planned_starts(
+                tasks, planner or models, seed=settings.seed, limits=limits, period=settings.period
+            )
+        elif settings.taught:
+            known = [task for task in tasks if task in TAUGHT]
+            starts = taught_starts(known, models, seed=settings.seed, limits=limits)
         env = DiaboloVecEnv(
             settings.envs,
-            settings.task,
+            tasks,
             model,
             period=settings.period,
             steps=settings.steps,
             limits=limits,
             difficulty=settings.difficulty,
             starts=starts,
-            start_share=settings.taught,
+            start_share=1.0 if settings.corrects else settings.taught,
         )
         if checkpoint is None:
-            self.learner = _new_learner(env, settings.seed, teacher)
+            self.learner = _new_learner(env, settings, teacher)
         else:
             self.learner = _loaded(checkpoint, env)
             env.seed(settings.seed + self.begun.steps)  # episodes that it has not seen
@@ -147,24 +159,35 @@ class Trainer:
     def agent(self) -> Agent:
         """The network that acts, by itself."""
         layers = [(one.weight.detach().numpy(), one.bias.detach().numpy()) for one in _acting(self.learner)]
-        return Agent(self.settings.task, self.settings.period, self.settings.steps, layers)
+        own = self.settings
+        return Agent(own.task, own.period, own.steps, layers, own.corrects)
 
 
-def _new_learner(env: DiaboloVecEnv, seed: int, teacher: Agent | None) -> PPO:
+def _new_learner(env: DiaboloVecEnv, settings: Settings, teacher: Agent | None) -> PPO:
     """One that knows nothing, or what its teacher knows."""
-    if teacher is None:
-        return PPO("MlpPolicy", env, seed=seed, device="cpu", **PPO_OPTIONS)
+    network = dict(PPO_OPTIONS["policy_kwargs"])
+    if settings.corrects or teacher:
+        network["log_std_init"] = CAREFUL if settings.corrects else SURE
+    if teacher:
+        _check_teacher(teacher, env.observation_space.shape[0])
+        sizes = [len(bias) for _, bias in teacher.layers[:-1]]
+        network["net_arch"] = {"pi": sizes, "vf": network["net_arch"]}
+    options = PPO_OPTIONS | {"policy_kwargs": network}
+    learner = PPO("MlpPolicy", env, seed=settings.seed, device="cpu", **options)
+    if teacher:
+        with torch.no_grad():
+            for layer, (weights, bias) in zip(_acting(learner), teacher.layers, strict=True):
+                layer.weight.copy_(torch.from_numpy(weights))
+                layer.bias.copy_(torch.from_numpy(bias))
+    return learner
+
+
+def _check_teacher(teacher: Agent, seen: int) -> None:
+    """Raise ValueError about one whose network does not fit `seen` numbers, or is none of a trained agent."""
+    if (known := teacher.layers[0][0].shape[1]) != seen:
+        raise ValueError(f"teacher: sees {known} numbers; expected {seen}, as this training does")
     if max(np.abs(numbers).max() for layer in teacher.layers for numbers in layer) > LARGEST_WEIGHT:
         raise ValueError(f"teacher: weights beyond {LARGEST_WEIGHT:g}; expected those of a trained agent")
-    usual = PPO_OPTIONS["policy_kwargs"]
-    sizes = {"pi": [len(bias) for _, bias in teacher.layers[:-1]], "vf": usual["net_arch"]}
-    own = {"policy_kwargs": {"net_arch": sizes, "log_std_init": SURE}}
-    learner = PPO("MlpPolicy", env, seed=seed, device="cpu", **PPO_OPTIONS | own)
-    with torch.no_grad():
-        for layer, (weights, bias) in zip(_acting(learner), teacher.layers, strict=True):
-            layer.weight.copy_(torch.from_numpy(weights))
-            layer.bias.copy_(torch.from_numpy(bias))
-    return learner
 
 
 def _acting(learner: PPO) -> list[torch.nn.Linear]:

@@ -116,6 +116,45 @@ def test_a_training_may_begin_with_what_an_agent_knows(trained: Path, tmp_path: 
     diabolo(*again, "--teacher", teacher)
 
 
+def test_an_agent_learns_to_correct_plans(tmp_path: Path) -> None:
+    from diabolo.envs import Agent, play
+
+    folder = tmp_path / "correction"
+    train = ("train", "ThrowAndCatch", "--corrects", "--out", folder, "--seed", 5)
+    diabolo(*train, "--steps", 200_000)
+    agent = Agent.load(folder / "agent.json")
+    assert agent.corrects
+    still = [(np.zeros((6, agent.layers[0][0].shape[1])), np.zeros(6))]
+    none = Agent(agent.tasks, agent.period, agent.steps, still, corrects=True)
+    worth, before = (np.mean(play(one, 200, seed=1000)["worth"]) for one in (agent, none))
+    assert worth > before + 0.05
+    again = ("train", "ThrowAndCatch", "--out", folder, "--seed", 5, "--steps", 4096, "--resume")
+    assert "at first" in diabolo(*again, status=2).stderr
+    teacher = tmp_path / "shipped.json"
+    teacher.write_text(shipped("SpinUp"))
+    other = ("train", "Throw", "--corrects", "--out", tmp_path / "other", "--teacher", teacher)
+    assert "teacher: sees 32 numbers; expected 57" in diabolo(*other, status=2).stderr
+    assert not (tmp_path / "other").exists()
+
+
+def shipped(task: str) -> str:
+    from diabolo.envs import shipped_agent
+
+    return shipped_agent(task).to_json()
+
+
+def test_an_agent_learns_several_tasks_at_once(tmp_path: Path) -> None:
+    folder = tmp_path / "both"
+    diabolo("train", "SpinUp", "ThrowAndCatch", "--out", folder, "--envs", 32, "--steps", 8192)
+    kept = json.loads((folder / "training.json").read_text())
+    assert kept["settings"]["task"] == ["SpinUp", "ThrowAndCatch"] and kept["settings"]["taught"] == 0.7
+    assert json.loads((folder / "agent.json").read_text())["task"] == ["SpinUp", "ThrowAndCatch"]
+    again = ("train", "ThrowAndCatch", "--out", folder, "--envs", 32, "--steps", 4096, "--resume")
+    assert "task ['SpinUp', 'ThrowAndCatch'] at first" in diabolo(*again, status=2).stderr
+    diabolo("train", "SpinUp", *again[1:])
+    assert steps_kept(folder) > kept["progress"]["steps"]
+
+
 def test_many_environments_are_what_stable_baselines_expects() -> None:
     from diabolo.envs import DiaboloEnv
     from diabolo.envs.sb3 import DiaboloVecEnv
@@ -148,6 +187,11 @@ def test_many_environments_are_what_stable_baselines_expects() -> None:
     ("arguments", "complaint"),
     [
         ("Fly --out d", "TASK 'Fly'; expected one of Hold, Swing"),
+        ("Hold Hold --out d", "TASK Hold Hold; expected each once"),
+        ("Hold --corrects --out d", "--corrects: the player does not know Hold; expected Hop, Throw"),
+        ("Hop --planned-by paper --out d", "--planned-by: given without --corrects; expected both"),
+        ("Hop --corrects --taught 0.5 --out d", "--taught 0.5: beside --corrects"),
+        ("Hold Swing --taught 0.5 --out d", "--taught 0.5: the player does not teach Hold Swing"),
         ("Hold --out d --seconds 1 --steps 1", "--seconds, --steps: both are given"),
         ("Hold --out d --teacher=", "--teacher '': expected the name of a file"),
         ("Hold --out d --seconds 0", "--seconds 0.0; expected 0.001 to 10000000.0"),

@@ -14,7 +14,9 @@ Agent drawn_agent() {
   Random random(2408);
   constexpr Eigen::Index kSeen = static_cast<Eigen::Index>(kObservationSize);
   const auto drawn = [&] { return static_cast<float>(random.uniform(-0.5, 0.5)); };
-  return {"SpinUp", 0.02, 20,
+  return {{"SpinUp"},
+          0.02,
+          20,
           Policy({{Eigen::MatrixXf::NullaryExpr(6, kSeen, drawn), Eigen::VectorXf::NullaryExpr(6, drawn)}})};
 }
 
@@ -31,12 +33,35 @@ std::string agent_complaint(const std::string& what, const std::string& by) {
 
 TEST_CASE("an agent reads back as it was written, bit for bit") {
   const Agent agent = drawn_agent(), again = read_agent(write_agent(agent), "a.json");
-  CHECK(again.task == agent.task);
+  CHECK(again.tasks == agent.tasks);
   CHECK(again.period == agent.period);
   CHECK(again.steps == agent.steps);
   CHECK(again.policy.layers()[0].weights == agent.policy.layers()[0].weights);
   CHECK(again.policy.layers()[0].bias == agent.policy.layers()[0].bias);
   CHECK(write_agent(again) == write_agent(agent));
+}
+
+TEST_CASE("an agent of several tasks that corrects plans reads back as well") {
+  Agent agent = drawn_agent();
+  agent.tasks = {"Hop", "Throw"};
+  agent.corrects = true;
+  const std::size_t seen = observation_size(seen_too(agent.tasks, true));
+  CHECK(seen == kObservationSize + 2 + kPlanSize);
+  agent.policy =
+      Policy({{Eigen::MatrixXf::Ones(6, static_cast<Eigen::Index>(seen)), Eigen::VectorXf::Zero(6)}}, seen);
+  const std::string text = write_agent(agent);
+  const Agent again = read_agent(text, "a.json");
+  CHECK(again.tasks == agent.tasks);
+  CHECK(again.corrects);
+  const auto told = [&](const std::string& what, const std::string& by) {
+    std::string other = text;
+    return complaint([&] { read_agent(other.replace(other.find(what), what.size(), by), "a.json"); });
+  };
+  CHECK(told("true", "1") == "a.json: field \"corrects\" is 1; expected true");
+  CHECK(told(R"("Hop","Throw")", R"("Hop","Hop")") == "a.json: task: Hop twice; expected each once");
+  CHECK(told(R"("Hop","Throw")", "3").find("expected a name, or a list of names") != std::string::npos);
+  CHECK(told(R"("Hop","Throw")", R"("Hop")").find("expected " + std::to_string(seen - 2) + " inputs") !=
+        std::string::npos);
 }
 
 TEST_CASE("an agent of few decimals is nearly the same, in a smaller file") {

@@ -9,6 +9,7 @@
 #include "random.hpp"
 
 using namespace diabolo;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -39,7 +40,7 @@ TEST_CASE("an environment plays the same bits alone and among others, with any n
   slow.effects.get<StringFriction>().coefficient = 0.1;
   for (const Task& task : kTasks) {
     const std::string name(task.info->name);
-    ArenaOptions options{.task = name, .count = 7, .autoreset = Autoreset::kSameStep, .threads = 3};
+    ArenaOptions options{.tasks = {name}, .count = 7, .autoreset = Autoreset::kSameStep, .threads = 3};
     Arena many = arena(options, {fast, slow});
     options.count = 1;
     options.threads = 1;
@@ -63,8 +64,90 @@ TEST_CASE("an environment plays the same bits alone and among others, with any n
   }
 }
 
+TEST_CASE("in a mixed arena each task is drawn, is seen, and plays as it does alone") {
+  const std::vector<std::string> tasks{"SpinUp", "ThrowAndCatch", "Level"};
+  Arena mixed = arena({.tasks = tasks, .count = 600});
+  constexpr std::size_t kSeen = kObservationSize + kAxleSize + 3;
+  REQUIRE(mixed.observations.size() == 600 * kSeen);
+  std::array<int, 3> drawn{};
+  Random random(2413);
+  for (std::size_t i = 0; i < mixed.count(); ++i) {
+    mixed.reset(i);
+    const std::size_t task = mixed.episode(i).task;
+    ++drawn[task];
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(mixed.observations[kSeen * i + kSeen - 3 + k] == (k == task ? 1.0F : 0.0F));
+    CHECK(mixed.task(i).name == tasks[task]);
+  }
+  // Tasks of 10, 4 and 8 s: each is played for as long.
+  for (const auto& [task, seconds] : {std::pair(0, 10.0), {1, 4.0}, {2, 8.0}})
+    CHECK(drawn[static_cast<std::size_t>(task)] ==
+          Approx(600.0 / seconds / (1.0 / 10.0 + 1.0 / 4.0 + 1.0 / 8.0)).margin(50.0));  // four deviations
+}
+
+TEST_CASE("a task of a mixed arena is worth what it is alone") {
+  EpisodeStart start;  // a little above where it would hang
+  start.state.position = HandLimits{}.centre - Vector3<double>(0.0, 0.0, 0.5);
+  start.state.spin = 80.0;
+  start.hands.position = {HandLimits{}.centre + Vector3<double>(0.0, 0.3, 0.0),
+                          HandLimits{}.centre - Vector3<double>(0.0, 0.3, 0.0)};
+  start.goal = Goal{0.5, 0.1};
+  const std::vector<std::string> tasks{"SpinUp", "ThrowAndCatch", "Level"};
+  Arena mixed = arena({.tasks = tasks, .starts = {start}, .start_share = 1.0});
+  for (std::size_t task = 0; task < 2; ++task) {
+    Arena alone = arena({.tasks = {tasks[task]}, .starts = {start}, .start_share = 1.0});
+    mixed.reset(0, {.task = task});
+    alone.reset(0);
+    Random random(2415);
+    for (int k = 0; k < 60; ++k) {
+      const std::vector<float> actions = random_actions(random, 1);
+      mixed.step(actions.data());
+      alone.step(actions.data());
+      REQUIRE(mixed.rewards[0] == alone.rewards[0]);
+      REQUIRE(std::equal(alone.observations.begin(), alone.observations.end(), mixed.observations.begin()));
+    }
+    CHECK(mixed.episode(0).worth != 0.0);
+  }
+}
+
+TEST_CASE("a mixed arena plays the same bits alone and among others, with any number of threads") {
+  ArenaOptions options{
+      .tasks = {"Level", "SpinUp", "Pass"}, .count = 9, .autoreset = Autoreset::kSameStep, .threads = 3};
+  Arena many = arena(options);
+  options.count = options.threads = 1;
+  for (std::size_t watched = 0; watched < many.count(); watched += 4) {
+    Arena one = arena(options);
+    for (std::size_t i = 0; i < many.count(); ++i) many.seed(i, 100 + i), many.reset(i);
+    one.seed(0, 100 + watched);
+    one.reset(0);
+    Random random(2414);
+    for (int k = 0; k < 600; ++k) {
+      const std::vector<float> actions = random_actions(random, many.count());
+      many.step(actions.data());
+      one.step(actions.data() + 6 * watched);
+      REQUIRE(many.rewards[watched] == one.rewards[0]);
+      REQUIRE(std::equal(
+          one.observations.begin(), one.observations.end(),
+          many.observations.begin() + static_cast<std::ptrdiff_t>(one.observations.size() * watched)));
+    }
+  }
+}
+
+TEST_CASE("starts are for episodes of their task") {
+  EpisodeStart start;
+  start.state.spin = 5.0;
+  start.hands.position = {HandLimits{}.centre + Vector3<double>(0.0, 0.3, 0.0),
+                          HandLimits{}.centre - Vector3<double>(0.0, 0.3, 0.0)};
+  start.task = "Hop";
+  Arena mixed = arena({.tasks = {"Hold", "Hop"}, .count = 50, .starts = {start}, .start_share = 1.0});
+  for (std::size_t i = 0; i < mixed.count(); ++i) {
+    mixed.reset(i);
+    CHECK((mixed.episode(i).state.spin == 5.0) == (mixed.task(i).name == "Hop"));
+  }
+}
+
 TEST_CASE("a step takes no memory") {
-  Arena many = arena({.task = "ThrowAndCatch", .count = 5, .autoreset = Autoreset::kSameStep});
+  Arena many = arena({.tasks = {"ThrowAndCatch"}, .count = 5, .autoreset = Autoreset::kSameStep});
   for (std::size_t i = 0; i < many.count(); ++i) many.reset(i);
   Random random(2404);
   const std::vector<float> actions = random_actions(random, many.count());
@@ -75,7 +158,7 @@ TEST_CASE("a step takes no memory") {
 }
 
 TEST_CASE("a diabolo that nobody moves hangs where it was, and is worth the most where it is wanted") {
-  Arena one = arena({.task = "Hold"});
+  Arena one = arena({.tasks = {"Hold"}});
   one.reset(0, {.goal = Goal{0.0, 0.0}});
   const std::vector<float> still(6, 0.0F);
   const Vector3<double> begin = one.episode(0).state.position;
@@ -115,7 +198,7 @@ TEST_CASE("the next step resets, or the same one, or nobody but the owner") {
 }
 
 TEST_CASE("a diabolo out of anybody's reach ends the episode and costs something") {
-  Arena one = arena({.task = "SpinUp"});
+  Arena one = arena({.tasks = {"SpinUp"}});
   State<double> lost;
   lost.string_state = StringState::kFlying;
   lost.position = one.limits().centre - Vector3<double>(0.0, 0.0, 1.4);
@@ -129,7 +212,7 @@ TEST_CASE("a diabolo out of anybody's reach ends the episode and costs something
 TEST_CASE("a diabolo thrown to its goal and caught is worth two, and more than one that is not") {
   // It falls from where a throw would have it, onto tips that go apart.
   const auto worth_of = [](double goal) {
-    Arena one = arena({.task = "ThrowAndCatch"});
+    Arena one = arena({.tasks = {"ThrowAndCatch"}});
     State<double> thrown;
     thrown.string_state = StringState::kFlying;
     thrown.position = one.limits().centre + Vector3<double>(0.0, 0.0, 0.1);
@@ -150,7 +233,7 @@ TEST_CASE("a diabolo thrown to its goal and caught is worth two, and more than o
 }
 
 TEST_CASE("rewards of a spin-up sum to what it gained") {
-  Arena one = arena({.task = "SpinUp"});
+  Arena one = arena({.tasks = {"SpinUp"}});
   one.reset(0);
   const double begin = one.episode(0).state.spin;
   double sum = 0.0;
@@ -168,7 +251,7 @@ TEST_CASE("rewards of a spin-up sum to what it gained") {
 }
 
 TEST_CASE("seeds decide episodes") {
-  Arena one = arena({.task = "ThrowAndCatch"});
+  Arena one = arena({.tasks = {"ThrowAndCatch"}});
   const auto drawn = [&](std::uint64_t seed) {
     one.seed(0, seed);
     one.reset(0);
@@ -184,7 +267,7 @@ TEST_CASE("seeds decide episodes") {
 TEST_CASE("an episode begins with what is given, and draws the rest") {
   Model longer = rubbing();
   longer.parameters.string_length = 1.6;
-  Arena one = arena({.task = "Hold"}, {rubbing(), longer});
+  Arena one = arena({.tasks = {"Hold"}}, {rubbing(), longer});
   const auto begun = [&](std::size_t model) {
     one.seed(0, 5);
     one.reset(0, {.goal = Goal{0.1, 0.2}, .model = model});
@@ -205,7 +288,7 @@ TEST_CASE("episodes begin with somebody's play where they are told to, as often 
                           HandLimits{}.centre - Vector3<double>(0.0, 0.6, 0.0)};
   start.hands.velocity[0].z() = 0.5;
   start.goal = Goal{0.44, 0.0};
-  Arena some = arena({.task = "ThrowAndCatch", .count = 1000, .starts = {start}, .start_share = 0.3});
+  Arena some = arena({.tasks = {"ThrowAndCatch"}, .count = 1000, .starts = {start}, .start_share = 0.3});
   std::size_t begun = 0;
   for (std::size_t i = 0; i < some.count(); ++i) {
     some.reset(i);
@@ -234,7 +317,7 @@ TEST_CASE("episodes begin with somebody's play where they are told to, as often 
 
 TEST_CASE("without noise a camera shows the diabolo as late as it says") {
   const Camera late{.noise = 0.0, .spin_noise = 0.0, .dropouts = 0.0, .least_delay = 3, .most_delay = 3};
-  Arena seen = arena({.task = "SpinUp", .camera = late}), exact = arena({.task = "SpinUp"});
+  Arena seen = arena({.tasks = {"SpinUp"}, .camera = late}), exact = arena({.tasks = {"SpinUp"}});
   seen.reset(0);
   exact.reset(0);
   Random random(2405);
@@ -258,7 +341,7 @@ TEST_CASE("without noise a camera shows the diabolo as late as it says") {
 
 TEST_CASE("a camera's noise and dropouts are as large as it says") {
   const Camera camera{.noise = 0.02, .spin_noise = 0.0, .dropouts = 0.25, .least_delay = 0, .most_delay = 0};
-  Arena one = arena({.task = "Hold", .camera = camera});
+  Arena one = arena({.tasks = {"Hold"}, .camera = camera});
   one.reset(0, {.goal = Goal{0.0, 0.0}});
   const std::vector<float> still(6, 0.0F);
   const double height = one.observations[2];
@@ -280,7 +363,7 @@ TEST_CASE("a hanging diabolo weighs on both tips, and friction on the one that i
   Model smooth = consistent_model();
   for (const Model& model : {smooth, rubbing()}) {
     const double friction = model.effects.get<StringFriction>().coefficient;
-    Arena one = arena({.task = "Hold"}, {model});
+    Arena one = arena({.tasks = {"Hold"}}, {model});
     one.reset(0);
     const Episode& episode = one.episode(0);
     const auto& [left, right] = tip_forces(episode.state, episode.hands, episode.pull);
@@ -292,6 +375,14 @@ TEST_CASE("a hanging diabolo weighs on both tips, and friction on the one that i
     const double ratio = std::exp(friction * turned);
     CHECK(std::abs(std::log(left.norm() / right.norm())) == Approx(std::log(ratio)).margin(0.05));
   }
+}
+
+TEST_CASE("tasks that are none, unknown, or there twice are refused") {
+  CHECK_THROWS_WITH(arena({.tasks = {}}), "task: none; expected at least one");
+  CHECK_THROWS_WITH(arena({.tasks = {"Hop", "Hop"}}), "task: Hop twice; expected each once");
+  CHECK_THROWS_WITH(arena({.tasks = {"Hop", "Fly"}}), Contains("task: found \"Fly\"; expected one of Hold"));
+  Arena one = arena({.tasks = {"Hop"}});
+  CHECK_THROWS_WITH(one.reset(0, {.task = 1}), "task: found 1; expected less than 1, the number of tasks");
 }
 
 TEST_CASE("what cannot be played is refused before anything moves") {
@@ -307,7 +398,7 @@ TEST_CASE("what cannot be played is refused before anything moves") {
   CHECK(one.episode(0).periods == 0);
   CHECK_THROWS_WITH(one.reset(0, {.goal = Goal{NAN, 0.0}}), "goal: not finite; expected numbers");
   CHECK_THROWS_WITH(one.reset(0, {.model = 1}), "model: found 1; expected less than 1, the number of models");
-  CHECK_THROWS_WITH(arena({.task = "Fly"}),
+  CHECK_THROWS_WITH(arena({.tasks = {"Fly"}}),
                     "task: found \"Fly\"; expected one of Hold, Swing, SpinUp, SpinUpCircle, Hop, Throw, "
                     "ThrowAndCatch, Pass, Routine, Level");
   CHECK_THROWS_WITH(arena({.count = 0}), "count: 0; expected at least one environment");

@@ -10,7 +10,7 @@ using namespace diabolo;
 namespace {
 
 Arena hopping(bool free_axis) {
-  return {{.task = "Hop", .free_axis = free_axis}, {consistent_model()}, portable_batch_kernel<2>()};
+  return {{.tasks = {"Hop"}, .free_axis = free_axis}, {consistent_model()}, portable_batch_kernel<2>()};
 }
 
 }  // namespace

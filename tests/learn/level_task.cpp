@@ -17,7 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 Arena levelling(double reach = HandLimits{}.half.x(), const std::optional<Camera>& camera = {}) {
   Model model = consistent_model();
   model.effects.get<StringFriction>().coefficient = 0.3;
-  ArenaOptions options{.task = "Level", .autoreset = Autoreset::kDisabled, .camera = camera};
+  ArenaOptions options{.tasks = {"Level"}, .autoreset = Autoreset::kDisabled, .camera = camera};
   options.limits.half.x() = reach;
   return {options, {model}, portable_batch_kernel<2>()};
 }

@@ -14,7 +14,7 @@ const std::vector<float> kStill(6, 0.0F), kApart{0.0F, 1.0F, 0.0F, 0.0F, -1.0F, 
 Arena arena(const std::string& task) {
   Model model = consistent_model();
   model.effects.get<StringFriction>().coefficient = 0.3;
-  return {{.task = task}, {model}, portable_batch_kernel<2>()};
+  return {{.tasks = {task}}, {model}, portable_batch_kernel<2>()};
 }
 
 /// The sum of rewards of an episode in which the same is done in each period.

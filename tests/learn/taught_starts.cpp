@@ -53,7 +53,7 @@ TEST_CASE("whoever begins in flight and keeps the hands where they are sees the 
   REQUIRE(!starts.empty());
   for (const EpisodeStart& start : starts) {
     const ArenaOptions options{
-        .task = "ThrowAndCatch", .autoreset = Autoreset::kDisabled, .starts = {start}, .start_share = 1.0};
+        .tasks = {"ThrowAndCatch"}, .autoreset = Autoreset::kDisabled, .starts = {start}, .start_share = 1.0};
     Arena arena(options, {consistent_model()}, best_batch_kernel());
     arena.reset(0);
     const std::vector<float> still(6, 0.0F);
@@ -76,7 +76,7 @@ TEST_CASE("starts of strings of several lengths are for all of them") {
     predictors.emplace_back(model.parameters, model.effects);
   }
   const std::vector<EpisodeStart> starts = taught_starts("ThrowAndCatch", predictors, {.plays = 4});
-  const ArenaOptions options{.task = "ThrowAndCatch", .starts = starts, .start_share = 1.0};
+  const ArenaOptions options{.tasks = {"ThrowAndCatch"}, .starts = starts, .start_share = 1.0};
   CHECK_NOTHROW(Arena(options, lent, best_batch_kernel()));
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("whoever begins in flight on its way to the right comes down at the go
   for (const EpisodeStart& start : starts) {
     CHECK((*start.goal)[0] < -0.5);
     const ArenaOptions options{
-        .task = "Pass", .autoreset = Autoreset::kDisabled, .starts = {start}, .start_share = 1.0};
+        .tasks = {"Pass"}, .autoreset = Autoreset::kDisabled, .starts = {start}, .start_share = 1.0};
     Arena arena(options, {consistent_model()}, best_batch_kernel());
     arena.reset(0);
     const std::vector<float> still(6, 0.0F);
@@ -102,7 +102,7 @@ TEST_CASE("a routine's lesson begins with the throw, with the spin of its goal, 
   const std::vector<EpisodeStart> starts = taught_starts("Routine", models(), {.plays = 3});
   CHECK(starts.front().state.spin == starts.front().goal->front());
   for (const EpisodeStart& start : starts) {
-    const ArenaOptions options{.task = "Routine", .starts = {start}, .start_share = 1.0};
+    const ArenaOptions options{.tasks = {"Routine"}, .starts = {start}, .start_share = 1.0};
     Arena arena(options, {consistent_model()}, best_batch_kernel());
     arena.reset(0);
     CHECK(arena.episode(0).memory.stage == 1);

@@ -64,13 +64,14 @@ inline double shortest(float number) {
 /// Reads the text of an agent's file:
 ///   {"schema": "diabolo.agent/1", "task": "SpinUp", "period": 0.02, "steps": 20,
 ///    "layers": [{"weights": [[...], ...], "bias": [...]}, ...]}
-/// With "unit": 0.001, weights and biases are multiples of that. Throws RecordingError with file, field, what
-/// was found and what was expected.
+/// Of several tasks, "task" is a list. With "corrects": true, it corrects plans. With "unit": 0.001, weights
+/// and biases are multiples of that. Throws RecordingError with file, field, what was found and what was
+/// expected.
 inline Agent read_agent(std::string_view text, const std::string& file_name) {
   const nlohmann::json json = parse_json(text, file_name);
   const JsonFields file(json, file_name);
   file.expect_text("schema", kAgentSchema);
-  file.expect_only({"schema", "task", "period", "steps", "unit", "layers"});
+  file.expect_only({"schema", "task", "period", "steps", "corrects", "unit", "layers"});
   const double unit = json.contains("unit") ? file.positive("unit") : 1.0;
   std::vector<Layer> layers;
   const nlohmann::json& list = file.list("layers");
@@ -80,11 +81,13 @@ inline Agent read_agent(std::string_view text, const std::string& file_name) {
   const double steps = file.positive("steps");
   if (!(steps <= 1000.0) || steps != std::floor(steps)) file.fail("steps", "a whole number up to 1000");
   try {
-    ArenaOptions options{.task = file.text("task"), .period = file.positive("period")};
+    ArenaOptions options{.tasks = file.names("task"), .period = file.positive("period")};
     options.steps = static_cast<int>(steps);
     options.validate();
-    const TaskInfo& task = *task_named(options.task).info;
-    return {options.task, options.period, options.steps, Policy(std::move(layers), observation_size(task))};
+    const bool corrects = json.contains("corrects");
+    if (corrects && json["corrects"] != true) file.fail("corrects", "true");
+    return {options.tasks, options.period, options.steps,
+            Policy(std::move(layers), observation_size(seen_too(options.tasks, corrects))), corrects};
   } catch (const RecordingError&) {
     throw;
   } catch (const std::invalid_argument& error) {
@@ -120,8 +123,11 @@ inline std::string write_agent(const Agent& agent, std::optional<int> decimals =
     for (const auto& row : layer.weights.rowwise()) rows.push_back(numbers(row));
     layers.push_back({{"weights", std::move(rows)}, {"bias", numbers(layer.bias)}});
   }
-  nlohmann::ordered_json file{
-      {"schema", kAgentSchema}, {"task", agent.task}, {"period", agent.period}, {"steps", agent.steps}};
+  nlohmann::ordered_json file{{"schema", kAgentSchema}, {"task", agent.tasks}};
+  if (agent.tasks.size() == 1) file["task"] = agent.tasks.front();
+  file["period"] = agent.period;
+  file["steps"] = agent.steps;
+  if (agent.corrects) file["corrects"] = true;
   if (decimals) file["unit"] = 1.0 / per;
   file["layers"] = std::move(layers);
   return file.dump() + "\n";

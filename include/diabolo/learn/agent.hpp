@@ -2,13 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "diabolo/learn/episode.hpp"
+#include "diabolo/learn/observe.hpp"
 
 namespace diabolo {
 
@@ -70,10 +71,22 @@ class Policy {
 
 /// A policy, and what it was trained for.
 struct Agent {
-  std::string task;
-  double period;  ///< between actions [s]
-  int steps;      ///< of the simulation in a period
+  std::vector<std::string> tasks;  ///< which one is played, it sees where there are several
+  double period;                   ///< between actions [s]
+  int steps;                       ///< of the simulation in a period
   Policy policy;
+  bool corrects = false;  ///< plans: its actions are added to theirs
 };
+
+/// The number of one of its tasks; of its only one, where no name is given. Throws std::invalid_argument
+/// where it does not know it, or no name is given of several.
+inline std::size_t task_number(const Agent& agent, const std::string& name) {
+  if (name.empty() && agent.tasks.size() == 1) return 0;
+  const auto found = std::ranges::find(agent.tasks, name);
+  if (found != agent.tasks.end()) return static_cast<std::size_t>(found - agent.tasks.begin());
+  std::string known;
+  for (const std::string& task : agent.tasks) known += (known.empty() ? "" : ", ") + task;
+  throw std::invalid_argument("task: found " + shown(name) + "; expected one that the agent knows, " + known);
+}
 
 }  // namespace diabolo

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "diabolo/learn/flight_tasks.hpp"
 #include "diabolo/learn/level_task.hpp"
@@ -53,6 +54,18 @@ inline const Task& task_named(std::string_view name) {
     known += (known.empty() ? "" : ", ") + std::string(task.info->name);
   }
   throw std::invalid_argument("task: found " + shown(name) + "; expected one of " + known);
+}
+
+/// The number of one of these tasks, drawn so that each is played for about as long. Of one, nothing is
+/// drawn.
+inline std::size_t drawn_task(const std::vector<const Task*>& tasks, Draw& draw) {
+  if (tasks.size() == 1) return 0;
+  double sum = 0.0;
+  for (const Task* task : tasks) sum += 1.0 / task->info->seconds;
+  double left = draw.uniform(0.0, sum);
+  for (std::size_t number = 0; number + 1 < tasks.size(); ++number)
+    if (left -= 1.0 / tasks[number]->info->seconds; left < 0.0) return number;
+  return tasks.size() - 1;
 }
 
 }  // namespace diabolo

@@ -24,25 +24,27 @@ namespace diabolo {
 /// same bits alone and among others, with any number of threads. A step takes no memory.
 class Arena {
  public:
-  // One entry (observations: observation_size(task())) for each environment, written by reset() and step().
+  // One entry (observations: observation_size(seen_too())) for each environment, written by reset() and
+  // step().
   std::vector<float> observations, final_observations;
   std::vector<double> rewards;
   std::vector<std::uint8_t> terminated, truncated;
 
   /// Each episode draws its model from `models`, which have the same rules. Throws std::invalid_argument.
   Arena(const ArenaOptions& options, std::vector<Model> models, const BatchKernel& kernel)
-      : observations(options.count * observation_size(*task_named(options.task).info)),
+      : observations(options.count * observation_size(diabolo::seen_too(options.tasks, options.corrects()))),
         final_observations(observations),
         rewards(options.count),
         terminated(options.count),
         truncated(options.count),
         options_(options),
-        task_(task_named(options.task)),
+        seen_too_(diabolo::seen_too(options.tasks, options.corrects())),
         models_(std::move(models)),
         kernel_(kernel),
         workers_(options.threads),
         episodes_((options.validate(), options.count)),
-        free_(free_axis() ? options.count : 0) {
+        free_(options.free_axis || seen_too_.axle ? options.count : 0) {
+    for (const std::string& name : options.tasks) tasks_.push_back(&task_named(name));
     if (models_.empty()) throw std::invalid_argument("models: none; expected at least one");
     for (const Model& model : models_) {
       if (!model.parameters.same_rules(models_.front().parameters) ||
@@ -54,21 +56,27 @@ class Arena {
         throw std::invalid_argument("limits, gap: " + shown(limits().gap) + " m; expected less than " +
                                     shown(longest) + " m, as for the string");
       const FullPredictor<double> predictor(model.parameters, model.effects);
-      hanging_.push_back(hang_at_rest(predictor, home(model), 0.5 * (task().least_spin + task().most_spin)));
+      for (const Task* task : tasks_)
+        hanging_.push_back(
+            hang_at_rest(predictor, home(model), 0.5 * (task->info->least_spin + task->info->most_spin)));
     }
     for (std::size_t i = 0; i < options.starts.size(); ++i) expect_held(options.starts[i], i);
+    for (const std::string& task : options.tasks) {
+      std::vector<const EpisodeStart*>& known = starts_of_.emplace_back();
+      for (const EpisodeStart& start : options_.starts)
+        if (start.is_of(task)) known.push_back(&start);
+    }
     for (std::size_t i = 0; i < episodes_.size(); ++i) episodes_[i].seed = i;
   }
 
   const ArenaOptions& options() const { return options_; }
   const HandLimits& limits() const { return options_.limits; }
-  const TaskInfo& task() const { return *task_.info; }
+  const SeenToo& seen_too() const { return seen_too_; }
   std::size_t count() const { return episodes_.size(); }
-  /// Whether each episode draws a free axle.
-  bool free_axis() const { return options_.free_axis || task().axle; }
-  /// What environment `i` plays with.
+  /// What environment `i` plays, and with what.
+  const TaskInfo& task(std::size_t i) const { return *tasks_[episodes_.at(i).task]->info; }
   const AllEffects<double>& effects_of(std::size_t i) const {
-    return free_axis() ? free_.at(i) : models_[episodes_.at(i).model].effects;
+    return free_axis(i) ? free_.at(i) : models_[episodes_.at(i).model].effects;
   }
   const Episode& episode(std::size_t i) const { return episodes_.at(i); }
 
@@ -79,17 +87,22 @@ class Arena {
   }
 
   /// Begins the next episode of environment `i`, with what `given` has in place of what is drawn. Throws
-  /// std::invalid_argument where a number of it is not finite, or there is no such model.
+  /// std::invalid_argument where a number of it is not finite, or there is no such model or task.
   void reset(std::size_t i, const Given& given = {}) {
     Episode& episode = episodes_.at(i);
-    if (given.model && *given.model >= models_.size())
-      throw std::invalid_argument("model: found " + std::to_string(*given.model) + "; expected less than " +
-                                  std::to_string(models_.size()) + ", the number of models");
+    const auto expect_known = [](const std::string& what, std::optional<std::size_t> number,
+                                 std::size_t count) {
+      if (number && *number >= count)
+        throw std::invalid_argument(what + ": found " + std::to_string(*number) + "; expected less than " +
+                                    std::to_string(count) + ", the number of " + what + "s");
+    };
+    expect_known("model", given.model, models_.size());
+    expect_known("task", given.task, tasks_.size());
     for (const double number : given.goal.value_or(Goal{}))
       if (!std::isfinite(number)) throw std::invalid_argument("goal: not finite; expected numbers");
     if (given.state && !is_finite(*given.state))
       throw std::invalid_argument("state: not finite; expected numbers");
-    begin(i, given.model);
+    begin(i, given.model, given.task);
     if (given.goal) episode.goal = *given.goal;
     if (given.state) set_state(episode, *given.state);
     observe_into(observations, i);
@@ -134,38 +147,47 @@ class Arena {
                                   " m apart; expected at most " + shown(longest) + " m, as for the string");
   }
 
-  void begin(std::size_t i, const std::optional<std::size_t>& model = {}) {
+  /// Whether environment `i` has a free axle in this episode.
+  bool free_axis(std::size_t i) const { return options_.free_axis || task(i).axle; }
+
+  void begin(std::size_t i, const std::optional<std::size_t>& model = {},
+             const std::optional<std::size_t>& task_number = {}) {
     Episode& episode = episodes_[i];
     Draw draw(episode.seed, episode.number);
     const std::uint64_t seed = episode.seed, number = episode.number + 1;
     episode = {};
     episode.seed = seed;
     episode.number = number;
-    const std::size_t drawn = draw.index(models_.size());
+    const std::size_t drawn_number = drawn_task(tasks_, draw), drawn = draw.index(models_.size());
+    episode.task = task_number.value_or(drawn_number);
+    const Task& task = *tasks_[episode.task];
+    const TaskInfo& info = *task.info;
     episode.model = model.value_or(drawn);
     const Vector3<double>& half = limits().half;
     const Vector3<double> shift(0.0, draw.uniform(-0.2, 0.2) * half.y(), draw.uniform(-0.3, 0.3) * half.z());
     const TipColumn<double> tips = home(models_[episode.model]);
     episode.hands.position = {tips.head<3>() + shift, tips.tail<3>() + shift};
-    episode.state = hanging_[episode.model];
+    episode.state = hanging_[episode.model * tasks_.size() + episode.task];
     episode.state.position += shift;
-    episode.state.spin = draw.uniform(task().least_spin, task().most_spin);
+    episode.state.spin = draw.uniform(info.least_spin, info.most_spin);
     episode.rest = episode.state.position;
     for (std::size_t k = 0; k < kMostGoalNumbers; ++k)
-      episode.goal[k] = draw.uniform(task().goal[k].low, task().goal[k].high);
+      episode.goal[k] = draw.uniform(info.goal[k].low, info.goal[k].high);
     State<double> state = episode.state;
     Beginning beginning{state, limits().centre, models_[episode.model].parameters.gravity, draw};
-    if (task_.prepare) task_.prepare(beginning);
-    if (options_.start_share > 0.0 && draw.uniform(0.0, 1.0) < options_.start_share) {
-      const EpisodeStart& start = options_.starts[draw.index(options_.starts.size())];
+    if (task.prepare) task.prepare(beginning);
+    const std::vector<const EpisodeStart*>& starts = starts_of_[episode.task];
+    if (!starts.empty() && options_.start_share > 0.0 && draw.uniform(0.0, 1.0) < options_.start_share) {
+      const EpisodeStart& start = *starts[draw.index(starts.size())];
       state = start.state;
       episode.hands = start.hands;
       episode.rest = state.position;
       if (start.goal) episode.goal = *start.goal;
       episode.memory.stage = start.stage;
       episode.memory.flights = start.flights;
+      episode.plan = start.plan;
     }
-    if (free_axis()) {
+    if (free_axis(i)) {
       free_[i] = models_[episode.model].effects;
       draw_free_axle(free_[i], draw);
     }
@@ -183,8 +205,8 @@ class Arena {
 
   void observe_into(std::vector<float>& to, std::size_t i) {
     const Episode& episode = episodes_[i];
-    observe(episode, task(), limits().centre, options_.camera.has_value(),
-            to.data() + observation_size(task()) * i);
+    observe(episode, task(i), seen_too_, limits().centre, options_.camera.has_value(),
+            to.data() + observation_size(seen_too_) * i);
   }
 
   /// Environments [first, first + used) play a period, a lane each; unused lanes repeat the last one.
@@ -199,8 +221,8 @@ class Arena {
         const double time = options_.period * episode.periods;
         tips[lane][0] = tips_of(episode.hands, time);
         if (!episode.over)
-          move_hands(episode.hands, actions + 6 * i, limits(),
-                     models_[episode.model].parameters.string_length, options_.period);
+          move_hands(episode, actions + 6 * i, limits(), models_[episode.model].parameters.string_length,
+                     options_.period);
         tips[lane][1] = tips_of(episode.hands, time + options_.period);
       }
       after[lane] = episode.state;
@@ -234,10 +256,10 @@ class Arena {
     episode.pull = mean_pull(episode, before, parameters.gravity, options_.period);
     Worth worth;
     if (!failed)
-      worth = task_.judge(moment_of(episode, before, limits().centre, parameters.gravity, options_.period),
-                          episode.memory);
+      worth = tasks_[episode.task]->judge(
+          moment_of(episode, before, limits().centre, parameters.gravity, options_.period), episode.memory);
     if (options_.camera)
-      episode.sight.look(*options_.camera, episode.state, options_.period, task().axle, episode.draw);
+      episode.sight.look(*options_.camera, episode.state, options_.period, seen_too_.axle, episode.draw);
     const bool lost =
         failed || (!worth.achieved && dropped(episode, limits().centre, parameters.string_length));
     episode.dropped = lost;
@@ -245,7 +267,7 @@ class Arena {
     episode.worth += rewards[i];
     terminated[i] = lost || worth.achieved;
     truncated[i] =
-        !terminated[i] && episode.periods * options_.period > task().seconds - 0.5 * options_.period;
+        !terminated[i] && episode.periods * options_.period > task(i).seconds - 0.5 * options_.period;
     episode.over = terminated[i] || truncated[i];
     if (episode.over && options_.autoreset == Autoreset::kSameStep) {
       observe_into(final_observations, i);
@@ -257,9 +279,11 @@ class Arena {
   static constexpr double kDropCosts = 1.0;
 
   ArenaOptions options_;
-  const Task& task_;
+  SeenToo seen_too_;
+  std::vector<const Task*> tasks_;
   std::vector<Model> models_;
-  std::vector<State<double>> hanging_;  ///< below the tips at home, for each model
+  std::vector<std::vector<const EpisodeStart*>> starts_of_;  ///< each task, among options_
+  std::vector<State<double>> hanging_;  ///< below the tips at home, for each task of each model
   BatchKernel kernel_;
   WorkerPool workers_;
   std::vector<Episode> episodes_;

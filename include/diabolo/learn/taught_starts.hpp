@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "diabolo/learn/arena_options.hpp"
+#include "diabolo/learn/planned_hands.hpp"
 #include "diabolo/plan/plan_action.hpp"
 
 namespace diabolo {
@@ -105,8 +106,7 @@ inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const 
                                               const HandLimits& limits, double every, double farthest) {
   const std::vector<PlayInstant<double>>& instants = planned.play.instants;
   if (instants.empty()) return {};
-  const Vector3<double> shift =
-      limits.centre - 0.5 * (instants.front().tips.left + instants.front().tips.right);
+  const Vector3<double> shift = shift_to(limits.centre, planned);
   const std::optional<LessonFlight> flight = flight_of(planned, shift, limits.centre);
   if (!flight) return {};
   Goal goal{};
@@ -124,21 +124,29 @@ inline std::vector<EpisodeStart> starts_along(const PlannedPlay& planned, const 
                        {{tips.left + shift, tips.right + shift}, {tips.left_velocity, tips.right_velocity}},
                        goal,
                        lesson.stage,
-                       lesson.flights};
+                       lesson.flights,
+                       std::string(lesson.task)};
     start.state.position += shift;
     if (limits.allow(start.hands) && (tips.left - tips.right).norm() <= farthest) starts.push_back(start);
   }
   return starts;
 }
 
-/// Starts for episodes of a task along plays with goals of its ranges, each planned with one of `models`. The
-/// hands keep to the shortest of their strings.
-/// Throws std::invalid_argument about bad input, and Cancelled.
-template <template <class> class... Effects>
-std::vector<EpisodeStart> taught_starts(std::string_view task,
-                                        const std::vector<Predictor<double, Effects...>>& models,
-                                        const LessonOptions& options) {
-  constexpr double kEvery = 0.02;  // [s]
+namespace learn_detail {
+
+inline void expect_some(const std::vector<EpisodeStart>& starts) {
+  if (starts.empty())
+    throw std::invalid_argument("taught starts: no play was found within the limits of the hands");
+}
+
+}  // namespace learn_detail
+
+/// Plans plays with goals of a task's ranges, each with one of `models`, and shows each of them and its goal
+/// to `visit`. The hands keep to the shortest of the models' strings, whose length less what the limits want
+/// is the third that `visit` is told [m]. Throws std::invalid_argument about bad input, and Cancelled.
+template <class Visit, template <class> class... Effects>
+void plan_lesson(std::string_view task, const std::vector<Predictor<double, Effects...>>& models,
+                 const LessonOptions& options, const Visit& visit) {
   const TaskInfo& info = *task_named(task).info;
   const Lesson& lesson = lesson_for(task);
   ActionRequest wanted{.action = std::string(lesson.action)};
@@ -151,11 +159,11 @@ std::vector<EpisodeStart> taught_starts(std::string_view task,
   double farthest = std::numeric_limits<double>::infinity();
   for (const auto& model : models)
     farthest = std::min(farthest, model.parameters().string_length - options.limits.string_margin);
-  std::vector<EpisodeStart> starts;
   for (int play = 0; play < options.plays; ++play) {
     Draw draw(options.seed, static_cast<std::uint64_t>(play));
+    Goal goal{};
     const auto drawn = [&](std::size_t number) {
-      return draw.uniform(info.goal[number].low, info.goal[number].high);
+      return goal[number] = draw.uniform(info.goal[number].low, info.goal[number].high);
     };
     wanted.spin = lesson.spin ? drawn(*lesson.spin) : draw.uniform(info.least_spin, info.most_spin);
     if (lesson.height) wanted.height = drawn(*lesson.height);
@@ -163,12 +171,24 @@ std::vector<EpisodeStart> taught_starts(std::string_view task,
     const std::vector model{models[draw.index(models.size())]};
     const double length = model.front().parameters().string_length;
     wanted.limits = tip_limits(options.limits, home_pose(wanted.figure(), length));
-    const std::vector<EpisodeStart> along =
-        starts_along(plan_action(wanted, model), lesson, options.limits, kEvery, farthest);
-    starts.insert(starts.end(), along.begin(), along.end());
+    visit(plan_action(wanted, model), goal, farthest);
   }
-  if (starts.empty())
-    throw std::invalid_argument("taught starts: no play was found within the limits of the hands");
+}
+
+/// Starts for episodes of a task along such plays, 20 ms apart; the goal of each is what its play reaches.
+/// Throws as plan_lesson() does.
+template <template <class> class... Effects>
+std::vector<EpisodeStart> taught_starts(std::string_view task,
+                                        const std::vector<Predictor<double, Effects...>>& models,
+                                        const LessonOptions& options) {
+  constexpr double kEvery = 0.02;  // [s]
+  std::vector<EpisodeStart> starts;
+  plan_lesson(task, models, options, [&](const PlannedPlay& planned, const Goal&, double farthest) {
+    const std::vector<EpisodeStart> along =
+        starts_along(planned, lesson_for(task), options.limits, kEvery, farthest);
+    starts.insert(starts.end(), along.begin(), along.end());
+  });
+  learn_detail::expect_some(starts);
   return starts;
 }
 

@@ -89,8 +89,7 @@ def add_calibration(parser: argparse.ArgumentParser) -> None:
 
 
 def add_playing(parser: argparse.ArgumentParser, verb: str) -> None:
-    """What agents play: the task, the models and what they see."""
-    parser.add_argument("task", metavar="TASK", help="one of docs/environments.md: Hold, Swing, SpinUp, ...")
+    """What agents play with: the models, what they see, and their limits."""
     parser.add_argument(
         "--model",
         metavar="NAME",

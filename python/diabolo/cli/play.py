@@ -40,12 +40,14 @@ def add_parser(commands: Any) -> None:
         run=run,
         summary="let an agent play, and say how well it does",
         text="Let an agent play episodes of a task side by side, each to its end, and tell what came of it.\n"
+        "One that corrects the player's plans gets plans, which are found first.\n"
         "Needs gymnasium (pip install '.[envs]'), and nothing of what trained the agent.",
         example="  diabolo play SpinUp\n"
         "  diabolo play SpinUp --agent spin_up/agent.json --model diagnosis/model.json --difficulty real\n"
         "  diabolo play SpinUp --html spin_up.html\n"
         "  diabolo play SpinUp --episodes 1000 --minari diabolo/spin-up-v0",
     )
+    parser.add_argument("task", metavar="TASK", help="one of docs/environments.md: Hold, Swing, SpinUp, ...")
     parser.add_argument(
         "--agent", metavar="FILE", help="what `diabolo train` wrote; default: the agent of the package"
     )

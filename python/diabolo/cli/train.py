@@ -36,6 +36,8 @@ def add_parser(commands: Any) -> None:
         text="Train an agent on a task by PPO (pip install '.[learn]').\n\n"
         "What a reward alone does not lead to, such as a throw, the player teaches: most episodes\n"
         "then begin in the middle of plays that it plans first, in some ten seconds.\n\n"
+        "With --corrects the tips move as the player plans it, and the agent adds to that. Of several\n"
+        "tasks each episode draws one, and the agent sees which.\n\n"
         "With --teacher it begins with what an agent knows: of another string or diabolo, or of another\n"
         "task. That takes fewer steps than from nothing.\n\n"
         "DIR gets agent.json, which `diabolo play` runs without the training's libraries; progress.csv;\n"
@@ -44,7 +46,12 @@ def add_parser(commands: Any) -> None:
         example="  diabolo train SpinUp --out spin_up --seconds 120\n"
         "  diabolo train SpinUp --out spin_up --seconds 120 --resume\n"
         "  diabolo train SpinUp --out longer --model longer.json --teacher spin_up/agent.json\n"
+        "  diabolo train ThrowAndCatch --corrects --out correction --seconds 300\n"
+        "  diabolo train SpinUp ThrowAndCatch --out both --seconds 600\n"
         "  diabolo play SpinUp --agent spin_up/agent.json",
+    )
+    parser.add_argument(
+        "task", metavar="TASK", nargs="+", help="of docs/environments.md: Hold, Swing, SpinUp, ..."
     )
     parser.add_argument("--out", metavar="DIR", required=True, type=output_name, help="folder to write")
     parser.add_argument("--seconds", type=float, metavar="X", help="how long to train; default: 120")
@@ -58,6 +65,17 @@ def add_parser(commands: Any) -> None:
         help="of the episodes that begin so; default: 0.7 in tasks that the player knows "
         "(docs/agents.md), else 0",
     )
+    parser.add_argument(
+        "--corrects",
+        action="store_true",
+        help="the player's plans are played, and the agent's actions added to them",
+    )
+    parser.add_argument(
+        "--planned-by",
+        metavar="NAME",
+        nargs="+",
+        help="with --corrects: models that the player plans on; default: those that are played with",
+    )
     parser.add_argument("--teacher", metavar="FILE", help="an agent's file, whose network it begins with")
     add_playing(parser, "train")
     parser.add_argument("--resume", action="store_true", help="go on with the training in DIR")
@@ -69,28 +87,35 @@ def run(arguments: argparse.Namespace) -> None:
     from ..envs import TASKS, TAUGHT, Agent
     from ..training import Settings, Trainer
 
-    check_task(arguments.task, TASKS)
+    for task in arguments.task:
+        check_task(task, TASKS)
+    if len(set(arguments.task)) < len(arguments.task):
+        raise ValueError(f"TASK {' '.join(arguments.task)}; expected each once")
     if arguments.teacher == "":
         raise ValueError("--teacher '': expected the name of a file")
     seconds = _check_numbers(arguments)
     models = [read_model(name) for name in arguments.model] if arguments.model else None
+    planner = [read_model(name) for name in arguments.planned_by] if arguments.planned_by else None
     teacher = Agent.load(arguments.teacher) if arguments.teacher is not None else None
     settings = Settings(
-        arguments.task,
+        tuple(arguments.task) if len(arguments.task) > 1 else arguments.task[0],
         arguments.seed,
         arguments.envs,
         difficulty=arguments.difficulty,
-        taught=_taught(arguments.taught, arguments.task, TAUGHT),
+        taught=_taught(arguments, TAUGHT),
         models=tuple(_digest(one) for one in models or ()),
         limits=arguments.limits,
         teacher=_digest(teacher) if teacher else "",
+        corrects=arguments.corrects,
+        planned_by=tuple(_digest(one) for one in planner or ()),
     )
     folder = Path(arguments.out)
     begun = _begun(folder, settings, arguments.resume)
-    read = [one for one in (arguments.teacher, *(arguments.model or [])) if one and Path(one).exists()]
+    named = (arguments.teacher, *(arguments.model or []), *(arguments.planned_by or []))
+    read = [one for one in named if one and Path(one).exists()]
     files.check_outputs([folder / name for name in (CHECKPOINT, AGENT, CURVE, SETTINGS)], read, folder)
     checkpoint = folder / CHECKPOINT if begun else None
-    trainer = Trainer(settings, models, teacher=teacher, checkpoint=checkpoint, begun=begun)
+    trainer = Trainer(settings, models, planner=planner, teacher=teacher, checkpoint=checkpoint, begun=begun)
     with files.made_folder(folder), progress_steps() as show:
         keeper = _Keeper(folder, trainer, show, seconds, arguments.steps)
         keeper.keep()  # the folder is taken from here on
@@ -120,15 +145,32 @@ def _check_numbers(arguments: argparse.Namespace) -> float:
     return 120.0 if arguments.seconds is None else float(arguments.seconds)
 
 
-def _taught(wanted: float | None, task: str, known: tuple[str, ...]) -> float:
-    """The share of episodes that begin in the middle of a play; raises ValueError about a wrong one."""
-    if wanted is None:
-        return USUALLY_TAUGHT if task in known else 0.0
-    if not 0.0 <= wanted <= 1.0:
+def _taught(arguments: argparse.Namespace, known: tuple[str, ...]) -> float:
+    """The share of episodes that begin in the middle of a play; raises ValueError about a wrong one, and
+    about tasks that the player does not know."""
+    wanted: float | None = arguments.taught
+    tasks = " ".join(arguments.task)
+    if wanted is not None and not 0.0 <= wanted <= 1.0:
         raise ValueError(f"--taught {wanted}; expected 0 to 1")
-    if wanted > 0.0 and task not in known:
-        raise ValueError(f"--taught {wanted}: the player does not teach {task}; expected {', '.join(known)}")
-    return wanted
+    if arguments.planned_by and not arguments.corrects:
+        raise ValueError("--planned-by: given without --corrects; expected both")
+    if arguments.corrects:
+        if wanted is not None:
+            raise ValueError(
+                f"--taught {wanted}: beside --corrects, whose episodes begin with the player's plans"
+            )
+        if unknown := [task for task in arguments.task if task not in known]:
+            raise ValueError(
+                f"--corrects: the player does not know {unknown[0]}; expected {', '.join(known)}"
+            )
+        return 0.0
+    if not any(task in known for task in arguments.task):
+        if wanted:
+            raise ValueError(
+                f"--taught {wanted}: the player does not teach {tasks}; expected {', '.join(known)}"
+            )
+        return 0.0
+    return USUALLY_TAUGHT if wanted is None else wanted
 
 
 def _begun(folder: Path, settings: Settings, resume: bool) -> Progress | None:

@@ -18,6 +18,7 @@ from .._core import (
     Camera,
     EpisodeStart,
     HandLimits,
+    HandPlan,
     LiveAgent,
     observation_infos,
     task_infos,
@@ -25,7 +26,7 @@ from .._core import (
 from .playing import Transition, play, shipped_agent
 from .single import DiaboloEnv
 from .spaces import ur5e_limits
-from .teaching import TAUGHT, taught_starts
+from .teaching import TAUGHT, hand_plan, planned_starts, taught_starts
 from .vector import DiaboloVectorEnv
 
 __all__ = [
@@ -37,9 +38,12 @@ __all__ = [
     "DiaboloVectorEnv",
     "EpisodeStart",
     "HandLimits",
+    "HandPlan",
     "LiveAgent",
     "Transition",
+    "hand_plan",
     "observation_infos",
+    "planned_starts",
     "play",
     "shipped_agent",
     "task_infos",

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from .._core import Agent, __version__
 from ..checks import check_library, shown
-from .playing import Acting, Transition, play
+from .playing import Acting, Transition, play, tasks_played
 from .spaces import ACTION, observation_space
 
 if TYPE_CHECKING:
@@ -37,6 +37,10 @@ def record(
     """
     for library in ("minari", "h5py"):
         check_library("a data set of Minari", library, "minari")
+    if isinstance(agent, Agent) and agent.corrects:
+        raise ValueError(
+            "agent: corrects plans, which a data set does not hold; expected one that plays by itself"
+        )
     folder = _free(name)
     kept: list[Transition] = []
     options["copy"] = True
@@ -85,7 +89,9 @@ def _spec(agent: Acting, task: str | None, options: dict[str, Any]) -> EnvSpec:
     """The environment that was played in, alone."""
     own = {name: value for name, value in options.items() if name not in ("copy", "threads", "watch")}
     if isinstance(agent, Agent):
-        task, own = task or agent.task, {"period": agent.period, "steps": agent.steps, **own}
+        tasks, _ = tasks_played(agent, task)
+        own = {"task": tasks, "period": agent.period, "steps": agent.steps, **own}
+        task = tasks if isinstance(tasks, str) else tasks[0]
     spec = copy.deepcopy(gymnasium.spec(f"Diabolo/{task}-v0"))
     spec.kwargs.update({name: value for name, value in own.items() if value is not None})
     return spec
@@ -102,7 +108,7 @@ def _write(name: str, folder: Path, episodes: list[EpisodeBuffer], spec: EnvSpec
                 name,
                 episodes,
                 env=spec,
-                observation_space=observation_space(spec.kwargs["task"]),
+                observation_space=observation_space(episodes[0].observations.shape[1]),
                 action_space=ACTION,
                 description=f"{spec.name} of diabolo {__version__}",
                 requirements=[f"diabolo=={__version__}"],

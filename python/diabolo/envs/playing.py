@@ -11,9 +11,10 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
-from .._core import Agent
-from ..checks import shown
-from .spaces import AnyModels
+from .._core import Agent, EpisodeStart
+from ..checks import one_of, shown
+from .spaces import AnyModels, AnyTasks, models_of
+from .teaching import planned_starts
 from .vector import DiaboloVectorEnv
 
 Acting: TypeAlias = Agent | Callable[[NDArray[np.float32]], Any]
@@ -43,6 +44,22 @@ def shipped_agent(task: str) -> Agent:
     return Agent.load(str(folder / f"{task}.json"))
 
 
+def tasks_played(agent: Agent, task: str | None) -> tuple[AnyTasks, str | None]:
+    """What environments have where an agent plays a task, or all of its own; and the one of several that each
+    episode is of. An agent of one task may play another one. Raises ValueError."""
+    if len(agent.tasks) == 1:
+        return task or agent.tasks[0], None
+    return agent.tasks, None if task is None else one_of("task", task, tuple(agent.tasks))
+
+
+def _plans(
+    agent: Agent, tasks: AnyTasks, model: AnyModels, seed: int, options: dict[str, Any]
+) -> list[EpisodeStart]:
+    """Of all tasks, for the models and within the limits that are played with."""
+    models, limits = models_of(model, options.get("difficulty", "easy")), options.get("limits")
+    return planned_starts(tasks, models, seed=seed, limits=limits, period=agent.period)
+
+
 def play(
     agent: Acting,
     episodes: int = 100,
@@ -56,22 +73,26 @@ def play(
 ) -> dict[str, NDArray[Any]]:
     """Play episodes side by side, each to its end; what they came to, an entry for each (DiaboloEnv.outcome).
 
-    task: the agent's own, unless one is given. watch: is shown the environments at first and after each
-    period; those that are over stay as they ended. keep: is given each period, such as a list's append.
-    options: of DiaboloVectorEnv; period and steps are the agent's. Raises ValueError about bad input.
+    task: the agent's own, unless one is given; of several, each episode draws one. watch: is shown the
+    environments at first and after each period; those that are over stay as they ended. keep: is given each
+    period, such as a list's append. options: of DiaboloVectorEnv; period and steps are the agent's, and one
+    that corrects plans gets some of the player's where there are no starts. Raises ValueError about bad
+    input.
     """
     act: Callable[[NDArray[np.float32]], Any]
     if isinstance(agent, Agent):
-        task, act = task or agent.task, agent.act
+        (tasks, drawn), act = tasks_played(agent, task), agent.act
         options = {"period": agent.period, "steps": agent.steps, **options}
+        if agent.corrects and "starts" not in options:
+            options |= {"starts": _plans(agent, tasks, model, seed, options), "start_share": 1.0}
     elif callable(agent) and task is not None:
-        act = agent
+        (tasks, drawn), act = (task, None), agent
     else:
         raise ValueError(f"agent: {shown(agent)}; expected an Agent, or a function together with a task")
     if "autoreset_mode" in options:
         raise ValueError("autoreset_mode: given; expected none, each episode is played once")
-    env = DiaboloVectorEnv(episodes, task, model, autoreset_mode=AutoresetMode.DISABLED, **options)
-    observations, _ = env.reset(seed=seed)
+    env = DiaboloVectorEnv(episodes, tasks, model, autoreset_mode=AutoresetMode.DISABLED, **options)
+    observations, _ = env.reset(seed=seed, options={"task": drawn})
     watch(env)
     over = np.zeros(episodes, bool)
     while not over.all():

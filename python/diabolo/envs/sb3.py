@@ -11,7 +11,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv
 
-from .spaces import ACTION, AnyModels
+from .spaces import ACTION, AnyModels, AnyTasks
 from .vector import DiaboloVectorEnv
 
 
@@ -23,7 +23,7 @@ class DiaboloVecEnv(VecEnv):  # type: ignore[misc]
     """
 
     def __init__(
-        self, num_envs: int = 1, task: str = "Hold", model: AnyModels = None, **options: Any
+        self, num_envs: int = 1, task: AnyTasks = "Hold", model: AnyModels = None, **options: Any
     ) -> None:
         if taken := {"copy", "autoreset_mode"} & options.keys():
             raise ValueError(f"{min(taken)}: given; expected none, Stable-Baselines3 wants its own")

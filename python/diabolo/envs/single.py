@@ -13,19 +13,20 @@ from numpy.typing import ArrayLike, NDArray
 from .._core import Arena, Camera, EpisodeStart, HandLimits, State
 from ..checks import LARGEST_SEED, list_of, numbers, shown, whole_number
 from .picture import picture
-from .spaces import ACTION, AnyModels, camera_of, models_of, observation_space, options_of
+from .spaces import ACTION, AnyModels, AnyTasks, camera_of, models_of, observation_space, options_of, tasks_of
 
 
 class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     """A diabolo on the string between two tips, whose accelerations are the action.
 
-    task: its name, as in diabolo.envs.TASKS.
+    task: its name, as in diabolo.envs.TASKS; of several, each episode draws one, and it is seen which.
     model: what it is played with; of several, each episode draws one.
     period: between actions [s]; steps: of the simulation in a period.
     limits: of the tips.
     difficulty: "easy", the exact state is seen; "real", what a Camera() sees; "sealed", that, of models
         that a diagnosis leaves open; or a Camera of one's own.
-    starts: what a share of the episodes begins with, start_share of them.
+    starts: what a share of the episodes begins with, start_share of them. With plans (planned_starts) all do,
+        and actions are added to a plan's motion.
     free_axis: each episode draws a rigid axle that the string turns, which "Level" does anyhow.
     render_mode: "rgb_array" lets render() draw (`pip install '.[plot]'`).
 
@@ -37,7 +38,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def __init__(
         self,
-        task: str = "Hold",
+        task: AnyTasks = "Hold",
         model: AnyModels = None,
         *,
         period: float = 0.01,
@@ -52,10 +53,10 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode: {shown(render_mode)}; expected 'rgb_array' or None")
         models = models_of(model, difficulty)
-        self.render_mode, self._task, self._limits = render_mode, task, limits or HandLimits()
+        self.render_mode, self._tasks, self._limits = render_mode, tasks_of(task), limits or HandLimits()
         self._lengths = [one.parameters.string_length for one in models]
         self._arena = Arena(
-            task,
+            self._tasks,
             models,
             period=period,
             steps=steps,
@@ -66,7 +67,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
             start_share=start_share,
             free_axis=free_axis,
         )
-        self.observation_space = observation_space(task)
+        self.observation_space = observation_space(self._arena.observations.shape[1])
         self.metadata = {**self.metadata, "render_fps": round(1.0 / period)}
         arena = self._arena
         self._observation, self._reward = arena.observations[0], arena.rewards
@@ -77,8 +78,9 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begin an episode. options: a state, a goal or the number of the model in place of what is drawn."""
-        given = options_of(options, len(self._lengths))
+        """Begin an episode. options: a state, a goal, the number of the model or a task in place of what is
+        drawn; of several tasks, a goal needs one."""
+        given = options_of(options, len(self._lengths), self._tasks)
         if seed is not None:
             seed = whole_number("seed", seed, 0, LARGEST_SEED)
         super().reset(seed=seed)
@@ -116,7 +118,7 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     def outcome(self) -> dict[str, Any]:
         """What the episode has come to: worth (the sum of its rewards), seconds, over, dropped, first_spin
         and spin [rad/s], flights that ended in a catch, apex [m] of the last, level (how long the axle of
-        "Level" has been within 5 degrees by now [s]), goal, model."""
+        "Level" has been within 5 degrees by now [s]), goal, model, task."""
         self._expect_begun("outcome")
         return dict(self._arena.outcome(0))
 
@@ -129,4 +131,5 @@ class DiaboloEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         if self.render_mode is None:
             return None
         state, left, right = self.pose()
-        return picture(self._task, state, (left, right), self._limits, self._lengths[self._arena.model_of(0)])
+        task, length = self.outcome()["task"], self._lengths[self._arena.model_of(0)]
+        return picture(task, state, (left, right), self._limits, length)

@@ -22,22 +22,28 @@ from .._core import (
     StickMap,
     StringFriction,
     arm_hand_limits,
-    observation_infos,
 )
-from ..checks import instance_of, list_of, numbers, shown, whole_number
+from ..checks import instance_of, list_of, numbers, one_of, shown, whole_number
 
 AnyModels: TypeAlias = Model | Parameters | Sequence[Model | Parameters] | None
+AnyTasks: TypeAlias = str | Sequence[str]
+"""The name of a task, or of several: each episode draws one, each of them for about as long."""
 
 ACTION = Box(-1.0, 1.0, (6,), np.float32)
 """Shares of the tips' largest accelerations along x, y and z: left, then right."""
 
-OPTIONS = ("state", "goal", "model")
+OPTIONS = ("state", "goal", "model", "task")
 DIFFICULTIES = ("easy", "real", "sealed")
 
 
-def observation_space(task: str) -> Box[np.float32]:
-    """What an agent sees of a task: see diabolo.envs.observation_infos()."""
-    return Box(-1e3, 1e3, (sum(info["size"] for info in observation_infos(task)),), np.float32)
+def observation_space(size: int) -> Box[np.float32]:
+    """So many numbers that an agent sees: see diabolo.envs.observation_infos()."""
+    return Box(-1e3, 1e3, (size,), np.float32)
+
+
+def tasks_of(given: AnyTasks) -> list[str]:
+    """Their names; raises ValueError where one is none."""
+    return [given] if isinstance(given, str) else list_of("task", given, (str,), least=1)
 
 
 def usual_model() -> Model:
@@ -96,8 +102,9 @@ def camera_of(difficulty: str | Camera) -> Camera | None:
     return None if difficulty == "easy" else Camera()
 
 
-def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:
-    """The options of a reset, checked: state (a State), goal (numbers), model (which one, a number)."""
+def options_of(given: Mapping[str, Any] | None, models: int, tasks: Sequence[str]) -> dict[str, Any]:
+    """The options of a reset, checked: state (a State), goal (numbers), model (which one, a number), task (a
+    name, which becomes its number)."""
     if given is not None and not isinstance(given, Mapping):
         raise ValueError(f"options: {shown(given)}; expected a dict of {', '.join(OPTIONS)}")
     options = dict(given or {})
@@ -107,6 +114,8 @@ def options_of(given: Mapping[str, Any] | None, models: int) -> dict[str, Any]:
         instance_of("options, state", options["state"], State)
     if options.get("model") is not None:
         options["model"] = whole_number("options, model", options["model"], 0, models - 1)
+    if options.get("task") is not None:
+        options["task"] = tasks.index(one_of("options, task", options["task"], tuple(tasks)))
     if options.get("goal") is not None:
         goal = numbers("options, goal", options["goal"])
         if goal.ndim > 1 or not np.isfinite(goal).all():

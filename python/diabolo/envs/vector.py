@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._core import Arena, Camera, EpisodeStart, HandLimits, State
 from ..checks import LARGEST_SEED, MOST_THREADS, list_of, shown, whole_number
-from .spaces import ACTION, AnyModels, camera_of, models_of, observation_space, options_of
+from .spaces import ACTION, AnyModels, AnyTasks, camera_of, models_of, observation_space, options_of, tasks_of
 
 Floats = NDArray[np.float32]
 MOST_ENVS = 2**20
@@ -40,7 +40,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
     def __init__(
         self,
         num_envs: int = 1,
-        task: str = "Hold",
+        task: AnyTasks = "Hold",
         model: AnyModels = None,
         *,
         period: float = 0.01,
@@ -69,8 +69,9 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         models = models_of(model, difficulty)
         self._models, self._mode, self._copy = len(models), mode, copy
         whole_number("threads", threads, 0, MOST_THREADS)
+        self._tasks = tasks_of(task)
         arena = Arena(
-            task,
+            self._tasks,
             models,
             self.num_envs,
             period,
@@ -83,7 +84,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             start_share,
             free_axis,
         )
-        self.single_observation_space = observation_space(task)
+        self.single_observation_space = observation_space(arena.observations.shape[1])
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self._arena, self._begun = arena, np.zeros(self.num_envs, bool)
         self._observations, self._final = arena.observations, arena.final_observations
@@ -96,7 +97,7 @@ class DiaboloVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         """Begin episodes: of all, or of those in options["reset_mask"], an array of bool."""
         given = {**options} if isinstance(options, Mapping) else options
         mask = self._mask(given.pop("reset_mask", None) if isinstance(given, dict) else None)
-        checked = options_of(given, self._models)
+        checked = options_of(given, self._models, self._tasks)
         seeds = self._seeds(seed)
         for i in np.flatnonzero(mask):
             if (own := seeds[i]) is not None:
