@@ -394,7 +394,10 @@ def test_a_recording_that_is_odd_is_warned_of(
         ((), "the following arguments are required: COMMAND"),
         (("juggle",), "invalid choice: 'juggle'"),
         (("evaluate",), "the following arguments are required: RECORDING"),
-        (("plan", "hop", "--height", "0.6"), "diabolo plan: unrecognized arguments: --height 0.6; see diabolo plan"),
+        (
+            ("plan", "hop", "--height", "0.6"),
+            "diabolo plan: unrecognized arguments: --height 0.6; see diabolo plan",
+        ),
         (("info", "played.csv", "more.csv"), "unrecognized arguments: more.csv; see diabolo info --help"),
         (("evaluate", "no.csv"), "no.csv: there is no such file"),
         (("evaluate", "."), ".: a directory; expected a file"),
@@ -617,8 +620,12 @@ def test_the_progress_bar_is_for_terminals(tidy: Path) -> None:
     assert "evaluating" in shown and "%" in shown
 
 
-@pytest.mark.parametrize("line", ["diagnose TAKE", "evaluate TAKE", "motion TAKE m.csv", "simulate out.csv --on TAKE"])
-@pytest.mark.parametrize(("body", "shown"), [("left", "left tip"), ("right", "right tip"), ("diabolo", "diabolo")])
+@pytest.mark.parametrize(
+    "line", ["diagnose TAKE", "evaluate TAKE", "motion TAKE m.csv", "simulate out.csv --on TAKE"]
+)
+@pytest.mark.parametrize(
+    ("body", "shown"), [("left", "left tip"), ("right", "right tip"), ("diabolo", "diabolo")]
+)
 def test_a_body_that_is_never_seen_is_told_with_the_file(
     command: Command, played: Recording, tmp_path: Path, line: str, body: str, shown: str
 ) -> None:
