@@ -48,8 +48,7 @@ def add_parser(commands: Any) -> None:
         text="Compare a simulator with recordings and find where they part. Name what is missing (friction,\n"
         "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets). Add it,\n"
         "and show on held-out data that the prediction improves. Several recordings are fitted together.\n\n"
-        "exit status: 0 with an answer, 1 where the recordings can decide nothing (INSUFFICIENT_DATA),\n"
-        "2 for bad input.",
+        "exit status: 0 with an answer, 1 where nothing can be concluded, 2 for bad input.",
         example="  diabolo diagnose swing.csv throw.csv --out diagnosis",
     )
     parser.add_argument(
@@ -77,8 +76,7 @@ def add_parser(commands: Any) -> None:
         metavar="FILE",
         action="append",
         default=[],
-        help="laws of your own, by formulas, which are asked about as all others: see docs/your_law.md; "
-        "may be given several times",
+        help="laws of your own, by formulas, tested as all others are (docs/your_law.md); may be repeated",
     )
     parser.add_argument(
         "--simulated",

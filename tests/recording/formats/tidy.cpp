@@ -133,7 +133,7 @@ TEST_CASE("Times have to increase at the stated rate") {
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, 120.0}) ==
         "play.csv: rate 120 Hz, but the times step by 0.01 s");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, 1e5}) ==
-        "play.csv: rate 100000 Hz, but the times step by 0.01 s, as if they were in ms: --columns "
+        "play.csv: rate 1e+05 Hz, but the times step by 0.01 s, as if they were in ms: --columns "
         "time=NAME[ms]");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, kNaN}) ==
         "play.csv: rate nan Hz; expected more than 0, at most 1e6");
