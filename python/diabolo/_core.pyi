@@ -1806,7 +1806,7 @@ class DiagnosisResult:
     """Of each recording."""
   @property
   def not_done(self) -> list[str]:
-    """What budget or base kept from being asked."""
+    """What budget, base or recordings kept from being asked."""
   @property
   def nuisances(self) -> list[Estimate]:
     """What was measured on the way."""

@@ -15,6 +15,7 @@
 #include "played.hpp"
 
 using namespace diabolo;
+using Catch::Matchers::Contains;
 using Vector = Vector3<double>;
 
 namespace {
@@ -344,7 +345,9 @@ TEST_CASE("one thread and two come to the same, bit for bit") {
 }
 
 TEST_CASE("what can decide nothing gives no name") {
-  CHECK(diagnose({played({}, 2.0, 5)}).headline == Headline::kInsufficientData);
+  const Diagnosis brief = diagnose({played({}, 2.0, 5)});
+  CHECK(brief.headline == Headline::kInsufficientData);
+  CHECK_THAT(brief.reason, Contains("of 2 s that were recorded; 8 are needed, some 5 s of play"));
   Recording unseen = played({}, 8.0, 6);
   unseen.diabolo = Track::missing(unseen.size());
   CHECK(diagnose({unseen}).headline == Headline::kInsufficientData);
@@ -354,4 +357,19 @@ TEST_CASE("what can decide nothing gives no name") {
   CHECK(d.headline == Headline::kInsufficientData);
   CHECK(d.reason.find("wrong units") != std::string::npos);
   CHECK_THROWS_AS(diagnose({}), std::invalid_argument);
+}
+
+TEST_CASE("a spin that no orientation shows, or a wrong one, is told not to be asked about") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.17;
+  const Recording seen = played(effects, 8.0, 8);
+  Recording unseen = seen, wrong = seen;
+  unseen.diabolo_orientation = {};
+  for (Eigen::Index i = 0; i < seen.size(); ++i)
+    wrong.diabolo_orientation.quaternion.col(i) = Eigen::Vector4d(0.0, 0.0, 0.0, 1.0);
+  const std::string words = "Not done: asking what acts on the spin";
+  const Diagnosis blind = diagnose({unseen});
+  CHECK_THAT(blind.sentence, Contains(words));
+  CHECK(diagnose({wrong}).sentence == blind.sentence);
+  CHECK(diagnose({seen}).sentence.find(words) == std::string::npos);
 }

@@ -83,6 +83,9 @@ TEST_CASE("Motive and tidy recordings are told apart by content") {
   CHECK(play.name == "play");
   CHECK(play.rate == 100.0);
   CHECK(play.left.position.col(0) == Eigen::Vector3d(0.1, 0.3, 1.0));
+  write(folder / "play.csv",
+        replaced(replaced(test::tidy_text(), "time", "\"time\""), "left_x", "\"left_x\""));
+  CHECK(test::same(load_recording(folder / "play.csv"), play));
 }
 
 TEST_CASE("Files of other kinds are refused") {
@@ -95,6 +98,8 @@ TEST_CASE("Files of other kinds are refused") {
         "x.csv, line 1: starts with \"t,error\"; expected a Motive export (\"Format "
         "Version,...\") or a tidy recording (\"time,...\"); --columns maps other names");
   CHECK(says("") == "x.csv: the file is empty");
+  CHECK(says("time\tleft_x\n0\t1\n") ==
+        "x.csv, line 1: tabs separate the columns; expected commas, and decimal points");
   CHECK(says(test::tidy_text()) == "x.csv: expected " + (folder / "x.json").string() +
                                        " beside it, which says the string's length, the rate and what the "
                                        "diabolo is like");

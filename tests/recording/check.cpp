@@ -44,6 +44,16 @@ TEST_CASE("A rate that the times contradict is refused") {
     CHECK(complaint([&] { check_rate(rate, time, "f"); }) != "(no complaint)");
 }
 
+TEST_CASE("An axle as thick as the cups is refused") {
+  DiaboloProperties thick = kRedDiabolo;
+  thick.axle_radius = 0.065;
+  CHECK(complaint([&] { check_properties(thick, 1.46, "f"); }) ==
+        "f: diabolo.axle_radius [m] 0.065: an axle as thick as the cups; expected less than half of "
+        "diabolo.diameter [m], 0.0635");
+  thick.axle_radius = 0.06;
+  CHECK_NOTHROW(check_properties(thick, 1.46, "f"));
+}
+
 TEST_CASE("Random recordings pass the check, and each broken promise is named") {
   const std::uint32_t seed = test::fresh_seed();
   INFO("seed " << seed);

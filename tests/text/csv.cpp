@@ -103,6 +103,11 @@ TEST_CASE("What is not a finite number is refused with its column") {
     CHECK(complaint([&] { CsvReader(text, "f.csv").next_numbers(row); }) ==
           "f.csv, line 1: column 2: " + shown(cell) + "; expected a finite number or an empty cell");
   }
+  CsvReader named("\"a\",b\n1,NaN\n", "f.csv");
+  named.name_columns(named.next_cells());
+  std::vector<double> row(2);
+  CHECK(complaint([&] { named.next_numbers(row); }) ==
+        "f.csv, line 2: column \"b\": \"NaN\"; expected a finite number or an empty cell");
 }
 
 TEST_CASE("Ragged rows are counted") {
@@ -112,7 +117,7 @@ TEST_CASE("Ragged rows are counted") {
   CHECK(complaint([&] { CsvReader("1,2,3,\n", "f.csv").next_numbers(row); }) ==
         "f.csv, line 1: 4 cells; expected 3, as in the header");
   CHECK(complaint([&] { CsvReader("\n", "f.csv").next_numbers(row); }) ==
-        "f.csv, line 1: 1 cells; expected 3, as in the header");
+        "f.csv, line 1: an empty line; expected a row of the table");
 }
 
 TEST_CASE("Blank lines at the end do not count, blank lines amid the data do") {

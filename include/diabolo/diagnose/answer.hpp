@@ -252,7 +252,7 @@ struct Diagnosis {
   double unexplained = 0.0;             ///< share of the windows that are far off after all
   bool withdrawn = false;               ///< physics that stands out, but does not help on what was left out
   std::optional<double> numerical;      ///< share of the base's error that its numerical rules make
-  std::vector<std::string> not_done;    ///< what the budget, or the base, kept from being asked
+  std::vector<std::string> not_done;    ///< what budget, base or recordings kept from being asked
   std::size_t windows_seen = 0;         ///< in the recordings, of which `windows` were fitted
   std::shared_ptr<const OwnCandidates> own;   ///< to which findings may point
   std::shared_ptr<const FinalFit> final_fit;  ///< that all of it was read from; null where nothing was fitted

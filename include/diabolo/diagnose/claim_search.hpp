@@ -23,6 +23,11 @@ namespace diabolo {
 
 namespace diagnose_detail {
 
+/// What is not asked where no recording shows the spin.
+inline constexpr const char* kUnseenSpinWords =
+    "asking what acts on the spin or by it (air, bearing, the string's drive, lift): the recordings show no "
+    "spin, and the friction of the string is fitted with a guessed one";
+
 /// From recordings to a fit of what is sure: reads them, fits everything that may be missing, keeps what is
 /// sure, and exchanges it for what explains more. The first half of a diagnosis.
 template <class D>
@@ -76,7 +81,10 @@ class ClaimSearch {
   /// again.
   void fit_all() {
     set_ = asked_at_first(bank_);
-    if (std::ranges::none_of(fit_.fit_takes, has_spin)) without_spin(bank_, set_);
+    if (std::ranges::none_of(fit_.fit_takes, has_spin)) {
+      without_spin(bank_, set_);
+      result_.not_done.emplace_back(kUnseenSpinWords);
+    }
     for (bool again = false;; again = true) {
       if (!fit_bank(again)) {
         result_.reason = "the budget of " + shown(options_.budget) +

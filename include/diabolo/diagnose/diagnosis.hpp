@@ -10,6 +10,7 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/inquiry.hpp"
+#include "diabolo/recording/plausibility/odd_orientations.hpp"
 #include "diabolo/recording/plausibility/odd_tracking.hpp"
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
 
@@ -42,6 +43,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
   for (std::vector<Recording>* list : {&recordings, &options.holdout})
     for (Recording& recording : *list) {
       const Swaps swaps = unswap(recording);
+      mask_odd_orientations(recording);
       const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
       const std::optional<bool> exchanged = sticks_are_exchanged(recording);
       if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));

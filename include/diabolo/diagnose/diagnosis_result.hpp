@@ -102,7 +102,7 @@ struct DiagnosisResult {
     visit("nuisances", &DiagnosisResult::nuisances, "What was measured on the way.");
     visit("fit", &DiagnosisResult::fit, "Errors on data that was not fitted.");
     visit("next_experiment", &DiagnosisResult::next_experiment, "Motions that would part ties.");
-    visit("not_done", &DiagnosisResult::not_done, "What budget or base kept from being asked.");
+    visit("not_done", &DiagnosisResult::not_done, "What budget, base or recordings kept from being asked.");
     visit("ladder", &DiagnosisResult::ladder, "Every candidate, and why it was claimed or not.");
     visit("locate", &DiagnosisResult::locate, "Where base and recording part, window by window.");
     visit("noise", &DiagnosisResult::noise, "Of each recording.");

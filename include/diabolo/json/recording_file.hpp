@@ -21,6 +21,7 @@
 #include "diabolo/recording/plausibility/fall.hpp"
 #include "diabolo/recording/plausibility/frozen_tracks.hpp"
 #include "diabolo/recording/plausibility/marker_jumps.hpp"
+#include "diabolo/recording/plausibility/odd_orientations.hpp"
 #include "diabolo/recording/plausibility/regular_times.hpp"
 #include "diabolo/text/file.hpp"
 
@@ -107,13 +108,17 @@ inline void check_up(const Recording& recording, double yaw, const std::string& 
                        "; read it with --up=" + text_of(up) + ", or with --up=z as it stands");
 }
 
-/// What every recording goes through once it is read: stamps that jitter are put right, samples that jump
-/// become dropouts; notes tell. Throws RecordingError where another axis than z points up.
+/// What every recording goes through once it is read: stamps that jitter are put right; samples that jump or
+/// freeze, and orientations that show no spin, become dropouts; notes tell. Throws RecordingError where a
+/// coordinate was not recorded, or another axis than z points up.
 inline Recording put_right(Recording recording, double yaw, const ReadOptions& options,
                            const std::string& file_name) {
+  if (const std::string odd = constant_coordinate(recording); !odd.empty())
+    throw RecordingError(file_name + ": " + odd);
   regularise_times(recording);
   mask_jumps(recording);
   mask_frozen(recording);
+  mask_odd_orientations(recording);
   if (!options.up) check_up(recording, yaw, file_name);
   return recording;
 }
@@ -143,11 +148,13 @@ inline Recording read_recording(const std::string& text, const std::filesystem::
                            ": columns are mapped, but it is a Motive export; expected another CSV");
     return recording_of(read_motive(text, file_name), calibration.value_or(published_calibration()), options);
   }
-  for (const char* const other : {";", "\t"})
+  for (const auto& [other, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}})
     if (first_line.find(',') == std::string_view::npos && first_line.find(other) != std::string_view::npos)
-      throw RecordingError(file_name + ", line 1: " + shown(other) +
-                           " separates the columns; expected commas, and decimal points");
-  if (options.columns.empty() && (',' + std::string(first_line) + ',').find(",time,") == std::string::npos)
+      throw RecordingError(file_name + ", line 1: " + name +
+                           " separate the columns; expected commas, and decimal points");
+  std::string names(first_line);
+  std::erase(names, '"');
+  if (options.columns.empty() && (',' + names + ',').find(",time,") == std::string::npos)
     throw RecordingError(file_name + ", line 1: starts with " + shown(first_line) +
                          "; expected a Motive export (\"Format Version,...\") or a tidy recording "
                          "(\"time,...\"); --columns maps other names");

@@ -49,14 +49,21 @@ inline double median_step(const Eigen::VectorXd& time) {
   return *middle;
 }
 
-/// Throws RecordingError unless the sampling rate [Hz] is believable and fits the median time step (to 5 %).
+/// Throws RecordingError unless the sampling rate [Hz] is believable and fits the median time step (to 5 %);
+/// says so where the times would fit in a smaller unit.
 inline void check_rate(double rate, const Eigen::VectorXd& time, const std::string& where) {
   if (!(rate > 0.0 && rate <= 1e6))
     throw RecordingError(where + ": rate " + shown(rate) + " Hz; expected more than 0, at most 1e6");
   if (time.size() < 2) return;
-  if (const double step = median_step(time); std::abs(step * rate - 1.0) > 0.05)
-    throw RecordingError(where + ": rate " + shown(rate) + " Hz, but the times step by " + shown(step) +
-                         " s");
+  const auto fits = [step = median_step(time), rate](double unit) {
+    return std::abs(step * unit * rate - 1.0) <= 0.05;
+  };
+  if (fits(1.0)) return;
+  const std::string unit = fits(1e-3) ? "ms" : fits(1e-6) ? "us" : fits(1e-9) ? "ns" : "";
+  throw RecordingError(
+      where + ": rate " + shown(rate) + " Hz, but the times step by " +
+      shown(std::round(1e6 * median_step(time)) / 1e6) + " s" +
+      (unit.empty() ? "" : ", as if they were in " + unit + ": --columns time=NAME[" + unit + "]"));
 }
 
 /// Throws RecordingError unless the sizes of the cups are believable, and mass, axle and string length such
@@ -70,6 +77,10 @@ inline void check_properties(const DiaboloProperties& properties, double string_
   };
   check("diabolo.diameter [m]", properties.diameter, kSmallestCup, kLargestCup);
   check("diabolo.length [m]", properties.length, kSmallestCup, kLargestCup);
+  if (2.0 * properties.axle_radius >= properties.diameter)
+    throw RecordingError(where + ": diabolo.axle_radius [m] " + shown(properties.axle_radius) +
+                         ": an axle as thick as the cups; expected less than half of diabolo.diameter [m], " +
+                         shown(0.5 * properties.diameter));
   Parameters<double> parameters;
   parameters.mass = properties.mass;
   parameters.axle_radius = properties.axle_radius;

@@ -14,24 +14,9 @@
 
 #include "diabolo/text/error.hpp"
 #include "diabolo/text/shown.hpp"
+#include "diabolo/text/utf8.hpp"
 
 namespace diabolo {
-
-/// Length in bytes of the UTF-8 character at the front of `text` (not empty); 0 where there is none.
-inline std::size_t utf8_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0u) != 0x80u) return 0;
-  // Too long a form, half of a UTF-16 pair, or beyond U+10FFFF.
-  const unsigned second = byte(1);
-  const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
-                     (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
-  return wrong ? 0 : length;
-}
 
 /// `text` without a UTF-8 byte order mark. Throws RecordingError where it is empty or is not UTF-8 without
 /// zero bytes.
@@ -39,6 +24,8 @@ inline std::string_view utf8_text(std::string_view text, const std::string& file
   if (text.empty()) throw RecordingError(file + ": the file is empty");
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw RecordingError(file + ": the text is UTF-16; expected UTF-8");
+  if (text.starts_with("\x1f\x8b"))
+    throw RecordingError(file + ": the file is compressed by gzip; expected it unpacked");
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   const auto fail_at = [&](std::size_t at, const std::string& what) {
     const std::ptrdiff_t line =
@@ -110,6 +97,9 @@ class CsvReader {
     return line;
   }
 
+  /// Lets complaints about numbers name their columns.
+  void name_columns(const std::vector<std::string_view>& names) { names_.assign(names.begin(), names.end()); }
+
   /// The cells of the next line; quotes around a cell are taken off.
   std::vector<std::string_view> next_cells() {
     std::string_view rest = next_line();
@@ -159,6 +149,7 @@ class CsvReader {
     const char* const stop = std::find(start, end_, '\n');
     const char* const cr = std::find(start, stop, '\r');
     if (cr != stop && cr + 1 != stop) fail("a CR inside the line; expected LF or CRLF as line end");
+    if (cr == start || stop == start) fail("an empty line; expected a row of the table");
     const std::ptrdiff_t found = 1 + std::count(start, stop, ',');
     fail(std::to_string(found) + " cells; expected " + std::to_string(expected) + ", as in the header");
   }
@@ -175,8 +166,8 @@ class CsvReader {
     const std::from_chars_result result =
         std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (result.ec != std::errc() || result.ptr != digits.data() + digits.size() || !std::isfinite(value))
-      fail("column " + std::to_string(column) + ": " + shown(cell) +
-           "; expected a finite number or an empty cell");
+      fail("column " + (names_.empty() ? std::to_string(column) : shown(names_[column - 1])) + ": " +
+           shown(cell) + "; expected a finite number or an empty cell");
     return value;
   }
 
@@ -185,6 +176,7 @@ class CsvReader {
   const char* end_ = nullptr;
   long line_ = 0;
   bool is_cut_ = false;
+  std::vector<std::string> names_;
 };
 
 }  // namespace diabolo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -8,19 +9,32 @@
 #include <string>
 #include <string_view>
 
+#include "diabolo/text/utf8.hpp"
+
 namespace diabolo {
 
-/// Text for a message: in quotes, at most 40 bytes of it, bytes beyond printable ASCII as \xNN.
+/// Text for a message: in quotes, some 40 bytes of it at most; bytes that are no UTF-8, and characters that
+/// control a terminal, as \xNN.
 inline std::string shown(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string result = "\"";
-  for (const char c : text.substr(0, kLongest)) {
-    const unsigned byte = static_cast<unsigned char>(c);
-    char escaped[5];
-    std::snprintf(escaped, sizeof escaped, byte >= 0x20 && byte < 0x7f ? "%c" : "\\x%02x", byte);
-    result += escaped;
+  std::size_t at = 0;
+  while (at < std::min(text.size(), kLongest)) {
+    const std::size_t length = utf8_length(text.substr(at));
+    const unsigned byte = static_cast<unsigned char>(text[at]);
+    const bool controls =
+        length == 1 ? byte < 0x20 || byte == 0x7f
+                    : length == 2 && byte == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0;
+    if (length == 0 || controls) {
+      char escaped[5];
+      std::snprintf(escaped, sizeof escaped, "\\x%02x", byte);
+      result += escaped;
+    } else {
+      result += text.substr(at, length);
+    }
+    at += controls ? 1 : std::max<std::size_t>(1, length);
   }
-  return result + (text.size() > kLongest ? "...\"" : "\"");
+  return result + (at < text.size() ? "...\"" : "\"");
 }
 
 /// A number for a message or a file: the shortest text that reads back as the same double.

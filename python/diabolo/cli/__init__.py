@@ -48,6 +48,13 @@ class Parser(argparse.ArgumentParser):
         super().__init__(*args, **options)
         self._negative_number_matcher = NEGATIVE_NUMBER
 
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
+        """Complains of what it does not know itself, so that the help of the command is named."""
+        parsed, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return parsed, unknown
+
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}; see {self.prog} --help\n")
 
@@ -87,8 +94,8 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns its exit status: 0, 1 where a plan misses its goal, 2 for bad input, 3 where
-    robots change what is played, 130 after Ctrl-C, 143 after SIGTERM."""
+    """Run the command; returns its exit status: 0, 1 where a plan misses its goal or a diagnosis can conclude
+    nothing, 2 for bad input, 3 where robots change what is played, 130 after Ctrl-C, 143 after SIGTERM."""
     try:
         with _signals_raise():
             return _run(sys.argv[1:] if arguments is None else arguments)

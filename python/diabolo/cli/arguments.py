@@ -20,6 +20,8 @@ from ..files import STDOUT
 from ..formats import load_recording
 
 CALIBRATIONS = {"published": Calibration.published, "blue": Calibration.blue}
+SHOWN_BODIES = {"left": "left tip", "right": "right tip", "diabolo": "diabolo"}
+TIPS, BODIES = tuple(SHOWN_BODIES)[:2], tuple(SHOWN_BODIES)
 OF_RECORDINGS = ("calibration", "up", "columns", "topics")
 """Options that say how a recording is read, but for --arms."""
 FARTHEST_BASE = 100.0
@@ -185,10 +187,14 @@ def arms_of(arguments: argparse.Namespace) -> list[StickArm] | None:
         raise ValueError(f"--arms: {error}") from None
 
 
-def read_excerpt(text: str, reading: Reading) -> Excerpt:
-    """The recording that an argument names, and its rows."""
+def read_excerpt(text: str, reading: Reading, needs: Sequence[str] = ()) -> Excerpt:
+    """The recording that an argument names, and its rows. Raises ValueError where one of the bodies that it
+    `needs` is never seen."""
     path, rows = split_excerpt(text)
     recording = reading.load(path)
+    for body in needs:
+        if not getattr(recording, f"{body}_valid").any():
+            raise ValueError(f"{path}: the {SHOWN_BODIES[body]} is never seen; expected its positions")
     first, last = rows if rows is not None else (0, len(recording) - 1)
     recording.cut(first, last)  # complains about rows that are not there
     return Excerpt(recording, first, last)

@@ -23,6 +23,7 @@ from ..report import check as check_report
 from ..report import report_html
 from ..view import Replay, replay_of
 from .arguments import (
+    BODIES,
     add_calibration,
     add_command,
     output_name,
@@ -46,7 +47,8 @@ def add_parser(commands: Any) -> None:
         summary="name the physics that a simulator misses, or what was measured wrongly",
         text="Compare a simulator with recordings and find where they part. Name what is missing (friction,\n"
         "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets). Add it,\n"
-        "and show on held-out data that the prediction improves. Several recordings are fitted together.",
+        "and show on held-out data that the prediction improves. Several recordings are fitted together.\n\n"
+        "exit status: 0 with an answer, 1 where nothing can be concluded, 2 for bad input.",
         example="  diabolo diagnose swing.csv throw.csv --out diagnosis",
     )
     parser.add_argument(
@@ -74,8 +76,7 @@ def add_parser(commands: Any) -> None:
         metavar="FILE",
         action="append",
         default=[],
-        help="laws of your own, by formulas, which are asked about as all others: see docs/your_law.md; "
-        "may be given several times",
+        help="laws of your own, by formulas, tested as all others are (docs/your_law.md); may be repeated",
     )
     parser.add_argument(
         "--simulated",
@@ -120,7 +121,8 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
 
 
-def run(arguments: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> int:
+    """0, or 1 where nothing can be concluded."""
     check_options(arguments)
     folder = None if arguments.out is None else Path(arguments.out)
     outputs: list[Path | str | None] = [arguments.json]
@@ -137,7 +139,7 @@ def run(arguments: argparse.Namespace) -> None:
     laws = [law for file in arguments.law for law in FormulaLaws.load(file).to_list()]
     reading = reading_of(arguments)
     takes, held = (
-        [_cut(read_excerpt(text, reading)) for text in given]
+        [_cut(read_excerpt(text, reading, BODIES)) for text in given]
         for given in (arguments.recordings, arguments.holdout)
     )
     simulated = [read_simulated(path, takes[0]) for path in arguments.simulated]
@@ -179,6 +181,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(text_of(diagnosis) if comparison is None else comparison_text(comparison))
         if folder is not None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
+    return 1 if diagnosis.headline == "INSUFFICIENT_DATA" else 0
 
 
 def check_options(arguments: argparse.Namespace) -> None:

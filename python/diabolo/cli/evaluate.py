@@ -11,6 +11,7 @@ from .._core import Model
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..evaluation import DEFAULT_HORIZONS, DEFAULT_MODELS, Evaluation, Excerpt, TableRow, evaluate
 from .arguments import (
+    BODIES,
     RECORDING_HELP,
     add_calibration,
     add_command,
@@ -89,7 +90,7 @@ def run(arguments: argparse.Namespace) -> None:
 
         plots.check(arguments.plot)
     reading = reading_of(arguments)
-    excerpts = [read_excerpt(text, reading) for text in arguments.recordings]
+    excerpts = [read_excerpt(text, reading, BODIES) for text in arguments.recordings]
     result = evaluate_excerpts(
         excerpts, models, starts_every=starts_every, seed=arguments.seed, threads=arguments.threads
     )

@@ -15,6 +15,7 @@ from .._core import recorded_plan, stretch_starts
 from ..checks import warn_of
 from .arguments import (
     RECORDING_HELP,
+    TIPS,
     add_calibration,
     add_command,
     output_name,
@@ -54,7 +55,7 @@ def run(arguments: argparse.Namespace) -> None:
     inputs = [split_excerpt(arguments.recording)[0]]
     inputs += [arguments.calibration] if arguments.calibration else []
     files.check_outputs([target, target.with_suffix(".json")], inputs)
-    excerpt = read_excerpt(arguments.recording, reading_of(arguments))
+    excerpt = read_excerpt(arguments.recording, reading_of(arguments), TIPS)
     take = excerpt.recording.cut(excerpt.first, excerpt.last)
     warn_of([take])
     tips = recorded_plan(take)

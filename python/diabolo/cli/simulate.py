@@ -29,6 +29,7 @@ from . import live
 from .arguments import (
     OF_RECORDINGS,
     RECORDING_HELP,
+    TIPS,
     add_calibration,
     add_command,
     check_not_given,
@@ -150,7 +151,7 @@ def write(
 
 def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording, NDArray[np.uint8]]:
     """The recording from the first row that a prediction can start from, its diabolo predicted."""
-    excerpt = read_excerpt(arguments.on, reading_of(arguments))
+    excerpt = read_excerpt(arguments.on, reading_of(arguments), TIPS)
     take = excerpt.recording.cut(excerpt.first, excerpt.last)
     predicted = predict(take, model)
     assert predicted.axis is not None

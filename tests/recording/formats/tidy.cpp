@@ -89,6 +89,13 @@ TEST_CASE("headers of a tidy file that do not fit are refused") {
         "play.csv, line 1: column 1 is \"\", which a tidy recording lacks (--columns maps other names)");
   CHECK(says(tidy_text().substr(0, tidy_text().find('\n') + 1)) ==
         "play.csv, line 1: the file ends here; expected at least one line of data");
+  CHECK(says("time,left_x,left_y,left_z,right_x,right_y,right_z\n0,0,0,0,0,0,0\n") ==
+        "play.csv, line 1: column \"diabolo_x\" is missing: these are the sticks alone; expected a recording "
+        "of "
+        "the diabolo, too");
+  CHECK(says_of("left_x", "H\xc3\xb6he_\xc2\xb5")
+            .starts_with("play.csv, line 1: column 2 is \"H\xc3\xb6he_\xc2\xb5\""));
+  CHECK(says("\x1f\x8b\x08") == "play.csv: the file is compressed by gzip; expected it unpacked");
   std::string wide = "time";
   for (int column = 0; column < 1'000'000; ++column) wide += ",left_x";
   CHECK(says(wide + "\n") == "play.csv, line 1: column \"left_x\" is there twice");
@@ -99,6 +106,7 @@ TEST_CASE("headers of a tidy file that do not fit are refused") {
 TEST_CASE("rows of a tidy file that do not fit are refused") {
   CHECK(says_of("0.6,0.8,0,0\n", "0.6,0.8,0\n") ==
         "play.csv, line 4: 13 cells; expected 14, as in the header");
+  CHECK(says_of("0.02,", "\n0.02,") == "play.csv, line 4: an empty line; expected a row of the table");
   CHECK(says_of("0.6,0.8,0,0\n", "0.6,0.8,0,0,0\n") ==
         "play.csv, line 4: 15 cells; expected 14, as in the header");
   CHECK(
@@ -113,7 +121,7 @@ TEST_CASE("rows of a tidy file that do not fit are refused") {
   CHECK(says_of("0.1,0.3,1.02", "0.1,-300,1020") ==
         "play.csv, line 4: \"left_x\" and on: 1020 m; expected positions within 100 m (other units?)");
   CHECK(says_of("0.1,0.3,1.02", "0.1,NaN,1.02") ==
-        "play.csv, line 4: column 3: \"NaN\"; expected a finite number or an empty cell");
+        "play.csv, line 4: column \"left_y\": \"NaN\"; expected a finite number or an empty cell");
 }
 
 TEST_CASE("Times have to increase at the stated rate") {
@@ -124,6 +132,9 @@ TEST_CASE("Times have to increase at the stated rate") {
   CHECK(says_of("\n0.02,", "\n1e10,") == "play.csv, line 4: time 1e+10 s; expected a number within 1e9 s");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, 120.0}) ==
         "play.csv: rate 120 Hz, but the times step by 0.01 s");
+  CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, 1e5}) ==
+        "play.csv: rate 1e+05 Hz, but the times step by 0.01 s, as if they were in ms: --columns "
+        "time=NAME[ms]");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, kNaN}) ==
         "play.csv: rate nan Hz; expected more than 0, at most 1e6");
   CHECK(says(tidy_text(), {kBlueDiabolo, 0.0, 100.0}) ==

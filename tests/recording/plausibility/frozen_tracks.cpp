@@ -64,3 +64,14 @@ TEST_CASE("A few equal rows are no frozen track") {
   freeze(r.left, 100, 104);
   CHECK(mask_frozen(r) == 0);
 }
+
+TEST_CASE("a coordinate that is the same in all rows was not recorded, in front of a camera") {
+  for (const int axis : {0, 1, 2}) {
+    Recording r = test::shipped(test::kShipped[0]);
+    CHECK(constant_coordinate(r).empty());
+    r.right.position.row(axis).setConstant(0.25);
+    CHECK_THAT(constant_coordinate(r),
+               Contains(std::string("the right tip's ") + "xyz"[axis] + " is 0.25 m in all rows"));
+  }
+  CHECK(constant_coordinate(test::thrown()).empty());
+}

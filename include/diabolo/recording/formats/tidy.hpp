@@ -58,7 +58,7 @@ class TidyReader {
       result.time[i] = times_.next(row_[at_[0]], unit_[0]);
       read_position(result.left, 1, i);
       read_position(result.right, 4, i);
-      read_position(result.diabolo, 7, i);
+      read_position(result.diabolo, kDiabolo, i);
       if (has(kDiaboloOrientation)) read_orientation(result.diabolo_orientation, kDiaboloOrientation, i);
       if (has(kLeftOrientation)) read_orientation(result.left_orientation, kLeftOrientation, i);
       if (has(kRightOrientation)) read_orientation(result.right_orientation, kRightOrientation, i);
@@ -73,13 +73,15 @@ class TidyReader {
   }
 
  private:
-  static constexpr std::size_t kDiaboloOrientation = 10, kLeftOrientation = 14, kRightOrientation = 18;
+  static constexpr std::size_t kDiabolo = 7, kDiaboloOrientation = 10, kLeftOrientation = 14,
+                               kRightOrientation = 18;
   static constexpr std::size_t kAbsent = kTidyColumns.size();
 
   bool has(std::size_t column) const { return at_[column] != kAbsent; }
 
   void read_header() {
     const std::vector<std::string_view> cells = csv_.next_cells();
+    csv_.name_columns(cells);
     at_.fill(kAbsent);
     unit_.fill(1.0);
     row_.resize(cells.size());
@@ -98,7 +100,11 @@ class TidyReader {
       const std::size_t first = k < kDiaboloOrientation ? k : k - (k - kDiaboloOrientation) % 4;
       const bool is_needed = k < (columns_.empty() ? kLeftOrientation : kDiaboloOrientation) || has(first) ||
                              has(first + 1) || has(first + 2) || has(first + 3);
-      if (is_needed && !has(k)) csv_.fail("column " + shown(kTidyColumns[k]) + " is missing");
+      if (is_needed && !has(k))
+        csv_.fail("column " + shown(kTidyColumns[k]) + " is missing" +
+                  (k == kDiabolo && !has(k + 1) && !has(k + 2)
+                       ? ": these are the sticks alone; expected a recording of the diabolo, too"
+                       : ""));
     }
   }
 

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
 
+#include "diabolo/recording/check.hpp"
 #include "diabolo/recording/plausibility/odd_stretches.hpp"
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/recording/track_noise.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
@@ -54,6 +57,31 @@ inline Eigen::Index mask_frozen(Recording& r) {
   }
   if (total > 0) r.notes.push_back("frozen tracking, read as dropouts: " + told);
   return total;
+}
+
+/// A clause about a coordinate that is the same in all rows although noise moves the others of its body; else
+/// empty. A simulation without noise may stay in a plane.
+inline std::string constant_coordinate(const Recording& r) {
+  Recording given = r;
+  const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(given);
+  for (std::size_t b = 0; b < 3; ++b) {
+    const Track& track = *tracks[b];
+    const Eigen::Array3d noise = track_noise(track).deviation;
+    if (!(noise.maxCoeff() > kNoisyTrack)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      double least = kLargestCoordinate, most = -kLargestCoordinate;
+      for (Eigen::Index i = 0; i < r.size(); ++i) {
+        if (!track.valid[i]) continue;
+        least = std::min(least, track.position(axis, i));
+        most = std::max(most, track.position(axis, i));
+      }
+      if (least == most)
+        return "the " + std::string(recording_plausibility_detail::kBodies[b]) + "'s " + "xyz"[axis] +
+               " is " + shown(least) +
+               " m in all rows, while noise moves its other coordinates: it was not recorded";
+    }
+  }
+  return {};
 }
 
 }  // namespace diabolo

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
 #include "diabolo/recording/plausibility/usual_path.hpp"
@@ -30,38 +27,6 @@ inline std::string odd_height(const Recording& r) {
   return "the diabolo is above the tips in " + std::to_string(100 * above / known) +
          " % of the rows in which the string reaches it: an axis other than z points up, or bodies are "
          "swapped";
-}
-
-/// Fastest usual turn of an axle, twice what a player makes of it [rad/s]; the least and the largest turn
-/// from row to row [rad] that anything is concluded from.
-inline constexpr double kFastAxle = 6.0, kLeastAxleTurn = 0.15, kMostAxleTurn = 0.5;
-
-/// A clause about the diabolo's orientations where they are none of a diabolo; else empty.
-inline std::string odd_axle(const Recording& r) {
-  const OrientationTrack& track = r.diabolo_orientation;
-  if (track.empty()) return {};
-  const auto axle = [&track](Eigen::Index i) {
-    return Eigen::Quaterniond(Eigen::Vector4d(track.quaternion.col(i))) * Eigen::Vector3d::UnitX();
-  };
-  std::vector<double> turns;
-  bool turns_at_all = false;
-  std::size_t moves = 0;
-  for (Eigen::Index i = 0; i + 1 < r.size(); ++i) {
-    if (!track.valid[i] || !track.valid[i + 1] || !r.steps_evenly(i)) continue;
-    turns_at_all = turns_at_all || track.quaternion.col(i) != track.quaternion.col(i + 1);
-    moves += r.diabolo.valid[i] && r.diabolo.valid[i + 1] &&
-             r.diabolo.position.col(i) != r.diabolo.position.col(i + 1);
-    turns.push_back(axle(i).cross(axle(i + 1)).norm());
-  }
-  if (static_cast<double>(turns.size()) < kFewestSeconds * r.rate) return {};
-  if (!turns_at_all && 2 * moves > turns.size())
-    return "the diabolo's orientation never changes: it was not tracked";
-  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
-  std::nth_element(turns.begin(), middle, turns.end());
-  const double most = std::max(kLeastAxleTurn, kFastAxle / r.rate);
-  if (most > kMostAxleTurn || *middle < most) return {};
-  return "the diabolo's body x turns by " + shown_rounded(*middle) +
-         " rad from row to row: it is not the axle, or the quaternions are not in the order x, y, z, w";
 }
 
 /// "2.5 s to 2.75 s and 3 times more": when bodies were under each other's names.

@@ -9,6 +9,8 @@
 
 #include "diabolo/recording/plausibility/fall.hpp"
 #include "diabolo/recording/plausibility/frozen_tracks.hpp"
+#include "diabolo/recording/plausibility/odd_orientations.hpp"
+#include "diabolo/recording/plausibility/odd_spin.hpp"
 #include "diabolo/recording/plausibility/odd_stretches.hpp"
 #include "diabolo/recording/plausibility/odd_tips.hpp"
 #include "diabolo/recording/plausibility/odd_tracking.hpp"
@@ -57,7 +59,7 @@ inline std::vector<std::string> warnings(const Recording& recording) {
       !is_odd(odd_distance(recording)) && !is_odd(odd_up(recording, fallen)) &&
       !is_odd(odd_height(recording)) && !is_odd(odd_shift(recording)))
     is_odd(odd_fall(recording, fallen));
-  is_odd(odd_axle(recording));
+  if (!is_odd(odd_orientations(recording))) is_odd(open_spin(recording));
   is_odd(odd_heading(recording));
   is_odd(odd_names(recording));
   const Track* const tips[2] = {&recording.left, &recording.right};
