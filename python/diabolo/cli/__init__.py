@@ -94,8 +94,8 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns its exit status: 0, 1 where a plan misses its goal or a diagnosis can conclude
-    nothing, 2 for bad input, 3 where robots change what is played, 130 after Ctrl-C, 143 after SIGTERM."""
+    """Run the command; returns its exit status: 0, 1 where a plan misses its goal, 2 for bad input, 3 where
+    robots change what is played, 130 after Ctrl-C, 143 after SIGTERM."""
     try:
         with _signals_raise():
             return _run(sys.argv[1:] if arguments is None else arguments)

@@ -48,7 +48,7 @@ def add_parser(commands: Any) -> None:
         text="Compare a simulator with recordings and find where they part. Name what is missing (friction,\n"
         "elasticity, drag, lift, spin losses) or measured wrongly (tilt, scale, delay, offsets). Add it,\n"
         "and show on held-out data that the prediction improves. Several recordings are fitted together.\n\n"
-        "exit status: 0 with an answer, 1 where nothing can be concluded, 2 for bad input.",
+        "exit status: 0 with an answer, be it INSUFFICIENT_DATA (see --json), 2 for bad input.",
         example="  diabolo diagnose swing.csv throw.csv --out diagnosis",
     )
     parser.add_argument(
@@ -121,8 +121,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--threads", metavar="N", type=int, default=0, help="default: all processors")
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """0, or 1 where nothing can be concluded."""
+def run(arguments: argparse.Namespace) -> None:
     check_options(arguments)
     folder = None if arguments.out is None else Path(arguments.out)
     outputs: list[Path | str | None] = [arguments.json]
@@ -181,7 +180,6 @@ def run(arguments: argparse.Namespace) -> int:
         print(text_of(diagnosis) if comparison is None else comparison_text(comparison))
         if folder is not None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
-    return 1 if diagnosis.headline == "INSUFFICIENT_DATA" else 0
 
 
 def check_options(arguments: argparse.Namespace) -> None:
