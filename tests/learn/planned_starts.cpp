@@ -14,17 +14,17 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr double kPeriod = 0.02;  // [s]
+constexpr double kPlanPeriod = 0.02;  // [s]
 
 const std::vector<EpisodeStart>& starts() {
   static const std::vector<EpisodeStart> planned = planned_starts(
-      "ThrowAndCatch", std::vector{FullPredictor<double>(Parameters<double>())}, {.plays = 3}, kPeriod);
+      "ThrowAndCatch", std::vector{FullPredictor<double>(Parameters<double>())}, {.plays = 3}, kPlanPeriod);
   return planned;
 }
 
-Arena arena(const ArenaOptions& given) {
+Arena arena_of(const ArenaOptions& given) {
   ArenaOptions options = given;
-  options.period = kPeriod;
+  options.period = kPlanPeriod;
   options.steps = 20;
   options.start_share = 1.0;
   return {options, {consistent_model()}, best_batch_kernel()};
@@ -43,7 +43,7 @@ TEST_CASE("a correction of zero plays exactly the plan, which throws") {
   for (const EpisodeStart& start : starts()) {
     ArenaOptions options = throwing();
     options.starts = {start};
-    Arena one = arena(options);
+    Arena one = arena_of(options);
     one.reset(0);
     const Episode& episode = one.episode(0);
     const std::vector<float> none(6, 0.0F);
@@ -80,34 +80,34 @@ TEST_CASE("a plan's hands are on its path to a millimetre or two, with its veloc
   roomy.speed = 5.0;
   roomy.acceleration = 200.0;
   roomy.half = {1.0, 2.0, 1.0};
-  const HandPlan plan = planned_hands(planned, shift, roomy, 1.6, kPeriod);
+  const HandPlan plan = planned_hands(planned, shift, roomy, 1.6, kPlanPeriod);
   CHECK(farthest_off(plan, planned, shift) < 2e-3);
-  CHECK(farthest_off(planned_hands(planned, shift, roomy, 1.6, 0.5 * kPeriod), planned, shift) < 5e-4);
+  CHECK(farthest_off(planned_hands(planned, shift, roomy, 1.6, 0.5 * kPlanPeriod), planned, shift) < 5e-4);
   for (std::size_t i = 0; i < plan.moments.size(); ++i) {
-    const Hands wanted = moment_at(planned, kPeriod * static_cast<double>(i), shift).hands;
+    const Hands wanted = moment_at(planned, kPlanPeriod * static_cast<double>(i), shift).hands;
     for (std::size_t side = 0; side < 2; ++side)
       CHECK((plan.moments[i].hands.velocity[side] - wanted.velocity[side]).norm() < 1e-9);
   }
-  CHECK(plan.time_left(0) == Approx(planned.path.end()).margin(kPeriod));
+  CHECK(plan.time_left(0) == Approx(planned.path.end()).margin(kPlanPeriod));
   CHECK(plan.time_left(1000) == 0.0);
   CHECK(plan.at(1000).hands.velocity[0].norm() < 1e-9);
   HandLimits slow;
   slow.speed = 0.3;
-  CHECK(farthest_off(planned_hands(planned, shift, slow, 1.45, kPeriod), planned, shift) > 0.05);
+  CHECK(farthest_off(planned_hands(planned, shift, slow, 1.45, kPlanPeriod), planned, shift) > 0.05);
 }
 
 TEST_CASE("a correction adds half of what the tips may accelerate, is seen, and wears off") {
   ArenaOptions options = throwing();
   options.starts.resize(1);
-  Arena one = arena(options);
+  Arena one = arena_of(options);
   one.reset(0);
   const std::vector<float> up{0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F};
   one.step(up.data());
-  const double faster = HandPlan::kCorrection * one.limits().acceleration * kPeriod;
+  const double faster = HandPlan::kCorrection * one.limits().acceleration * kPlanPeriod;
   const auto off = one.observations.begin() + kUsual;
-  CHECK(off[8] == Approx(0.5 * faster * kPeriod));  // left tip, z
-  CHECK(off[14] == Approx(faster));                 // its velocity
-  CHECK(off[11] == 0.0F);                           // right tip, z
+  CHECK(off[8] == Approx(0.5 * faster * kPlanPeriod));  // left tip, z
+  CHECK(off[14] == Approx(faster));                     // its velocity
+  CHECK(off[11] == 0.0F);                               // right tip, z
   const HandPlan::Moment& plan = starts().front().plan->at(1);
   for (std::size_t k = 0; k < 6; ++k)
     CHECK(off[18 + static_cast<std::ptrdiff_t>(k)] == Approx(plan.shares[k]));
@@ -124,9 +124,9 @@ TEST_CASE("corrected plans play the same bits with any number of threads, within
   ArenaOptions options = throwing();
   options.autoreset = Autoreset::kSameStep;
   options.count = 7;
-  Arena one = arena(options);
+  Arena one = arena_of(options);
   options.threads = 3;
-  Arena many = arena(options);
+  Arena many = arena_of(options);
   for (std::size_t i = 0; i < one.count(); ++i) one.reset(i), many.reset(i);
   Draw draw(2421, 0);
   std::vector<float> actions(6 * one.count());
@@ -143,7 +143,7 @@ TEST_CASE("plans that cannot be played are refused") {
   ArenaOptions options = throwing();
   options.starts.front().plan.reset();
   options.start_share = 1.0;
-  options.period = kPeriod;
+  options.period = kPlanPeriod;
   const auto made = [&] { Arena(options, {consistent_model()}, best_batch_kernel()); };
   CHECK_THROWS_WITH(made(), Contains("starts, 1: expected a plan in all starts, or in none"));
   options.starts = starts();
@@ -152,7 +152,7 @@ TEST_CASE("plans that cannot be played are refused") {
   options.start_share = 1.0;
   options.period = 0.01;
   CHECK_THROWS_WITH(made(), "starts, 0: a plan for a period of 0.02 s; expected 0.01 s");
-  options.period = kPeriod;
+  options.period = kPlanPeriod;
   options.tasks = {"Hop"};
   CHECK_THROWS_WITH(made(), "starts, 0: of the task ThrowAndCatch; expected one that is played");
   options.tasks = {"Hop", "ThrowAndCatch"};
