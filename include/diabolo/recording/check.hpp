@@ -77,10 +77,6 @@ inline void check_properties(const DiaboloProperties& properties, double string_
   };
   check("diabolo.diameter [m]", properties.diameter, kSmallestCup, kLargestCup);
   check("diabolo.length [m]", properties.length, kSmallestCup, kLargestCup);
-  if (2.0 * properties.axle_radius >= properties.diameter)
-    throw RecordingError(where + ": diabolo.axle_radius [m] " + shown(properties.axle_radius) +
-                         ": an axle as thick as the cups; expected less than half of diabolo.diameter [m], " +
-                         shown(0.5 * properties.diameter));
   Parameters<double> parameters;
   parameters.mass = properties.mass;
   parameters.axle_radius = properties.axle_radius;
@@ -90,6 +86,10 @@ inline void check_properties(const DiaboloProperties& properties, double string_
     check(owner + std::string(info.name) + " [" + std::string(info.unit) + "]", value, info.minimum,
           info.maximum);
   });
+  if (2.0 * properties.axle_radius >= properties.diameter)
+    throw RecordingError(where + ": diabolo.axle_radius [m] " + shown(properties.axle_radius) +
+                         ": an axle as thick as the cups; expected less than half of diabolo.diameter [m], " +
+                         shown(0.5 * properties.diameter));
 }
 
 /// Throws RecordingError unless each of these names is one of kAssumable, and there once.
