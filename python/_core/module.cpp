@@ -29,8 +29,8 @@ PYBIND11_MODULE(_core, module) {
   bind_diagnosis(module);
   bind_residual_fit(module);
   bind_learn(module);
-  bind_level(module);
   bind_player(module);  // plays what an agent learns from
+  bind_level(module);   // plays along a path
   bind_robot(module);
   bind_estimate(module);  // takes an arm's torques
   bind_pickles();

@@ -59,28 +59,29 @@ inline Eigen::Index mask_frozen(Recording& r) {
   return total;
 }
 
-/// A clause about a coordinate that is the same in all rows although noise moves the others of its body; else
-/// empty. A simulation without noise may stay in a plane.
+/// A clause about a coordinate that is the same in all rows although noise moves the others of its body, and
+/// the same one of another body; else empty. A simulation may stay in a plane.
 inline std::string constant_coordinate(const Recording& r) {
   Recording given = r;
   const std::array<Track*, 3> tracks = recording_plausibility_detail::tracks_of(given);
-  for (std::size_t b = 0; b < 3; ++b) {
-    const Track& track = *tracks[b];
-    const Eigen::Array3d noise = track_noise(track).deviation;
-    if (!(noise.maxCoeff() > kNoisyTrack)) continue;
+  std::array<Eigen::Array3d, 3> noise;
+  for (std::size_t b = 0; b < 3; ++b) noise[b] = track_noise(*tracks[b]).deviation;
+  const auto is_noisy = [](double deviation) { return deviation > kNoisyTrack; };
+  for (std::size_t b = 0; b < 3; ++b)
     for (int axis = 0; axis < 3; ++axis) {
+      const auto moves_along = [&](const Eigen::Array3d& body) { return is_noisy(body[axis]); };
+      if (!is_noisy(noise[b].maxCoeff()) || std::ranges::none_of(noise, moves_along)) continue;
       double least = kLargestCoordinate, most = -kLargestCoordinate;
       for (Eigen::Index i = 0; i < r.size(); ++i) {
-        if (!track.valid[i]) continue;
-        least = std::min(least, track.position(axis, i));
-        most = std::max(most, track.position(axis, i));
+        if (!tracks[b]->valid[i]) continue;
+        least = std::min(least, tracks[b]->position(axis, i));
+        most = std::max(most, tracks[b]->position(axis, i));
       }
       if (least == most)
         return "the " + std::string(recording_plausibility_detail::kBodies[b]) + "'s " + "xyz"[axis] +
                " is " + shown(least) +
                " m in all rows, while noise moves its other coordinates: it was not recorded";
     }
-  }
   return {};
 }
 
