@@ -138,7 +138,7 @@ def test_two_arms_are_drawn(tmp_path, more):
 
 def test_what_its_own_tendon_lacks_is_named(tmp_path):
     """Friction and drag are at work in the recordings; MuJoCo's tendon knows neither and gives like a spring.
-    Friction is named; of the drag it is not said that the two agree; no spring is named without the other."""
+    Friction is named; of the drag it is not said that the two agree; sticks are not named without the string."""
     report = tmp_path / "mujoco.html"
     takes = [str(ROOT / "data" / "recordings" / f"puzzle_{number}.csv") for number in (1, 2)]
     done = subprocess.run(
@@ -150,7 +150,7 @@ def test_what_its_own_tendon_lacks_is_named(tmp_path):
     lacks, rest = done.stdout.split(";")[0], done.stdout
     assert "lacks friction of the string on the axle" in lacks
     assert "drag" in lacks or "agree in the drag of the air cannot be told" in rest
-    assert ("the bending of the sticks" in rest) == ("the string's stretch" in rest)
+    assert "the bending of the sticks" not in rest or "the string's stretch" in rest
     ahead, errors = done.stdout.splitlines()[-1].split(" s ahead:")
     alone, better = (float(part.split()[0]) for part in errors.split("->"))
     assert float(ahead) == 1.0
