@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HandPlan', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'Unbalance', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hand_plan', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_orientation', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HandPlan', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LevelHorizon', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'Unbalance', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hand_plan', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_orientation', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
   """Name, unit and range of a numeric parameter."""
   @property
@@ -2048,69 +2048,6 @@ class LiveAgent:
     """Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's end. Until then their accelerations are constant."""
   @property
   def agent(self) -> Agent: ...
-class LevelHands:
-  """
-  Hands that keep the axle of a diabolo level while they play any motion.
-  
-  They turn the motion towards the axle, and beyond it to tilt it, by the gains of a linear-quadratic regulator on
-  the model, learnt anew where the spin has changed by a tenth. The model needs a GyroscopicTilt.
-  """
-  def __init__(self, model: Model, left: _Reals, right: _Reals, spin: _Real, *, lead: _Real = 0.9, turn: _Real = 1.0, quickness: _Real = 10.0) -> None:
-    """
-    left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
-    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the
-    rate `quickness` [1/s].
-    """
-  def advance(self, dt: _Real) -> None:
-    """Let the hands follow for `dt` [s]."""
-  def see(self, axis: _Reals, spin: _Real) -> None:
-    """Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s]."""
-  def tips(self, left: _Reals, right: _Reals, left_velocity: _Reals = ..., right_velocity: _Reals = ...) -> tuple:
-    """
-    The motion's tips [m] and their velocities [m/s] as these hands play them now.
-    
-    Returns left, right, left_velocity, right_velocity, each of the shape (3,).
-    """
-  @property
-  def gains(self) -> _Array:
-    """K of (lead, turn) = -K (tilt, yaw, heading), shape (2, 3)."""
-  @property
-  def heading(self) -> float:
-    """Where the player faces, from where the play began to the left [rad]."""
-  @property
-  def lead(self) -> float:
-    """How far the hands are turned to the left beyond the heading [rad]."""
-class LevelHorizon:
-  """
-  Hands that keep the axle level as LevelHands do, by a receding horizon.
-  
-  Each 0.1 s they plan lead and turn of the next 1.2 s on the model with its free axle, for the motion that they
-  play meanwhile: pulls, throws, flights and catches to come count, and the place of the diabolo.
-  """
-  def __init__(self, model: Model, left: _Reals, right: _Reals, spin: _Real, *, lead: _Real = 0.9, turn: _Real = 1.0, quickness: _Real = 10.0) -> None:
-    """
-    left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
-    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the
-    rate `quickness` [1/s].
-    """
-  def advance(self, dt: _Real) -> None:
-    """Let the hands follow for `dt` [s]."""
-  def see(self, time: _Real, state: State, path: TipPath) -> None:
-    """
-    Take in the state that is seen at a time [s], with its axis; path: what the hands are to play, not turned.
-    """
-  def tips(self, left: _Reals, right: _Reals, left_velocity: _Reals = ..., right_velocity: _Reals = ...) -> tuple:
-    """
-    The motion's tips [m] and their velocities [m/s] as these hands play them now.
-    
-    Returns left, right, left_velocity, right_velocity, each of the shape (3,).
-    """
-  @property
-  def heading(self) -> float:
-    """Where the player faces, from where the play began to the left [rad]."""
-  @property
-  def lead(self) -> float:
-    """How far the hands are turned to the left beyond the heading [rad]."""
 class Waypoint:
   """A state of the diabolo that is wanted: position [m] and velocity [m/s], and the weights of the paper's costs: distance, difference of speeds, angle."""
   def __init__(self, position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position_weight: _Real = 1.0, velocity_weight: _Real = 0.0, direction_weight: _Real = 0.0) -> None: ...
@@ -2367,6 +2304,67 @@ class PlannedPlay:
   @property
   def wanted(self) -> list[Goals]:
     """The goals of the first cycle."""
+class LevelHands:
+  """
+  Hands that keep the axle of a diabolo level while they play any motion.
+  
+  They turn the motion towards the axle, and beyond it to tilt it, by the gains of a linear-quadratic regulator on
+  the model, learnt anew where the spin has changed by a tenth. The model needs a GyroscopicTilt.
+  """
+  def __init__(self, model: Model, left: _Reals, right: _Reals, spin: _Real, *, lead: _Real = 0.9, turn: _Real = 1.0, quickness: _Real = 10.0) -> None:
+    """
+    left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
+    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the
+    rate `quickness` [1/s].
+    """
+  def advance(self, dt: _Real) -> None:
+    """Let the hands follow for `dt` [s]."""
+  def see(self, axis: _Reals, spin: _Real) -> None:
+    """Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s]."""
+  def tips(self, left: _Reals, right: _Reals, left_velocity: _Reals = ..., right_velocity: _Reals = ...) -> tuple:
+    """
+    The motion's tips [m] and their velocities [m/s] as these hands play them now.
+    
+    Returns left, right, left_velocity, right_velocity, each of the shape (3,).
+    """
+  @property
+  def gains(self) -> _Array:
+    """K of (lead, turn) = -K (tilt, yaw, heading), shape (2, 3)."""
+  @property
+  def heading(self) -> float:
+    """Where the player faces, from where the play began to the left [rad]."""
+  @property
+  def lead(self) -> float:
+    """How far the hands are turned to the left beyond the heading [rad]."""
+class LevelHorizon:
+  """
+  Hands that keep the axle level as LevelHands do, by a receding horizon.
+  
+  Each 0.1 s they plan lead and turn of the next 1.2 s on the model with its free axle, for the motion that they
+  play meanwhile: pulls, throws, flights and catches to come count, and the place of the diabolo.
+  """
+  def __init__(self, model: Model, left: _Reals, right: _Reals, spin: _Real, *, lead: _Real = 0.9, turn: _Real = 1.0, quickness: _Real = 10.0) -> None:
+    """
+    left, right: the hands of the play at rest [m], shape (3,); spin [rad/s], 10 at least. At most `lead`
+    [rad] are they turned beyond their heading, which itself turns with at most `turn` [rad/s]; they follow with the
+    rate `quickness` [1/s].
+    """
+  def advance(self, dt: _Real) -> None:
+    """Let the hands follow for `dt` [s]."""
+  def see(self, time: _Real, state: State, path: TipPath) -> None:
+    """Take in the state that is seen at a time [s], with its axis; path: what the hands are to play, not turned."""
+  def tips(self, left: _Reals, right: _Reals, left_velocity: _Reals = ..., right_velocity: _Reals = ...) -> tuple:
+    """
+    The motion's tips [m] and their velocities [m/s] as these hands play them now.
+    
+    Returns left, right, left_velocity, right_velocity, each of the shape (3,).
+    """
+  @property
+  def heading(self) -> float:
+    """Where the player faces, from where the play began to the left [rad]."""
+  @property
+  def lead(self) -> float:
+    """How far the hands are turned to the left beyond the heading [rad]."""
 class StickArm:
   """
   A UR5e where it stands, with the stick in its flange, as in the paper.
