@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 3> names_of(Autoreset) {
 inline void expect_tasks(const std::vector<std::string>& tasks) {
   if (tasks.empty()) throw std::invalid_argument("task: none; expected at least one");
   for (const std::string& task : tasks)
-    if (task_named(task); std::ranges::count(tasks, task) > 1)
+    if (task_named(task); std::count(tasks.begin(), tasks.end(), task) > 1)
       throw std::invalid_argument("task: " + task + " twice; expected each once");
 }
 
@@ -70,14 +70,14 @@ struct ArenaOptions {
       throw std::invalid_argument("start_share: " + shown(start_share) +
                                   "; expected 1, as starts have plans");
     for (const std::string& task : tasks)
-      if (std::ranges::none_of(starts, [&](const EpisodeStart& start) { return start.is_of(task); }))
+      if (!std::ranges::any_of(starts, [&](const EpisodeStart& start) { return start.is_of(task); }))
         throw std::invalid_argument("starts: none of " + task + "; expected plans for each task");
   }
 
  private:
   void expect_start(const EpisodeStart& start, const std::string& here) const {
     limits.expect_within(start.hands, here);
-    if (std::ranges::none_of(tasks, [&](const std::string& task) { return start.is_of(task); }))
+    if (!std::ranges::any_of(tasks, [&](const std::string& task) { return start.is_of(task); }))
       throw std::invalid_argument(here + ": of the task " + start.task + "; expected one that is played");
     if ((start.plan != nullptr) != corrects())
       throw std::invalid_argument(here + ": expected a plan in all starts, or in none");
