@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "diabolo/plan/level_foresight.hpp"
@@ -104,7 +105,7 @@ class LevelHorizon {
   TurningHands hands_;
   std::vector<double> wanted_;  ///< of the last plan, see LevelForesight::residuals()
   Vector3<double> axles_ = Vector3<double>::Zero();
-  double planned_ = -INFINITY, since_ = 0.0;  ///< [s]
+  double planned_ = -std::numeric_limits<double>::infinity(), since_ = 0.0;  ///< [s]
 };
 
 }  // namespace diabolo
