@@ -138,7 +138,7 @@ def test_two_arms_are_drawn(tmp_path, more):
 
 def test_what_its_own_tendon_lacks_is_named(tmp_path):
     """Friction and drag are at work in the recordings; MuJoCo's tendon knows neither and gives like a spring.
-    Friction is named; of the drag it is not said that the two agree; sticks are not named without the string."""
+    Friction is named; of the drag it is not said that the two agree; the sticks never without the string."""
     report = tmp_path / "mujoco.html"
     takes = [str(ROOT / "data" / "recordings" / f"puzzle_{number}.csv") for number in (1, 2)]
     done = subprocess.run(

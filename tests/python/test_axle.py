@@ -7,6 +7,7 @@ import copy
 import json
 import pickle
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import diabolo
@@ -207,40 +208,34 @@ def test_a_ghost_lies_as_it_is_predicted() -> None:
     assert place["axes"] == []
 
 
-def test_hands_level_an_axle() -> None:
-    hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
-    assert hands.gains.shape == (2, 3)
+def expect_levelled(hands: LevelHands | LevelHorizon, see: Callable[[float, State], None]) -> None:
+    """Hands take back a tilt of 0.3 rad within six seconds."""
     state = diabolo.hang_at_rest(RIGID, LEFT, RIGHT, 60.0)
     state.axis = [np.cos(0.3), 0.0, np.sin(0.3)]
     predictor = Predictor(RIGID)
     left, right, _, _ = hands.tips(LEFT, RIGHT)
     for step in range(6000):
         if step % 10 == 0:
-            hands.see(state.axis, state.spin)
+            see(1e-3 * step, state)
         hands.advance(1e-3)
         before = left, right
         left, right, _, _ = hands.tips(LEFT, RIGHT)
         predictor.step(state, *before, left, right, 1e-3)
     assert abs(state.axis[2]) < 0.02
     assert np.arctan2(state.axis[1], state.axis[0]) == pytest.approx(hands.heading, abs=0.05)
+
+
+def test_hands_level_an_axle() -> None:
+    hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
+    assert hands.gains.shape == (2, 3)
+    expect_levelled(hands, lambda _, state: hands.see(state.axis, state.spin))
 
 
 def test_hands_level_an_axle_by_a_receding_horizon() -> None:
     hands = LevelHorizon(RIGID, LEFT, RIGHT, 60.0)
     still = StickSpline([0.0, 0.5], [LEFT] * 2, [RIGHT] * 2).path()
+    expect_levelled(hands, lambda time, state: hands.see(time, state, still))
     state = diabolo.hang_at_rest(RIGID, LEFT, RIGHT, 60.0)
-    state.axis = [np.cos(0.3), 0.0, np.sin(0.3)]
-    predictor = Predictor(RIGID)
-    left, right, _, _ = hands.tips(LEFT, RIGHT)
-    for step in range(6000):
-        if step % 10 == 0:
-            hands.see(1e-3 * step, state, still)
-        hands.advance(1e-3)
-        before = left, right
-        left, right, _, _ = hands.tips(LEFT, RIGHT)
-        predictor.step(state, *before, left, right, 1e-3)
-    assert abs(state.axis[2]) < 0.02
-    assert np.arctan2(state.axis[1], state.axis[0]) == pytest.approx(hands.heading, abs=0.05)
     with pytest.raises(ValueError, match="time"):
         hands.see(float("nan"), state, still)
     with pytest.raises(ValueError, match="gyroscopic_tilt gain: 0 1/m"):
