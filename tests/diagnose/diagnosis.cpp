@@ -359,6 +359,24 @@ TEST_CASE("what can decide nothing gives no name") {
   CHECK_THROWS_AS(diagnose({}), std::invalid_argument);
 }
 
+TEST_CASE("friction is found where nobody saw the spin, of either sense") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.2;
+  Recording seen = played(effects, 14.0, 2);
+  seen.diabolo_orientation = {};
+  Recording mirrored = seen;  // left is right: it turns the other way
+  std::swap(mirrored.left, mirrored.right);
+  for (Track* track : {&mirrored.left, &mirrored.right, &mirrored.diabolo}) track->position.row(1) *= -1.0;
+  for (const Recording& recording : {seen, mirrored}) {
+    const Diagnosis d = diagnose({recording});
+    CAPTURE(d.sentence);
+    const Finding* const friction = claimed(d, "string_friction");
+    REQUIRE(friction != nullptr);
+    CHECK(friction->estimate[index_of(Unknown::kFriction)] == Approx(0.2).epsilon(0.1));
+    CHECK(*d.heldout.position.augmented_error[2] < 0.5 * *d.heldout.position.base_error[2]);
+  }
+}
+
 TEST_CASE("a spin that no orientation shows, or a wrong one, is told not to be asked about") {
   AllEffects<double> effects;
   effects.get<StringFriction>().coefficient = 0.17;

@@ -61,6 +61,20 @@ TEST_CASE("every guess is a law whose probes act as it does, each by one number"
   CHECK(words.size() > 30);
 }
 
+TEST_CASE("of what nobody sees without the spin there is no guess") {
+  std::vector<LawGuess> guesses = law_guesses(fit_of_nothing(), swinging_windows(0.31));
+  const auto by_spin = [](const LawGuess& guess) {
+    const std::string& text = guess.law.formula.text();
+    return guess.law.acts == Acts::kSpin || guess.law.acts == Acts::kLift ||
+           text.find("spin") != std::string::npos;
+  };
+  const auto others = std::ranges::count_if(guesses, [&](const LawGuess& guess) { return !by_spin(guess); });
+  leave_out_unseen(guesses, fit_of_nothing());
+  CHECK(std::ssize(guesses) == others);
+  CHECK(others > 20);
+  CHECK(std::ranges::none_of(guesses, by_spin));
+}
+
 TEST_CASE("a swing is guessed at the frequency that windows see best") {
   for (const double frequency : {0.17, 0.31, 0.6}) {
     const std::vector<LawGuess> guesses = law_guesses(fit_of_nothing(), swinging_windows(frequency));

@@ -20,6 +20,18 @@ Full with_law(const FormulaLaws<double>& laws) {
 
 }  // namespace
 
+TEST_CASE("a law is by the spin where it acts on it, or asks for it") {
+  const auto by_spin = [](Acts acts, const char* formula) {
+    return Law("any", "", acts, formula, {{"k", "1"}}).by_spin();
+  };
+  CHECK(by_spin(Acts::kSpin, "k"));
+  CHECK(by_spin(Acts::kLift, "k * speed"));
+  CHECK(by_spin(Acts::kAgainst, "k * abs(spin)"));
+  CHECK(by_spin(Acts::kUp, "k * slip"));
+  CHECK(by_spin(Acts::kUp, "k * axis_z"));
+  CHECK_FALSE(by_spin(Acts::kUp, "k * speed * pull * sin(t) + k * passing"));
+}
+
 TEST_CASE("laws of amplitude zero change no bit") {
   const unsigned seed = 790;
   CAPTURE(seed);

@@ -108,6 +108,8 @@ inline ActiveSet asked_at_first(const Bank& bank) {
 inline void without_spin(Bank& bank, ActiveSet& set) {
   for (const Candidate& candidate : candidates())
     if (candidate.by_spin) set = with(set, candidate, false);
+  for (const Candidate* candidate : bank)  // somebody's own among them
+    if (candidate->by_spin) set = with(set, *candidate, false);
   std::erase_if(bank, [](const Candidate* candidate) { return candidate->by_spin; });
 }
 

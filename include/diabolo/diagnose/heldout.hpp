@@ -23,7 +23,18 @@ struct HeldOutRecording {
   Recording recording;
   UnknownVector at;
   std::vector<UnknownVector> without;
+  double unseen_spin = 0.0;  ///< of its starts, if it does not show any [rad/s]
 };
+
+/// The spin of the middle window that was fitted, where nobody saw it [rad/s]; zero where all takes show it.
+inline double unseen_spin(const Fit& fit) {
+  std::vector<double> spins;
+  for (const FitTake& fit_take : fit.fit_takes)
+    for (const FitWindow& window : fit_take.windows)
+      if (!has_spin(fit_take)) spins.push_back(window.start.spin);
+  std::ranges::sort(spins);
+  return spins.empty() ? 0.0 : quantile(spins, 0.5);
+}
 
 /// Scaled unknowns in SI units, within their bounds, with the wraps that are tried and never free.
 inline UnknownVector within_bounds(const UnknownVector& scaled, const Fit& fit) {
@@ -44,7 +55,10 @@ inline std::vector<HeldOutRecording> leave_out(const Fit& fit, const Evidence& e
                                                const std::vector<Recording>& holdout) {
   std::vector<HeldOutRecording> result;
   const auto add = [&](Recording recording, const std::vector<bool>& left_out) {
-    result.push_back({std::move(recording), within_bounds(evidence.solve_without(free, left_out), fit), {}});
+    result.push_back({std::move(recording),
+                      within_bounds(evidence.solve_without(free, left_out), fit),
+                      {},
+                      unseen_spin(fit)});
     for (const ActiveSet& set : without)
       result.back().without.push_back(within_bounds(evidence.solve_without(set, left_out), fit));
   };
@@ -118,8 +132,9 @@ inline std::vector<std::vector<WindowError>> errors_of(const HorizonTask& task, 
 
 /// Adds what one recording's predictions are wrong by to each horizon's errors.
 inline void add_errors(const HeldOutRecording& held, const Model& base, const Model& physics,
-                       const HorizonOptions& options, std::uint64_t seed, const Watch& watch,
+                       HorizonOptions options, std::uint64_t seed, const Watch& watch,
                        std::vector<ErrorsAhead>& ahead) {
+  options.unseen_spin = held.unseen_spin;
   const auto task_at = [&](const UnknownVector& at) {
     return HorizonTask(corrected(held.recording, at), augmented_model(physics, at, "augmented"), options);
   };

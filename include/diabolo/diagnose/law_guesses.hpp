@@ -231,4 +231,10 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   return std::move(guesses.list);
 }
 
+/// Leaves out guesses of which nothing is seen, since no recording of the fit shows the spin.
+inline void leave_out_unseen(std::vector<LawGuess>& guesses, const Fit& fit) {
+  if (std::ranges::none_of(fit.fit_takes, has_spin))
+    std::erase_if(guesses, [](const LawGuess& guess) { return guess.law.by_spin(); });
+}
+
 }  // namespace diabolo

@@ -248,6 +248,7 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
   if (fit.fit_takes.size() == 1)
     std::ranges::move(diagnose_detail::fast_guesses<D>(fit, physics, set, options.threads, watch),
                       std::back_inserter(guesses));
+  leave_out_unseen(guesses, fit);
   std::vector<LearntLaw> trials;
   for (const auto& scored :
        diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits, options.threads, watch)) {

@@ -38,6 +38,7 @@ inline std::shared_ptr<const OwnCandidates> own_candidates(const FormulaLaws<dou
                         0.0,      law.positive()};
     for (std::size_t i = 1; i < law.numbers.size(); ++i)
       candidate.companions.push_back(own_number(first + i));
+    candidate.by_spin = law.by_spin();
     candidate.law = &law;
     result->list.push_back(std::move(candidate));
   });

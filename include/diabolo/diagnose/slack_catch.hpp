@@ -27,7 +27,8 @@ class CatchTrials {
   CatchTrials(const Fit& fit, const Model& physics, int threads, const FitWatch& watch)
       : model_(augmented_model(physics, fit.at, "")), threads_(threads), watch_(watch) {
     for (const FitTake& fit_take : fit.fit_takes)
-      recordings_.push_back({corrected(fit_take.take->recording, fit.at), fit.at, {}});
+      recordings_.push_back({corrected(fit_take.take->recording, fit.at), fit.at, {}, {}});
+    options_.unseen_spin = unseen_spin(fit);
     options_.starts_every = starts_every(recordings_, fit.most_windows);
     options_.horizons = {0.25, 0.5, 1.0};
   }

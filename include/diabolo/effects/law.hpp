@@ -41,6 +41,7 @@ inline std::string_view unit_of(Acts acts) {
 /// What a formula may ask of the state and the tips at a step's beginning.
 struct LawVariable {
   std::string_view name, unit, meaning;
+  bool by_spin = false;  ///< unknown where nobody sees the diabolo turn
 };
 inline constexpr std::array<LawVariable, 21> kLawVariables{{
     {"t", "s", "time of the recording, or of the tips' motion"},
@@ -51,10 +52,10 @@ inline constexpr std::array<LawVariable, 21> kLawVariables{{
     {"vy", "m/s", "the same to the left"},
     {"vz", "m/s", "the same upwards"},
     {"speed", "m/s", "size of the velocity"},
-    {"spin", "rad/s", "spin with its sign"},
-    {"axis_x", "1", "direction of the axle, forwards"},
-    {"axis_y", "1", "the same to the left"},
-    {"axis_z", "1", "the same upwards"},
+    {"spin", "rad/s", "spin with its sign", true},
+    {"axis_x", "1", "direction of the axle, forwards", true},
+    {"axis_y", "1", "the same to the left", true},
+    {"axis_z", "1", "the same upwards", true},
     {"pull", "m/s^2", "acceleration by the string in the last step"},
     {"taut", "1", "1 on the taut string, else 0"},
     {"flying", "1", "1 where it has left the string, else 0"},
@@ -63,7 +64,7 @@ inline constexpr std::array<LawVariable, 21> kLawVariables{{
     {"left_speed", "m/s", "speed of the left tip"},
     {"right_speed", "m/s", "speed of the right tip"},
     {"passing", "m/s", "speed of the string over the axle, towards the right tip"},
-    {"slip", "m/s", "speed of the axle's surface against the string, towards the right tip"},
+    {"slip", "m/s", "speed of the axle's surface against the string, towards the right tip", true},
 }};
 
 /// A number of a law: its amplitude, or what gives it its shape.
@@ -120,6 +121,14 @@ struct Law {
   bool operator==(const Law& other) const {
     return name == other.name && plain == other.plain && acts == other.acts && numbers == other.numbers &&
            formula.text() == other.formula.text();
+  }
+
+  /// Whether nothing is seen of it unless the diabolo is seen to turn, and its axle with it.
+  bool by_spin() const {
+    if (acts == Acts::kLift || acts == Acts::kSpin) return true;
+    for (std::size_t i = 0; i < kLawVariables.size(); ++i)
+      if (kLawVariables[i].by_spin && formula.uses(i)) return true;
+    return false;
   }
 
   /// A negative amplitude is against it.

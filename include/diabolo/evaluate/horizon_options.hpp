@@ -22,8 +22,9 @@ struct HorizonOptions {
   double starts_every = 0.1;                               ///< [s]
   std::vector<double> horizons{0.1, 0.25, 0.5, 1.0, 2.0};  ///< after the start [s]
   Start start = Start::kFair;
-  std::uint64_t seed = 1;  ///< of the bootstrap
-  int threads = 0;         ///< 0: one for every processor; the result is the same
+  double unseen_spin = 0.0;  ///< of starts on a recording that never shows the spin [rad/s]
+  std::uint64_t seed = 1;    ///< of the bootstrap
+  int threads = 0;           ///< 0: one for every processor; the result is the same
 };
 
 /// Throws std::invalid_argument where an option is out of its range.

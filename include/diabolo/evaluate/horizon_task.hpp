@@ -37,7 +37,7 @@ class HorizonTask {
   HorizonTask(const Recording& recording, const Model& model, const HorizonOptions& options)
       : recording_(without_dropout_edges(recording)),
         tips_(recording, model.interpolation),
-        starts_(recording_, has_signed_spin(model)),
+        starts_(recording_, has_signed_spin(model), options.unseen_spin),
         baseline_(baseline_track(recording)),
         predictor_(predictor_for(model, recording)),
         windows_(

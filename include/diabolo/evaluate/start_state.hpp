@@ -84,11 +84,12 @@ inline Eigen::Matrix3Xd axes(const Recording& recording) {
   return result;
 }
 
-/// Start states over a recording. A spin that is not known is zero.
+/// Start states over a recording. A spin that is not known yet is zero; where none is ever seen, it is
+/// `unseen_spin`.
 class StartStates {
  public:
   /// Throws RecordingError where the recording is not what its type promises.
-  StartStates(const Recording& recording, bool signed_rule)
+  StartStates(const Recording& recording, bool signed_rule, double unseen_spin = 0.0)
       : position_(recording.diabolo.position),
         fair_velocity_(velocity(recording, recording.diabolo, start_velocity_filter(recording.rate))),
         published_velocity_(velocity(recording, recording.diabolo, forward_difference())),
@@ -100,6 +101,10 @@ class StartStates {
     for (Eigen::Index i = 0; i < recording.size(); ++i) {
       if (spin.valid[i]) spin_after_[i] = spin.value[i];
       if (i > 0) spin_before_[i] = spin.valid[i - 1] ? spin.value[i - 1] : spin_before_[i - 1];
+    }
+    if (!spin.valid.any()) {
+      spin_before_.setConstant(unseen_spin);
+      spin_after_.setConstant(unseen_spin);
     }
     spin_around_ =
         moving_mean(spin, std::max<Eigen::Index>(1, std::lround(0.5 * kStartWindow * recording.rate)));
