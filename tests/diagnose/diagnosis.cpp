@@ -377,6 +377,28 @@ TEST_CASE("friction is found where nobody saw the spin, of either sense") {
   }
 }
 
+TEST_CASE(
+    "of a play that runs backwards nothing is concluded, whether it is seen which stick is which or not") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.2;
+  const Recording forwards = played(effects, 14.0, 2), backwards = with_time_reversed(forwards);
+  CHECK(claimed(diagnose({forwards}), "string_friction") != nullptr);
+  CHECK(with_time_reversed(backwards).diabolo.position == forwards.diabolo.position);
+  Recording told = backwards;  // sticks that point forwards tell which is which
+  told.left_orientation = told.right_orientation = OrientationTrack::missing(told.size());
+  for (OrientationTrack* track : {&told.left_orientation, &told.right_orientation}) {
+    track->quaternion.colwise() = Eigen::Vector4d(0.0, 0.0, 0.0, 1.0);
+    track->valid.setConstant(true);
+  }
+  for (const Recording& recording : {backwards, told}) {
+    const Diagnosis d = diagnose({recording});
+    CAPTURE(d.sentence);
+    CHECK(d.headline == Headline::kInsufficientData);
+    CHECK_THAT(d.reason, Contains("time seems to run backwards"));
+    CHECK(d.findings.empty());
+  }
+}
+
 TEST_CASE("a spin that no orientation shows, or a wrong one, is told not to be asked about") {
   AllEffects<double> effects;
   effects.get<StringFriction>().coefficient = 0.17;

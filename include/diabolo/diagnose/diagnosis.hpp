@@ -10,6 +10,7 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/inquiry.hpp"
+#include "diabolo/diagnose/other_reading.hpp"
 #include "diabolo/recording/plausibility/odd_orientations.hpp"
 #include "diabolo/recording/plausibility/odd_tracking.hpp"
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
@@ -58,22 +59,17 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
   diagnose_detail::Inquiry<D> inquiry(recordings, options, watch, options.budget);
   Diagnosis result = inquiry.answer();
   bool by_friction = false;
-  const bool backwards = inquiry.backwards() && !sides_are_right;
-  if (backwards && budget.spent()) {
-    result.not_done.emplace_back("asking again with the sticks exchanged (beyond the budget)");
+  if (inquiry.backwards() && budget.spent()) {
+    result.not_done.emplace_back("asking again with sticks exchanged, or time reversed (beyond the budget)");
     conclude(result);
-  } else if (backwards) {
-    for (std::vector<Recording>* list : {&recordings, &options.holdout})
-      for (Recording& recording : *list) recording = with_sticks_exchanged(std::move(recording));
-    diagnose_detail::Inquiry<D> other(recordings, options, watch, options.budget - budget.elapsed());
-    Diagnosis exchanged = other.answer();
-    const bool rubs = std::ranges::any_of(exchanged.findings, [](const Finding& f) {
-      return f.claimed && f.candidate->name == "string_friction";
-    });
-    if (rubs && !other.backwards()) {
-      result = std::move(exchanged);
-      by_friction = true;
-    }
+  } else if (inquiry.backwards()) {
+    auto other =
+        diagnose_detail::other_reading<D>(result, sides_are_right, recordings, options, watch, budget);
+    if (other && other->reading == diagnose_detail::Reading::kTimeReversed)
+      result = diagnose_detail::refused_as_reversed(result, options);
+    else if (other)
+      result = std::move(other->answer);
+    by_friction = other && other->reading == diagnose_detail::Reading::kSticksExchanged;
   }
   if (by_friction) swapped = frames - swapped;
   const std::string reason = by_friction       ? "friction would give energy unless the sticks are exchanged"
