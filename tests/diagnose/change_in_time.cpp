@@ -57,6 +57,32 @@ TEST_CASE("a string that creeps is told by how much a second") {
   CHECK(*changes.front().trend_per_s == Approx(2e-3).epsilon(0.15));
 }
 
+TEST_CASE(
+    "a change too small to matter is none, however sure; windows that know little do not make it large") {
+  const auto windows_of = [](double factor) {
+    std::vector<WindowFinding> windows = seen(
+        kSideways, 120, [](double) { return 0.0; }, test::fresh_seed());
+    for (WindowFinding& w : windows) {
+      w.curvature[kSideways] = 1e6;
+      w.slope[kSideways] = 1e6 * factor * wave(w.begin) / kStandardGravity / info_of(Unknown::kTiltY).scale;
+    }
+    return windows;
+  };
+  CHECK(changes_in_time(windows_of(0.02)).empty());  // 4 mm/s^2
+  std::vector<WindowFinding> windows = windows_of(0.2);
+  const auto size = [&] {
+    const std::vector<ChangeInTime> changes = changes_in_time(windows);
+    REQUIRE(changes.size() == 1);
+    return changes.front().size;
+  };
+  CHECK(size() == Approx(0.04 / std::sqrt(2.0)).epsilon(0.2));
+  for (std::size_t i = 0; i < windows.size(); i += 3) {  // ten times as far, and hardly sure of it
+    windows[i].slope[kSideways] *= 1e-5;
+    windows[i].curvature[kSideways] *= 1e-6;
+  }
+  CHECK(size() < 0.04);
+}
+
 TEST_CASE("noise changes in less than one of a hundred recordings, however large; so does a constant") {
   std::mt19937 generator(test::fresh_seed());
   int found = 0;

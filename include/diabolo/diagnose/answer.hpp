@@ -138,7 +138,8 @@ struct UnexplainedForce {
 struct MayChange {
   Unknown unknown;
   const char *name, *unit;
-  double factor = 1.0;  ///< of the unit in that of the unknown
+  double factor = 1.0;     ///< of the unit in that of the unknown
+  double smallest = 8e-3;  ///< that matters, in the unit: an acceleration of 1 mm in half a second
 };
 
 /// Accelerations in the world by gravity's direction and size, forces, torques, and the string's length.
@@ -151,9 +152,9 @@ inline constexpr std::array kMayChange{
     MayChange{Unknown::kFlightAgainst, "flight_against_v", "m/s^2"},
     MayChange{Unknown::kFlightVertical, "flight_vertical", "m/s^2"},
     MayChange{Unknown::kFlightLift, "flight_axis_x_v", "m/s^2"},
-    MayChange{Unknown::kSpinString, "spin_on_string", "rad/s^2"},
-    MayChange{Unknown::kSpinFree, "spin_off_string", "rad/s^2"},
-    MayChange{Unknown::kStringLength, "string_length", "m"}};
+    MayChange{Unknown::kSpinString, "spin_on_string", "rad/s^2", 1.0, 0.5},
+    MayChange{Unknown::kSpinFree, "spin_off_string", "rad/s^2", 1.0, 0.5},
+    MayChange{Unknown::kStringLength, "string_length", "m", 1.0, 1e-3}};
 
 /// Whether a law depends on what its formula says, see dependence_of().
 struct Dependence {

@@ -60,7 +60,7 @@ inline WindowSeries series_of(const std::vector<WindowFinding>& windows, std::si
 }
 
 /// How well neighbours agree [standard deviations], no window counting more than six times the middle one,
-/// and the root of what they agree on.
+/// and the root of what they agree on: the mean of their products, those counting more that know more.
 struct Agreement {
   double z = 0.0, size = 0.0;
 };
@@ -73,19 +73,19 @@ inline Agreement agreement_of(const WindowSeries& series) {
   std::vector<double> sorted = sizes;
   std::ranges::sort(sorted);
   const double most = 6.0 * quantile(sorted, 0.5);
-  std::vector<double> products;
-  double sum = 0.0, squares = 0.0;
+  int pairs = 0;
+  double sum = 0.0, squares = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < series.size(); ++i) {
     if (!series.neighbours(i)) continue;
     const double product = std::copysign(std::min(sizes[i], most), series.value[i]) *
                            std::copysign(std::min(sizes[i + 1], most), series.value[i + 1]);
     sum += product;
     squares += product * product;
-    products.push_back(series.value[i] * series.value[i + 1]);
+    weights += std::sqrt(series.weight[i] * series.weight[i + 1]);
+    ++pairs;
   }
-  if (products.size() < 12) return {};
-  std::ranges::sort(products);
-  return {sum / std::sqrt(std::max(squares, 1e-300)), std::sqrt(std::max(0.0, quantile(products, 0.5)))};
+  if (pairs < 12) return {};
+  return {sum / std::sqrt(std::max(squares, 1e-300)), std::sqrt(std::max(0.0, sum / weights))};
 }
 
 /// What is left of a series [weighted sum of squares] beside some functions of time, by least squares.
@@ -139,14 +139,14 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
 
 }  // namespace diagnose_detail
 
-/// Unknowns of which neighbouring windows say the same, and others something else: the surest first. What no
-/// name explains shows here long before it shows in the size of what is left.
+/// Unknowns of which neighbouring windows say the same, and others something else, by as much as matters: the
+/// surest first. What no name explains shows here long before it shows in the size of what is left.
 inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding>& windows) {
   std::vector<ChangeInTime> result;
   for (std::size_t k = 0; k < kMayChange.size(); ++k) {
     const diagnose_detail::WindowSeries series = diagnose_detail::series_of(windows, k);
     const diagnose_detail::Agreement agreement = diagnose_detail::agreement_of(series);
-    if (!(agreement.z > kAgreement)) continue;
+    if (!(agreement.z > kAgreement && agreement.size > kMayChange[k].smallest)) continue;
     ChangeInTime change;
     change.quantity = kMayChange[k].name;
     change.unit = kMayChange[k].unit;

@@ -99,12 +99,39 @@ inline constexpr double kImmaterialAhead = 1e-3;
 /// is made from a tenth of a second, and of the tips, which neighbours share.
 inline constexpr std::size_t kStartsAlike = 2;
 
+/// Without a claim or with it, an error counts no more than so many times that of the middle start, of the
+/// two whichever is larger: a missed catch says nothing of the forces.
+inline constexpr double kFarAhead = 3.0;
+
 namespace diagnose_detail {
+
+/// What predictions from the same starts are wrong by without a claim, and with it.
+struct WithoutAndWith {
+  std::vector<double> without, with;
+
+  void add(double of_without, double of_with) {
+    without.push_back(of_without);
+    with.push_back(of_with);
+  }
+  /// More without it, see kFarAhead.
+  std::vector<double> losses() const {
+    if (with.empty()) return {};
+    const auto middle = [](std::vector<double> errors) {
+      std::ranges::sort(errors);
+      return quantile(errors, 0.5);
+    };
+    const double most = kFarAhead * std::max(middle(without), middle(with));
+    std::vector<double> result;
+    for (std::size_t i = 0; i < with.size(); ++i)
+      result.push_back(std::min(without[i], most) - std::min(with[i], most));
+    return result;
+  }
+};
 
 /// What predictions are wrong by at one horizon, a number for each start.
 struct Errors {
   std::vector<double> base, augmented, gain, start;
-  std::vector<std::vector<double>> losses;  ///< for each claim: more than with it
+  std::vector<WithoutAndWith> claims;  ///< each in its turn
 
   void add(double of_base, double of_augmented) {
     base.push_back(of_base);
@@ -166,9 +193,8 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
       for (std::size_t h = 0; h < ahead.size(); ++h) {
         const WindowError &a = poorer[i][h], &b = with[i][h];
         if (!both_predicted(a, b)) continue;
-        ahead[h].position.losses[c].push_back(a.model - b.model);
-        if (std::isfinite(a.spin) && std::isfinite(b.spin))
-          ahead[h].spin.losses[c].push_back(a.spin - b.spin);
+        ahead[h].position.claims[c].add(a.model, b.model);
+        if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.claims[c].add(a.spin, b.spin);
       }
   }
 }
@@ -184,9 +210,9 @@ void add_horizon(const Errors& errors, ErrorsByHorizon& result, const IntervalOf
   result.augmented_error.push_back(mean_if_any(errors.augmented));
   result.start_error.push_back(mean_if_any(errors.start));
   result.improvement_ci95.push_back(interval_of(errors.gain));
-  result.worsening_ci95.resize(errors.losses.size());
-  for (std::size_t c = 0; c < errors.losses.size(); ++c)
-    result.worsening_ci95[c].push_back(interval_of(errors.losses[c]));
+  result.worsening_ci95.resize(errors.claims.size());
+  for (std::size_t c = 0; c < errors.claims.size(); ++c)
+    result.worsening_ci95[c].push_back(interval_of(errors.claims[c].losses()));
 }
 
 }  // namespace diagnose_detail
@@ -203,8 +229,8 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
   const std::size_t claims = recordings.empty() ? 0 : recordings.front().without.size();
   std::vector<diagnose_detail::ErrorsAhead> ahead(options.horizons.size());
   for (diagnose_detail::ErrorsAhead& errors : ahead) {
-    errors.position.losses.resize(claims);
-    errors.spin.losses.resize(claims);
+    errors.position.claims.resize(claims);
+    errors.spin.claims.resize(claims);
   }
   for (const HeldOutRecording& held : recordings)
     diagnose_detail::add_errors(held, base, physics, options, seed, watch, ahead);
