@@ -87,6 +87,21 @@ TEST_CASE("a swing is guessed at the frequency that windows see best") {
   }
 }
 
+TEST_CASE("a force that begins is guessed from the moment on at which windows see it") {
+  for (const double onset : {4.0, 13.5, 25.0}) {
+    std::vector<WindowFinding> windows = swinging_windows(0.3);
+    for (WindowFinding& w : windows) w.slope[0] = w.begin < onset ? 0.0 : 100.0;
+    const std::vector<LawGuess> guesses = law_guesses(fit_of_nothing(), windows);
+    const auto begins = std::ranges::find_if(guesses, [](const LawGuess& guess) {
+      return guess.law.acts == Acts::kForward && guess.law.numbers.back().name == "onset";
+    });
+    REQUIRE(begins != guesses.end());
+    CAPTURE(onset);
+    CHECK(begins->law.numbers.back().expected == Approx(onset));
+    CHECK(begins->probes.size() == 1);
+  }
+}
+
 TEST_CASE("more laws leave those that are there, under names that are free") {
   Model model = consistent_model();
   const Law known("learnt_1", "", Acts::kUp, "k", {{"k", "1"}});

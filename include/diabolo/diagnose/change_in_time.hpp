@@ -123,6 +123,17 @@ inline std::pair<double, double> best_frequency(const WindowSeries& series) {
   return best;
 }
 
+/// The begin [s] of the window from which on a constant, beside another one before, leaves least of a series.
+inline double best_onset(const WindowSeries& series) {
+  double best = series.time.front(), least = left_beside(series, {});
+  for (const double onset : series.time) {
+    if (onset == series.time.front()) continue;
+    const double left = left_beside(series, {[onset](double t) { return t < onset ? 0.0 : 1.0; }});
+    if (left < least) best = onset, least = left;
+  }
+  return best;
+}
+
 /// Names the shape of a change: steady, or an oscillation that leaves clearly less; neither where both leave
 /// most of it. Only where all windows are of one recording, whose clock they share.
 inline void name_shape(const WindowSeries& series, ChangeInTime& change) {

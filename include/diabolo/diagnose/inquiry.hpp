@@ -75,6 +75,8 @@ class Inquiry : public ClaimSearch<D> {
     if (looking.is_enough()) budget_.leave(asking);
     if (!result_.catch_rule) return;
     physics_.parameters.catch_slack = result_.catch_rule->catch_slack_m;
+    refine<D>(fit_, physics_, set_, kMostIterations, options_.threads,
+              step("refitting what is left", 0.85, 0.85));
   }
 
   /// Claims what stands, and takes back, one after the other, what data that were left out deny.

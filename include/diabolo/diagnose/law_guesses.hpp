@@ -125,6 +125,17 @@ class Guesses {
          quadratures(acts, factor, frequency, words)});
   }
 
+  /// amplitude * factor from the time `onset` on, within a second: what a window sees.
+  void starting(Acts acts, const std::string& factor, double onset, double span) {
+    const auto step = [&](const std::string& begin) {
+      return product(joined(factor, "(1 + tanh((t - " + begin + ") / 0.5)) / 2"));
+    };
+    const std::string words = ", from a moment on";
+    const LawNumber begin{"onset", "s", 0.2, onset, 0.0, std::max(span, onset)};
+    list.push_back({made(acts, step("onset"), words, {amplitude(acts), begin}),
+                    {made(acts, step(shown(onset)), words, {amplitude(acts)})}});
+  }
+
   /// amplitude * factor * sin(2 pi frequency t), and the same of the cosine.
   static std::vector<Law> quadratures(Acts acts, const std::string& factor, double frequency,
                                       const std::string& words) {
@@ -165,7 +176,7 @@ inline constexpr std::array<Swinging, kMayChange.size()> kSwinging{{{Acts::kForw
                                                                     {Acts::kSpin, "(1 - taut)"},
                                                                     {Acts::kString, ""}}};
 
-/// Laws in time: a trend, and the oscillation that windows see best.
+/// Laws in time: a trend, and the oscillation and the onset that windows see best.
 inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& windows) {
   for (std::size_t k = 0; k < kMayChange.size(); ++k) {
     const WindowSeries series = series_of(windows, k);
@@ -175,6 +186,7 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
     guesses.trending(acts, factor);
     const double frequency = std::round(1e4 * best_frequency(series).first) / 1e4;
     if (frequency > 0.0) guesses.swinging(acts, factor, frequency, span, ", to and fro");
+    guesses.starting(acts, factor, std::round(100.0 * best_onset(series)) / 100.0, series.time.back());
   }
 }
 
