@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "diabolo/diagnose/compiled.hpp"
+#include "diabolo/diagnose/final_fit.hpp"
 #include "diabolo/diagnose/first_fit.hpp"
 #include "diabolo/full_predictor.hpp"
 
@@ -104,4 +105,7 @@ TEST_CASE("a whole diagnosis predicts what a slack string catches") {
   CHECK(d.catch_rule);
   CHECK(d.model.parameters.catch_slack >= 0.55);
   CHECK(d.sentence.find("rule for a catch is too strict") != std::string::npos);
+  Fit again = d.final_fit->fit;  // what was fitted catches as the model does
+  linearize(again, d.final_fit->physics, 1);
+  CHECK(d.final_fit->fit.cost == Approx(again.cost));
 }

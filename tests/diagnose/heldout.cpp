@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "diabolo/diagnose/heldout.hpp"
+
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "catch.hpp"
+#include "recording/support.hpp"
+
+using namespace diabolo;
+using diagnose_detail::WithoutAndWith;
+
+namespace {
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+TEST_CASE("what a claim gains at nearly all starts is not lost to one missed catch") {
+  std::mt19937 generator(test::fresh_seed());
+  std::uniform_real_distribution<double> error(8e-3, 12e-3);
+  WithoutAndWith errors;
+  for (int i = 0; i < 100; ++i) {
+    const double with = error(generator);
+    errors.add(with + 2e-3, with);
+  }
+  CHECK(mean(errors.losses()) == Approx(2e-3));
+  errors.add(10e-3, 5.0);  // it flies away
+  CHECK(mean(errors.losses()) > 1.5e-3);
+  errors.add(5.0, 10e-3);
+  CHECK(mean(errors.losses()) == Approx(2e-3).epsilon(0.05));
+}
+
+TEST_CASE("large errors without a claim count in full where most are") {
+  WithoutAndWith errors;
+  for (int i = 0; i < 50; ++i) errors.add(0.1 + 1e-3 * i, 5e-3);
+  CHECK(mean(errors.losses()) == Approx(0.1245 - 5e-3));
+  CHECK(WithoutAndWith().losses().empty());
+}
+
+TEST_CASE("where nobody sees the spin, predictions begin with that of the middle window that was fitted") {
+  Fit fit;
+  fit.fit_takes.resize(2);
+  const auto take = std::make_shared<Take>(), seen = std::make_shared<Take>();
+  seen->has_spin = true;
+  fit.fit_takes[0].take = take;
+  fit.fit_takes[1].take = seen;
+  CHECK(unseen_spin(fit) == 0.0);
+  for (const double spin : {70.0, 90.0, -400.0}) {
+    FitWindow window{};
+    window.start.spin = spin;
+    fit.fit_takes[0].windows.push_back(window);
+    window.start.spin = 10.0 * spin;
+    fit.fit_takes[1].windows.push_back(window);
+  }
+  CHECK(unseen_spin(fit) == 70.0);
+}
