@@ -131,7 +131,7 @@ TEST_CASE("nothing is named that leaves most of a large gap") {
   CHECK(d.headline == Headline::kUnnamedStructure);
   CAPTURE(d.sentence);
   CHECK(d.sentence.find("sideways") != std::string::npos);
-  CHECK(d.sentence.find("All that may be off in the measurement explains 2") != std::string::npos);
+  CHECK(d.sentence.find("What is fitted along, and not claimed, explains 2") != std::string::npos);
 }
 
 TEST_CASE("a name says how much it explains and what it leaves") {

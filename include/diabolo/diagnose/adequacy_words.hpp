@@ -98,7 +98,7 @@ inline std::string explained_in_words(const Adequacy& adequacy, bool named) {
   const std::optional<double> share = by_spin ? adequacy.spin_explained : adequacy.explained;
   std::string text;
   if (share)
-    text = (named ? " This explains " : " All that may be off in the measurement explains ") +
+    text = (named ? " This explains " : " What is fitted along, and not claimed, explains ") +
            std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" +
            (by_spin ? " in the spin." : ".");
   if (!adequacy.places.empty()) text += " No explanation has been found of " + left_in_words(adequacy) + ".";

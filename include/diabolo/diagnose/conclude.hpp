@@ -68,7 +68,8 @@ inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence,
 /// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim
 /// on the spin; any, where positions are. Returns whether that was so.
 inline bool withdraw_what_does_not_help(Diagnosis& d, const HeldOut& heldout) {
-  const LeftOutSays position(heldout.position.improvement_ci95), spin(heldout.spin.improvement_ci95);
+  const LeftOutSays position(heldout.position.improvement_ci95, kImmaterialPosition),
+      spin(heldout.spin.improvement_ci95, kImmaterialSpin);
   if (!position.against() && !spin.against()) return false;
   bool withdrawn = false;
   for (Finding& f : d.findings) {
@@ -108,8 +109,8 @@ inline bool withdraw_what_explains_too_little(Diagnosis& d) {
 inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
   const Finding* weakest = nullptr;
   for (Finding& f : d.findings) {
-    const LeftOutSays position(f.worsening_ci95), spin(f.spin_worsening_ci95),
-        &says = is_of_spin(*f.candidate) ? spin : position;
+    const LeftOutSays position(f.worsening_ci95, kImmaterialPosition),
+        spin(f.spin_worsening_ci95, kImmaterialSpin), &says = is_of_spin(*f.candidate) ? spin : position;
     const bool physics = is_law(*f.candidate), tips = first_of(*f.candidate) == Unknown::kLeftX;
     const bool denied = physics ? says.against() || (says.leans_against() && spin.better == 0)
                                 : tips && 2 * says.better < says.horizons;

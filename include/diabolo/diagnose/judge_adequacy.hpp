@@ -14,13 +14,10 @@
 
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/change_in_time.hpp"
+#include "diabolo/diagnose/left_out_says.hpp"
 #include "diabolo/diagnose/residual_and_noise.hpp"
 
 namespace diabolo {
-
-/// What matters to nobody, root mean square over half a second: an acceleration that moves a free diabolo by
-/// 1 mm leaves 0.04 mm beside the best start.
-inline constexpr double kImmaterialPosition = 4e-5, kImmaterialSpin = 0.1;
 
 /// A name is a wrong one where the gap stays open by more than half, and the middle window still misses by so
 /// many times the noise, or by so much after half a second [m].

@@ -13,36 +13,15 @@
 
 #include "diabolo/diagnose/diagnosis_options.hpp"
 #include "diabolo/diagnose/fast_swings.hpp"
-#include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/judge_law.hpp"
 #include "diabolo/diagnose/law_guesses.hpp"
-#include "diabolo/diagnose/left_out_says.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
-#include "diabolo/diagnose/significance.hpp"
 
 namespace diabolo {
 
-/// A law is learnt where chi^2 falls by so much, in units of the dispersion: twice what a name needs, since
-/// many guesses are asked about.
-/// (Beside that it must matter, explain windows that were left out, and help predictions of them.)
-inline constexpr double kGainOfLaw = 2.0 * kSignificance * kSignificance;
-
-/// So much of it may stand alone where predictions cannot tell.
-inline constexpr double kGainAlone = 10.0 * kGainOfLaw;
-
 /// A guess is fitted that promises so much: what stands in a law's place may hide some of it.
 inline constexpr double kGainOfGuess = kSignificance * kSignificance;
-
-/// A law that was learnt and the fit with it.
-struct LearntLaw {
-  Law law;
-  std::size_t first = 0;  ///< place of its first number among those of the model's laws
-  Model physics;          ///< the base of the fit
-  Fit fit;
-  ActiveSet set = ActiveSet::Constant(false);
-  double gain = 0.0;  ///< what chi^2 falls by, in units of the dispersion
-  std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
-};
 
 namespace diagnose_detail {
 
@@ -66,14 +45,6 @@ inline Model with_laws(Model physics, const std::vector<Law>& more) {
   std::copy_n(own.numbers.begin(), numbers_of(own), result.numbers.begin());
   own = std::move(result);
   return physics;
-}
-
-/// What is free beside a law.
-inline ActiveSet without(const LearntLaw& learnt) {
-  ActiveSet result = learnt.set;
-  for (std::size_t i = 0; i < learnt.law.numbers.size(); ++i)
-    result[index_of(own_number(learnt.first + i))] = false;
-  return result;
 }
 
 /// A guess with what the windows say of its probes, all else free that is.
@@ -173,67 +144,6 @@ LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics
   return result;
 }
 
-/// Whether a law moves the diabolo, or its spin, by as much as matters.
-inline bool matters(const LearntLaw& learnt) {
-  Candidate own{learnt.law.name, "", CandidateKind::kPhysics, {own_number(learnt.first)}, 0.0, false};
-  own.law = &learnt.law;
-  const double least = is_of_spin(own) ? kSmallestSpinShare : kSmallestReach;
-  return size_of(own, learnt.fit.at, learnt.fit.systems) > least;
-}
-
-/// Whether a fit is sure of all its laws by formulas: of two that do the same it is of neither.
-inline bool is_sure_of_laws(const LearntLaw& learnt) {
-  const Estimates now = estimates_of(Evidence(learnt.fit), learnt.set);
-  bool sure = true;
-  learnt.physics.effects.get<FormulaLaws>().each([&](const Law&, std::size_t first) {
-    const int size = index_of(own_number(first));
-    if (learnt.set[size]) sure = sure && std::abs(now.estimate[size]) > kSignificance * now.deviation(size);
-  });
-  return sure;
-}
-
-/// Whether it may as well be a law that has a name: by its power, within two standard deviations.
-inline bool may_have_a_name(const LearntLaw& learnt, const std::vector<double>& named_powers) {
-  if (named_powers.empty()) return false;
-  const int u = index_of(own_number(learnt.first + 1));
-  const LawNumber& power = learnt.law.numbers[1];
-  const double value = power.expected + power.usual * learnt.fit.at[u],
-               reach = 2.0 * power.usual * estimates_of(Evidence(learnt.fit), learnt.set).deviation(u);
-  return std::ranges::any_of(named_powers, [&](double named) { return std::abs(value - named) < reach; });
-}
-
-/// Whether windows that were left out, fold by fold, fit better with a law. Position and spin count.
-inline bool explains_left_out(const LearntLaw& learnt) {
-  const Evidence evidence(learnt.fit);
-  const ActiveSet less = without(learnt);
-  double gain = 0.0;
-  for (const Fold& fold : folds_of(learnt.fit.fit_takes)) {
-    const std::vector<bool> left_out = windows_in(fold, learnt.fit.fit_takes);
-    gain += evidence.cost_left_out(less, left_out) - evidence.cost_left_out(learnt.set, left_out);
-  }
-  return gain > 0.0;
-}
-
-/// Whether data that were left out are predicted better with a law than by the fit `before`, of `set`, and
-/// nowhere worse: the spin, by a law that acts on it; else positions. Where they are few and cannot tell,
-/// much of chi^2 is enough, if they do not lean against it. Notes by how much they are predicted better.
-inline bool helps(LearntLaw& learnt, const Fit& before, const ActiveSet& set, const DiagnosisOptions& options,
-                  const FitWatch& watch) {
-  std::vector<HeldOutRecording> held =
-      leave_out(learnt.fit, Evidence(learnt.fit), learnt.set, {}, options.holdout);
-  const std::vector<HeldOutRecording> old = leave_out(before, Evidence(before), set, {}, options.holdout);
-  for (std::size_t i = 0; i < held.size(); ++i) held[i].without = {old[i].at};
-  const HeldOut compared = compare_held_out(held, options.base, learnt.physics, options.seed,
-                                            learnt.fit.most_windows, options.threads, watch);
-  if (compared.position.worsening_ci95.empty()) return false;
-  learnt.worsening_ci95 = compared.position.worsening_ci95.front();
-  learnt.spin_worsening_ci95 = compared.spin.worsening_ci95.front();
-  const LeftOutSays position(learnt.worsening_ci95), spin(learnt.spin_worsening_ci95),
-      &judge = learnt.law.acts == Acts::kSpin ? spin : position;
-  return position.worse == 0 && spin.worse == 0 &&
-         (judge.better > 0 || (learnt.gain > kGainAlone && judge.leaning >= 0.0));
-}
-
 }  // namespace diagnose_detail
 
 /// The law that leaves least of what is left over, if windows that were left out say that it is there; fitted
@@ -255,12 +165,12 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
     if (!trials.empty() && kMayOvertake * scored.gain < trials.front().gain) break;
     LearntLaw trial = diagnose_detail::fitted<D>(scored, fit, physics, set, bank, options.threads, watch);
     if (watch.is_enough()) return std::nullopt;  // it may not have settled
-    if (trial.gain > kGainOfLaw && diagnose_detail::matters(trial) &&
+    if (diagnose_detail::explains_enough(trial, fit, windows) && diagnose_detail::matters(trial) &&
         diagnose_detail::is_sure_of_laws(trial) && diagnose_detail::explains_left_out(trial) &&
         !diagnose_detail::may_have_a_name(trial, scored.guess->named_powers))
       trials.push_back(std::move(trial));
   }
-  std::ranges::stable_sort(trials, std::greater(), &LearntLaw::gain);
+  std::ranges::stable_sort(trials, std::greater(), diagnose_detail::worth);
   for (LearntLaw& trial : trials)
     if (diagnose_detail::helps(trial, fit, set, options, watch)) return std::move(trial);
   return std::nullopt;
