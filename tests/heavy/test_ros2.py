@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from diabolo import Model, Predictor, TipMotion, hang_at_rest, load_recording
+from diabolo.cli import main
 
 rclpy = pytest.importorskip("rclpy", reason="ROS 2 is not installed: make ros2")
 
@@ -343,9 +344,25 @@ def test_a_recorded_bag_replays_to_the_same_play(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+def test_a_played_plan_is_drawn_beside_its_bag(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    assert main(["plan", "throw_and_catch", "--out", str(tmp_path / "throw.csv")]) == 0
+    plan = tmp_path / "throw.csv"
+    bag = heard(tmp_path, "take.mcap", plan, 2.37)
+    command = [sys.executable, str(EXAMPLES / "draw.py"), str(bag), str(plan), str(tmp_path / "ros2.png")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    off = float(done.stdout.split(": ")[1].split(" mm")[0])
+    assert off < 50.0  # the tips go straight between two rows of the plan
+    assert load_recording(bag).diabolo[:, 2].max() > 1.8  # thrown
+    assert (tmp_path / "ros2.png").read_bytes().startswith(b"\x89PNG")
+
+
 @pytest.mark.parametrize(
     ("program", "arguments", "sentence"),
     [
+        ("draw.py", f"{SWING} none.csv ros2.png", "none.csv: there is no such file"),
+        ("draw.py", f"{SWING} {SWING} {SWING}", "swing.csv"),
         ("diabolo_node.py", "--ros-args -p source:=eyes", "source: 'eyes'; expected tips or joints"),
         ("diabolo_node.py", "--ros-args -p dt:=0.0", "dt: 0 s; expected 1e-5 to 0.02"),
         ("diabolo_node.py", "--ros-args -p spin:=.nan", "spin: nan rad/s"),
