@@ -62,7 +62,11 @@ missing_packages() {
       has_command clang++ || echo clang
       has_fuzzer || echo libclang-rt-dev
       ;;
-    mujoco) ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri ;;
+    mujoco)
+      ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri
+      has_command xvfb-run || echo xvfb
+      has_command xauth || echo xauth
+      ;;
     gazebo)
       [ -e /usr/include/ignition/physics5/ignition/physics/sdf/ConstructWorld.hh ] || echo libignition-physics-sdf-dev
       ldconfig -p | grep -q 'libignition-physics5-dartsim-plugin\.so\.5' || echo libignition-physics5-dartsim-plugin5

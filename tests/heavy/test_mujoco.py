@@ -6,6 +6,9 @@ from __future__ import annotations
 import copy
 import importlib.util
 import json
+import os
+import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -298,17 +301,14 @@ def test_sticks_that_a_host_moves_feel_the_string():
     )
     elastic = StringElasticity(compliance=5e-4, damping=5.0)
     text = host.scene(Model(Parameters(), name="elastic", string_elasticity=elastic))
-    for name, y in (("left", 0.4), ("right", -0.4)):
-        text = text.replace(
-            f'<body name="{name}" mocap="true">',
-            f'<body name="{name}" pos="0 {y} 1.3" gravcomp="1">{joints}'
-            '<inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>',
-        )
+    tip = '<inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>'
+    text = re.sub('mocap="true" (pos="[^"]*")>', rf'\1 gravcomp="1">{joints}{tip}', text)
     host.load_plugin()
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    height = data.site("left").xpos[2]
     free = data.joint(model.body("diabolo").jntadr[0])
-    free.qpos[:3] = [0.0, 0.0, 0.7]
     seen = []
     for _ in range(60_000):
         mujoco.mj_step(model, data)
@@ -316,7 +316,7 @@ def test_sticks_that_a_host_moves_feel_the_string():
     low, left, right = np.array(seen[-5000:]).T
     assert np.ptp(low) < 1e-6  # it has come to rest
     parameters = Parameters()
-    sunk = 2.0 * 1.3 - left.mean() - right.mean()
+    sunk = 2.0 * height - left.mean() - right.mean()
     assert stiffness * sunk == pytest.approx(parameters.mass * parameters.gravity, rel=1e-5)
     assert data.site("left").xpos[1] < 0.4 - 1e-3  # and pulled together
 
@@ -353,7 +353,7 @@ def test_string_pulls_at_the_centre_of_mass_and_turns_about_the_axle():
         ('<plugin instance="string"/>', "", "on no body"),
         ('<freejoint name="diabolo"/>', "", "has no free joint"),
         ("</body>\n  </worldbody>", '<body><geom size="0.01"/></body></body></worldbody>', "holds the body"),
-        ('<body name="diabolo">', '<body name="diabolo" gravcomp="1">', "gravcomp 1"),
+        ('<body name="diabolo"', '<body name="diabolo" gravcomp="1"', "gravcomp 1"),
         ("<worldbody>", '<option><flag sleep="enable"/></option><worldbody>', "sleep is enabled"),
         ('gravity="0 0', 'gravity="1 0', "expected it along -z"),
         ("consistent", "constant", "consistent"),
@@ -402,6 +402,68 @@ def test_a_string_state_that_is_none_is_told(state):
     data.plugin_state[6] = state
     with pytest.raises(mujoco.FatalError, match=r"plugin_state: a string state of .*; expected 0, 1 or 2"):
         mujoco.mj_step(model, data)
+
+
+@pytest.mark.parametrize("length", [0.3, 1.45, 5.0])
+def test_the_diabolo_of_a_scene_hangs_at_rest(length):
+    host.load_plugin()
+    model = mujoco.MjModel.from_xml_string(host.scene(Model(Parameters(string_length=length), name="long")))
+    data = mujoco.MjData(model)
+    start = data.qpos.copy()
+    for _ in range(2000):
+        mujoco.mj_step(model, data)
+    np.testing.assert_allclose(data.qpos, start, rtol=0.0, atol=1e-9)
+    weight = model.body_mass.sum() * -model.opt.gravity[2]
+    drop = data.mocap_pos[0, 2] - data.qpos[2]
+    tension = 0.5 * weight * (0.5 * length) / drop
+    np.testing.assert_allclose(data.sensor("string").data[:2], tension, rtol=1e-6)
+
+
+@pytest.mark.parametrize("scene", ["scene", "cell"])
+def test_mujoco_s_viewer_plays_a_scene(tmp_path, scene):
+    """Its window is opened on a display in memory; the program ends itself once half a second was played."""
+    if shutil.which("xvfb-run") is None:
+        pytest.skip("no display: xvfb-run is not installed")
+    done = subprocess.run(
+        ["xvfb-run", "-a", "timeout", "120", sys.executable, "-c", VIEWED, scene],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env={**os.environ, "MUJOCO_GL": "glfw", "LIBGL_ALWAYS_SOFTWARE": "1"},
+        timeout=150,
+    )
+    assert done.returncode == 0, done.stderr
+    seconds, moved, warnings = map(float, done.stdout.split())
+    assert seconds >= 0.5
+    assert moved < 1e-3  # the string holds it: it would have fallen by 1.2 m; servos give a little
+    assert warnings == 0
+    assert not list(tmp_path.iterdir())  # such as a log of warnings
+
+
+VIEWED = """
+import os, sys, threading, time
+import mujoco
+import numpy as np
+from diabolo.hosts import mujoco as host
+from mujoco import viewer
+
+host.load_plugin()
+model = mujoco.MjModel.from_xml_string(getattr(host, sys.argv[1])())
+data = mujoco.MjData(model)
+if model.nkey:
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+start = data.joint("diabolo").qpos[:3].copy()
+
+def watch():
+    while data.time < 0.5:
+        time.sleep(0.05)
+    moved = np.linalg.norm(data.joint("diabolo").qpos[:3] - start)
+    print(data.time, moved, data.warning.number.sum(), flush=True)
+    os._exit(0)
+
+threading.Thread(target=watch, daemon=True).start()
+viewer.launch(model, data)
+"""
 
 
 def test_a_cell_that_is_ready_rests():

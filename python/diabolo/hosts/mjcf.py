@@ -25,6 +25,8 @@ ROTOR = 0.1
 """Inertia of a joint's motor behind its gear, estimated [kg m^2]."""
 SHORTEST, LONGEST = 1e-9, 1.0
 """Time step of a scene [s]."""
+HANGING = (0.4, 0.7)
+"""Of a scene: tips beside the middle, and the diabolo above the floor [m]."""
 READY = (0.6, 0.35, 0.55)
 """Tips of a cell that is ready: before, beside and above the middle between the arms' bases [m]."""
 
@@ -32,20 +34,33 @@ READY = (0.6, 0.35, 0.55)
 def scene(model: Model | None = None, timestep: float = 1e-3) -> str:
     """A diabolo on a string between two mocap sticks, `left` and `right`, above a floor.
 
-    Before each step put `data.mocap_pos` where the tips are to be after it [m]. The diabolo is the free body
-    `diabolo`, its axle along x; the sensor `string` says SENSED. `model` is as diagnosed or written by you,
-    with its own string's length and axle; its gravity is the scene's.
+    It begins at rest (HANGING). Before each step put `data.mocap_pos` where the tips are to be after it [m].
+    The diabolo is the free body `diabolo`, its axle along x; the sensor `string` says SENSED. `model` is as
+    diagnosed or written by you, with its own string's length and axle; its gravity is the scene's.
 
     Raises:
         ValueError: the time step is not from 1e-9 to 1 s.
     """
+    model = Model() if model is None else instance_of("model", model, Model)
+    tips, place = _hanging(model)
     sticks = "".join(
-        f'<body name="{name}" mocap="true"><site name="{name}" size="0.01" zaxis="1 0 0"/>'
+        f'<body name="{name}" mocap="true" pos="{numbers(tip)}">'
+        f'<site name="{name}" size="0.01" zaxis="1 0 0"/>'
         f'<geom type="capsule" fromto="0 0 0 -0.3 {side} 0.05" size="0.008" {_SEEN_ONLY}'
         ' rgba="0.75 0.6 0.4 1"/></body>'
-        for name, side in (("left", 0.1), ("right", -0.1))
+        for name, side, tip in zip(("left", "right"), (0.1, -0.1), tips, strict=True)
     )
-    return _with_diabolo(sticks, "", Model() if model is None else model, timestep)
+    return _with_diabolo(sticks, "", model, timestep, place)
+
+
+def _hanging(model: Model) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Both tips of a scene, and the diabolo at rest below them."""
+    aside, height = HANGING
+    aside *= min(1.0, model.parameters.string_length)
+    tips = np.array([[0.0, aside, 0.0], [0.0, -aside, 0.0]])
+    place = hang_at_rest(model, *tips).position
+    raised = np.array([0.0, 0.0, height - place[2]])
+    return tips + raised, place + raised
 
 
 def cell(arms: Sequence[StickArm] | None = None, model: Model | None = None, timestep: float = 1e-3) -> str:
@@ -127,9 +142,14 @@ def _place(pose: NDArray[np.float64]) -> str:
     return f'pos="{numbers(pose[:3, 3])}" xyaxes="{numbers(x)} {numbers(y)}"'
 
 
-def _with_diabolo(bodies: str, more: str, model: Model, timestep: float) -> str:
-    """A world with the bodies that hold the sites `left` and `right`, and a diabolo between them."""
-    instance_of("model", model, Model)
+def _with_diabolo(
+    bodies: str,
+    more: str,
+    model: Model,
+    timestep: float,
+    place: Sequence[float] | NDArray[np.float64] = (0, 0, 0),
+) -> str:
+    """A world with the bodies that hold the sites `left` and `right`, and a diabolo at a place."""
     timestep = number("timestep", timestep)
     if not SHORTEST <= timestep <= LONGEST:
         raise ValueError(f"timestep: {timestep:g} s; expected {SHORTEST:g} to {LONGEST:g}")
@@ -152,7 +172,7 @@ def _with_diabolo(bodies: str, more: str, model: Model, timestep: float) -> str:
     <light pos="1 0 3" dir="-0.3 0 -1" type="directional" diffuse="0.5 0.5 0.5"/>
     <geom type="plane" size="2 2 0.1" condim="1" rgba="0.85 0.85 0.8 1"/>
     {bodies}
-    <body name="diabolo"><freejoint name="diabolo"/>{cups}<plugin instance="string"/>
+    <body name="diabolo" pos="{numbers(place)}"><freejoint name="diabolo"/>{cups}<plugin instance="string"/>
       <inertial pos="0 0 0" mass="{parameters.mass}" diaginertia="{numbers(diabolo_inertia(model))}"/>
     </body>
   </worldbody>
