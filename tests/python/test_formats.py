@@ -299,8 +299,23 @@ def test_a_bag_that_is_cut_off_is_read_up_to_there(
         assert warned_of_a_cut(found)
     for few in (content[:8], content[:16], content[:300]):
         (tmp_path / "cut.mcap").write_bytes(few)
-        with pytest.raises(RecordingError, match=r"cut\.mcap: no poses in it; .*; the file is cut off"):
-            load_recording(tmp_path / "cut.mcap")
+        refused_as_cut(tmp_path / "cut.mcap")
+
+
+def refused_as_cut(bag: Path) -> None:
+    with pytest.raises(RecordingError) as refused:
+        load_recording(bag)
+    assert (
+        str(refused.value)
+        == f"{bag}: the file is cut off within its first chunk of messages; expected one at least"
+    )
+
+
+def test_a_bag_of_one_chunk_that_is_cut_in_its_middle_says_so(swing: Recording, tmp_path: Path) -> None:
+    save_recording(swing, tmp_path / "take.mcap")
+    content = (tmp_path / "take.mcap").read_bytes()
+    (tmp_path / "cut.mcap").write_bytes(content[: len(content) // 2])
+    refused_as_cut(tmp_path / "cut.mcap")
 
 
 @pytest.mark.parametrize("recorded", [False, True])

@@ -22,6 +22,7 @@ FOOTER = b"\2\x14" + bytes(7)
 END = len(FOOTER) + 0x14 + len(MAGIC)
 """How many bytes a file ends with that does not lack its end."""
 CUT = "the file is cut off, as by a killed recorder, or goes on behind its end: whole records are read"
+TOO_SHORT = "the file is cut off within its first chunk of messages; expected one at least"
 
 
 @contextmanager
@@ -41,7 +42,8 @@ def whole(path: Path) -> Iterator[tuple[Path, list[str]]]:
         for file in files:
             kept = folder / (file.name if path.is_dir() else file.stem + file.suffix.lower())
             if file in cut:
-                _copy_whole_records(file, kept)
+                if _copy_whole_records(file, kept) == 0 and file == path:
+                    raise RecordingError(f"{path}: {TOO_SHORT}")
             else:
                 kept.symlink_to(file.resolve())
         try:
@@ -87,12 +89,13 @@ def _check_sums(path: Path) -> None:
         raise unreadable(path, "a bag of ROS", error) from error
 
 
-def _copy_whole_records(path: Path, kept: Path) -> None:
-    """The records up to the one that is cut, with an index: without one, libraries want messages in order."""
+def _copy_whole_records(path: Path, kept: Path) -> int:
+    """The records up to the one that is cut, with an index: without one, libraries want messages in order.
+    Returns how many messages are among them: those of a chunk are cut off with it."""
     from mcap.records import Channel, Header, Message, Metadata, Schema
     from mcap.writer import CompressionType, Writer
 
-    schemas, channels = {0: 0}, dict[int, int]()
+    schemas, channels, messages = {0: 0}, dict[int, int](), 0
     try:
         with path.open("rb") as file, kept.open("wb") as copy:
             writer = Writer(copy, compression=CompressionType.NONE)
@@ -103,6 +106,7 @@ def _copy_whole_records(path: Path, kept: Path) -> None:
                 if isinstance(one, Message):
                     channel = channels[one.channel_id]
                     writer.add_message(channel, one.log_time, one.data, one.publish_time, one.sequence)
+                    messages += 1
                 elif isinstance(one, Schema) and one.id not in schemas:
                     schemas[one.id] = writer.register_schema(one.name, one.encoding, one.data)
                 elif isinstance(one, Channel) and one.id not in channels:
@@ -113,6 +117,7 @@ def _copy_whole_records(path: Path, kept: Path) -> None:
             writer.finish()
     except Exception as error:  # of files or records: whatever a broken file leads to
         raise unreadable(path, "a bag of ROS", error) from error
+    return messages
 
 
 def _whole_records(file: IO[bytes]) -> Iterator[Any]:
