@@ -14,6 +14,7 @@
 #include <ignition/plugin/Loader.hh>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "diabolo/state.hpp"
 #include "scene.hpp"
@@ -25,8 +26,11 @@ namespace physics = ignition::physics;
 /// Gazebo's physics without Gazebo: a world in its engine dartsim, in which the diabolo and the tips are.
 class Engine {
  public:
-  /// Throws std::runtime_error where the engine cannot be loaded or the link is no free one.
-  explicit Engine(const Scene& scene) : world_(constructed(*scene.world)), step_(scene.step) {
+  enum class TipsMove { kAsPut, kByThemselves };  ///< by put_tips(), or as links of a robot do
+
+  /// Throws std::runtime_error where the engine cannot be loaded or a link that is put is no free one.
+  explicit Engine(const Scene& scene, TipsMove tips = TipsMove::kAsPut)
+      : world_(constructed(*scene.world)), step_(scene.step) {
     const auto model = world_->GetModel(scene.model);
     link_ = model->GetLink(scene.element("link"));
     spinning_ = scene.axle.empty() ? link_ : model->GetLink(scene.element("spinning_link"));
@@ -35,9 +39,9 @@ class Engine {
     attitude_ = link_->FrameDataRelativeToWorld().pose.linear();
     for (std::size_t k = 0; k < 2; ++k) {
       const auto [its_model, its_link] = scoped(scene.element(k == 0 ? "left" : "right"));
-      const auto tip = world_->GetModel(its_model)->GetLink(its_link);
-      tips_[k] = free_group(tip, its_link);
-      sticks_[k] = tip->FrameDataRelativeToWorld().pose.linear();
+      tips_[k] = world_->GetModel(its_model)->GetLink(its_link);
+      if (tips == TipsMove::kAsPut) tip_groups_[k] = free_group(tips_[k], its_link);
+      sticks_[k] = tips_[k]->FrameDataRelativeToWorld().pose.linear();
     }
   }
 
@@ -70,10 +74,28 @@ class Engine {
     const std::array<const Vector3<double>*, 2> places{&tips.left, &tips.right},
         velocities{&tips.left_velocity, &tips.right_velocity};
     for (std::size_t k = 0; k < 2; ++k) {
-      tips_[k]->SetWorldPose(placed(sticks_[k], *places[k]));
-      tips_[k]->SetWorldAngularVelocity(Vector3<double>::Zero());
-      tips_[k]->SetWorldLinearVelocity(*velocities[k]);
+      tip_groups_[k]->SetWorldPose(placed(sticks_[k], *places[k]));
+      tip_groups_[k]->SetWorldAngularVelocity(Vector3<double>::Zero());
+      tip_groups_[k]->SetWorldLinearVelocity(*velocities[k]);
     }
+  }
+
+  /// A tip that moves by itself.
+  StringOnLink::SeenTip tip(std::size_t k) const {
+    const auto frame = tips_[k]->FrameDataRelativeToWorld();
+    return {frame.pose.translation(), frame.linearVelocity, frame.pose.linear().col(0), false};
+  }
+
+  /// What such tips feel of the string over the next step.
+  void pull_tips(const diabolo::StringWrench& wrench) {
+    tips_[0]->AddExternalForce(wrench.on_left);
+    tips_[1]->AddExternalForce(wrench.on_right);
+  }
+
+  /// Links and joints of a model, as the engine has them.
+  std::pair<std::size_t, std::size_t> counts(const std::string& model) const {
+    const auto found = world_->GetModel(model);
+    return {found->GetLinkCount(), found->GetJointCount()};
   }
 
   /// A step under the string's wrench.
@@ -130,7 +152,8 @@ class Engine {
   Link link_, spinning_;
   Joint axle_;
   FreeGroup group_;
-  std::array<FreeGroup, 2> tips_;
+  std::array<Link, 2> tips_;
+  std::array<FreeGroup, 2> tip_groups_;
   Eigen::Matrix3d attitude_;
   std::array<Eigen::Matrix3d, 2> sticks_;
 };

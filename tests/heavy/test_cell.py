@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""URDF and SDF of the robot cell, as Drake reads them, and URDF and MJCF as MuJoCo does."""
+"""The robot cell: URDF and SDF as Drake reads them, URDF and MJCF as MuJoCo does, and SDF as Gazebo does."""
 
 from __future__ import annotations
 
+import json
+import subprocess
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -96,3 +99,53 @@ def test_mujoco_has_the_tips_where_the_arms_have_them(
     weights = model.body_mass[model.body_mass > 0.0]
     one = [mass for mass, *_ in arms["left"].link_masses]
     np.testing.assert_allclose(weights, [*one, *one, *([0.3] if suffix == "xml" else [])])
+
+
+def masses(file: Path, body: str) -> dict[str, float]:
+    """Of the links of an arm, URDF's or MJCF's, by their names [kg]."""
+    found = {}
+    for link in ElementTree.parse(file).iter(body):
+        told = link.find("inertial/mass" if body == "link" else "inertial")
+        if told is not None and link.get("name") != "diabolo":
+            found[link.get("name")] = float(told.get("value") or told.get("mass"))
+    return found
+
+
+def played_in_gazebo(world: Path, seconds: float) -> dict:
+    program = Path(__file__).resolve().parents[2] / "build" / "gazebo" / "diabolo_gazebo_alone"
+    assert program.exists(), "make gazebo builds it"
+    done = subprocess.run([program, world, str(seconds)], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
+    return json.loads(done.stdout)
+
+
+@pytest.mark.gazebo
+def test_gazebo_s_engine_has_the_cell_as_urdf_and_mjcf_do(
+    written: dict[str, Path], arms: dict[str, StickArm]
+) -> None:
+    told = played_in_gazebo(written["sdf"], 0.0)
+    cell, diabolo = told["models"]["cell"], told["models"]["diabolo"]
+    assert (cell["links"], cell["joints"]) == (14, 14)  # six of an arm, and its tip, which is fixed
+    assert [cell["masses"].pop(f"{side}_tip") for side in SIDES] == [1e-3, 1e-3]  # SDF has no link without
+    for suffix, body in (("urdf", "link"), ("xml", "body")):
+        assert cell["masses"] == masses(written[suffix], body)
+    assert sum(diabolo["masses"].values()) == pytest.approx(0.3)
+    for side in SIDES:
+        np.testing.assert_allclose(told["begin"][side], arms[side].tip_position(np.zeros(6)), atol=1e-9)
+
+
+@pytest.mark.gazebo
+def test_gazebo_s_engine_plays_the_cell(written: dict[str, Path]) -> None:
+    """The string is 1 cm too short, which pulls the arms together. They fall, as this engine knows no links
+    without weight, and no servo holds them: the string does not become longer again."""
+    begin = {name: np.array(place) for name, place in played_in_gazebo(written["sdf"], 0.0)["begin"].items()}
+    path = sum(np.linalg.norm(begin[side] - begin["diabolo"]) for side in SIDES)
+    world = written["sdf"].with_name("short.sdf")
+    length = f"<string_length>{path - 0.01}</string_length>"
+    world.write_text(written["sdf"].read_text().replace("</plugin>", f"{length}</plugin>"))
+    told = played_in_gazebo(world, 1.0)
+    assert told["longest_path"] == pytest.approx(path, abs=1e-3)
+    assert 1.0 < told["largest_tension"] < 10.0  # [N]
+    for side in SIDES:
+        assert np.linalg.norm(told["end"][side] - begin[side]) > 0.1
+    assert np.isfinite(told["end"]["diabolo"]).all()

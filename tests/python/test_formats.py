@@ -305,10 +305,8 @@ def test_a_bag_that_is_cut_off_is_read_up_to_there(
 def refused_as_cut(bag: Path) -> None:
     with pytest.raises(RecordingError) as refused:
         load_recording(bag)
-    assert (
-        str(refused.value)
-        == f"{bag}: the file is cut off within its first chunk of messages; expected one at least"
-    )
+    said = "the file is cut off within its first chunk of messages; expected one at least"
+    assert str(refused.value) == f"{bag}: {said}"
 
 
 def test_a_bag_of_one_chunk_that_is_cut_in_its_middle_says_so(swing: Recording, tmp_path: Path) -> None:
