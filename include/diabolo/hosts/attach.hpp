@@ -61,6 +61,7 @@ class AttachedString {
   AttachedString(FullPredictor<double> predictor, double mass, double axial_inertia,
                  const Vector3<double>& gravity, HostMotion motion = HostMotion::kNewVelocity)
       : predictor_(std::move(predictor)),
+        string_(predictor_.effects().string(predictor_.parameters())),
         mass_(mass),
         inertia_(axial_inertia),
         gravity_(gravity),
@@ -114,9 +115,8 @@ class AttachedString {
  private:
   /// Where a host goes by a constant force is off a rigid string by the third order of the step.
   void settle(State<double>& state, const Tips<double>& begin) const {
-    const StringNow<double> string = predictor_.effects().string(predictor_.parameters());
-    if (state.string_state == StringState::kOnString && string.compliance == 0.0)
-      settle_on_string(state, begin, string.length, PlaneProjector<double>());
+    if (state.string_state == StringState::kOnString && string_.compliance == 0.0)
+      settle_on_string(state, begin, string_.length, PlaneProjector<double>());
   }
 
   /// Splits what the string gives the diabolo among its two strands, and gives it back to the tips.
@@ -139,6 +139,7 @@ class AttachedString {
   }
 
   FullPredictor<double> predictor_;
+  StringNow<double> string_;  ///< the predictor's, which never changes
   double mass_, inertia_;
   Vector3<double> gravity_;
   HostMotion motion_;
