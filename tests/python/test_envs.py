@@ -220,6 +220,15 @@ def test_the_agent_of_the_package_spins_the_diabolo_up_and_keeps_it() -> None:
     assert outcomes["dropped"].mean() <= 0.01
 
 
+def test_the_agent_of_the_package_levels_the_axle_and_keeps_it_so() -> None:
+    outcomes = play(shipped_agent("Level"), 200, seed=100)
+    assert np.mean(outcomes["level"] >= 1.0) >= 0.85
+    assert np.mean(outcomes["level"] >= 5.0 - 1e-9) >= 0.5  # from the third second on
+    assert outcomes["dropped"].mean() <= 0.01
+    still = play(lambda seen: np.zeros((len(seen), 6)), 200, task="Level", seed=100)
+    assert np.median(outcomes["worth"]) >= 5.0 * np.median(still["worth"])
+
+
 def test_an_episode_is_what_a_rollout_of_the_same_tips_gives() -> None:
     model = Model(Parameters(), string_friction=StringFriction(coefficient=0.3))
     env = DiaboloEnv("SpinUp", model)

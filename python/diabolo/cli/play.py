@@ -30,6 +30,7 @@ COLUMNS = {  # of the table: name, and how a value is shown
     "spin": ("spin at the end [rad/s]", "{:.0f}"),
     "flights": ("flights caught", "{:.0f}"),
     "apex": ("apex of the last flight [m]", "{:.2f}"),
+    "level": ("level at the end, for [s]", "{:.1f}"),
 }
 
 
