@@ -155,6 +155,7 @@ prove: $(VENV)/.package plant ## Put the diagnosis to the proof on a few recordi
 prove-player: $(VENV)/.package plant ## Play a few plans on the independent plant, and see that they do what is wanted
 	@$(VENV)/bin/python -m benchmarks.proof.player small --plant $(BUILD)/plant/diabolo-plant
 	@$(VENV)/bin/python -m benchmarks.proof.player.level back --count 4 --wanted 1 --plant $(BUILD)/plant/diabolo-plant
+	@$(VENV)/bin/python -m benchmarks.proof.player.level catch --count 1 --wanted 1 --plant $(BUILD)/plant/diabolo-plant
 	@$(VENV)/bin/python -m benchmarks.proof.player.level back --count 2 --by diagnosis --wanted 1 --plant $(BUILD)/plant/diabolo-plant
 
 test-python: $(VENV)/.package-with-tests

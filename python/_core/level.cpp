@@ -10,6 +10,7 @@
 #include "diabolo/plan/level_hands.hpp"
 #include "diabolo/plan/level_horizon.hpp"
 #include "diabolo/text/shown.hpp"
+#include "state.hpp"
 
 namespace diabolo::python {
 
@@ -27,13 +28,13 @@ Hands make_hands(const Model& model, const Array& left, const Array& right, doub
   return {FullPredictor<double>(model.parameters, model.effects), home, spin, {}, limits};
 }
 
-void see(LevelHands& hands, const Array& axis, double spin) {
+void see(LevelHands& hands, const Array& axis, double spin, const py::object& string) {
   const Vector3<double> seen = to_vector3(axis, "axis");
   if (!(std::abs(seen.norm() - 1.0) < 1e-6))
     throw std::invalid_argument("axis: norm " + std::to_string(seen.norm()) + "; expected a unit vector");
   if (!std::isfinite(spin))
     throw std::invalid_argument("spin: " + std::to_string(spin) + " rad/s; expected a finite number");
-  hands.see(seen, spin);
+  hands.see(seen, spin, string_state_from_python(string));
 }
 
 template <class Hands>
@@ -102,8 +103,11 @@ void bind_level(py::module_& module) {
 
 They turn the motion towards the axle, and beyond it to tilt it, by the gains of a linear-quadratic regulator on
 the model, learnt anew where the spin has changed by a tenth. The model needs a GyroscopicTilt.)")
-      .def("see", &see, "axis"_a, "spin"_a,
-           "Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s].")
+      .def(
+          "see", &see, "axis"_a, "spin"_a, "string_state"_a = "on_string",
+          R"(Take in what is seen: the axle, a unit vector, forward, shape (3,), the spin [rad/s], and where the string is.
+
+From a flight until it is taut around the axle again the hands take no lead.)")
       .def_property_readonly(
           "gains",
           [](const LevelHands& hands) {

@@ -2319,8 +2319,12 @@ class LevelHands:
     """
   def advance(self, dt: _Real) -> None:
     """Let the hands follow for `dt` [s]."""
-  def see(self, axis: _Reals, spin: _Real) -> None:
-    """Take in what is seen: the axle, a unit vector, forward, shape (3,), and the spin [rad/s]."""
+  def see(self, axis: _Reals, spin: _Real, string_state: typing.Any = 'on_string') -> None:
+    """
+    Take in what is seen: the axle, a unit vector, forward, shape (3,), the spin [rad/s], and where the string is.
+    
+    From a flight until it is taut around the axle again the hands take no lead.
+    """
   def tips(self, left: _Reals, right: _Reals, left_velocity: _Reals = ..., right_velocity: _Reals = ...) -> tuple:
     """
     The motion's tips [m] and their velocities [m/s] as these hands play them now.

@@ -110,3 +110,20 @@ TEST_CASE("hands keep their last gains where the diabolo is too slow to steer") 
   hands.see(axle_at({0.1, 0.0}), 4.0);
   CHECK(hands.gains() == before);
 }
+
+TEST_CASE("hands take no lead from a throw to its catch, turn on, and lead again after it") {
+  LevelHands hands(body(0.006), home(), 80.0);
+  const auto lead_after = [&](StringState string) {
+    hands.see(axle_at({0.3, 0.2}), 80.0, string);
+    for (int i = 0; i < 1000; ++i) hands.advance(1e-3);
+    return std::abs(hands.turned().lead);
+  };
+  CHECK(lead_after(StringState::kOnString) > 0.5);
+  const double heading = hands.turned().heading;
+  // Critically damped: after ten times its time constant (1 + 10) exp(-10) of the lead is left.
+  CHECK(lead_after(StringState::kFlying) < 1e-3);
+  CHECK(std::abs(hands.turned().heading - heading) > 0.1);
+  CHECK(lead_after(StringState::kLoose) < 1e-3);
+  CHECK(lead_after(StringState::kOnString) > 0.5);
+  CHECK(lead_after(StringState::kLoose) > 0.5);  // in the hands, where it pulls again at once
+}

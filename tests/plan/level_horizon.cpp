@@ -117,6 +117,20 @@ TEST_CASE("at rest a horizon leads as the regulator does") {
   CHECK(plans.turned().lead / regulates.turned().lead == Approx(1.0).margin(0.5));
 }
 
+TEST_CASE("a horizon takes no lead from a throw to its catch") {
+  const FullPredictor<double> model = body(0.006);
+  LevelHorizon hands(model, home(), 80.0);
+  State<double> state = resting(model, home(), {0.3, 0.0}, 80.0);
+  const auto lead_after = [&](double time) {
+    hands.see(time, state, staying(1.0));
+    for (int i = 0; i < 1000; ++i) hands.advance(1e-3);
+    return std::abs(hands.turned().lead);
+  };
+  CHECK(lead_after(0.0) > 0.1);
+  state.string_state = StringState::kFlying;
+  CHECK(lead_after(1.0) < 1e-3);
+}
+
 TEST_CASE("a horizon is refused what hands are") {
   CHECK_THROWS_WITH(LevelHorizon(FullPredictor<double>({}), home(), 100.0),
                     Catch::Contains("gyroscopic_tilt gain"));

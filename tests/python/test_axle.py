@@ -231,6 +231,21 @@ def test_hands_level_an_axle() -> None:
     expect_levelled(hands, lambda _, state: hands.see(state.axis, state.spin))
 
 
+def test_hands_take_no_lead_while_the_diabolo_flies() -> None:
+    hands = LevelHands(RIGID, LEFT, RIGHT, 60.0)
+    tilted = np.array([np.cos(0.3), 0.0, np.sin(0.3)])
+    leads = []
+    for string in ("on_string", "flying", diabolo.StringState.LOOSE, 0):
+        hands.see(tilted, 60.0, string)
+        for _ in range(100):
+            hands.advance(0.01)
+        leads.append(abs(hands.lead))
+    assert min(leads[0], leads[3]) > 0.5
+    assert max(leads[1], leads[2]) < 1e-3
+    with pytest.raises(ValueError, match="string_state: 'up'"):
+        hands.see(tilted, 60.0, "up")
+
+
 def test_hands_level_an_axle_by_a_receding_horizon() -> None:
     hands = LevelHorizon(RIGID, LEFT, RIGHT, 60.0)
     still = StickSpline([0.0, 0.5], [LEFT] * 2, [RIGHT] * 2).path()

@@ -6,13 +6,14 @@ Its hands raise the spin by cycles of linear acceleration, each planned on the p
 raise   a minute that gains 60 rad/s or more; the axle shall stay within 5 degrees of the heading
 back    a tilt of 20 degrees shall be below 5 within 3 s, and stay there
 throw   twenty throws and catches in a row, with cycles of acceleration between, shall lose nothing
-catch   a throw whose axle is tilted by 20 degrees shall be caught, and be level 3 s after that
+catch   a throw whose axle is tilted by 20 degrees shall be caught, and be level 3 s after that; also told
+        without the nutation that the catch leaves, which nothing on the plant damps
 
 `--by` says who plays: `model`, the linear-quadratic regulator of LevelHands, and `horizon`, LevelHorizon,
 both on the plant's numbers; `diagnosis`, LevelHands on what a diagnosis makes of a filmed play; `linear`, a
 linear map that is learnt in play; `none`, hands that do not level. Each plant has its own numbers, friction
-and groove among them; the hands see its axle three frames late, with half a degree of noise, and its true
-spin.
+and groove among them; the hands see its axle three frames late, with half a degree of noise, its true
+spin, and whether the string is taut.
 """
 
 from __future__ import annotations
@@ -62,6 +63,7 @@ THROWN = 100.0  # a diabolo that spins faster is [rad/s]
 LEVEL = 5.0  # [deg]
 TILT = 20.0  # that `back` and `catch` begin with [deg]
 SOON = 3.0  # [s]
+NUTATION = 0.25  # over which a mean leaves none of it [s]
 LOST = 0.15  # a diabolo below is [m]
 FILMED = 200.0  # a play to diagnose begins with [rad/s]
 
@@ -154,11 +156,6 @@ class Playing:
         self.home = np.concatenate([left, right])
         self.caught = 0
         self.caught_at = math.inf
-
-    @property
-    def throws(self) -> bool:
-        """From the begin of a throw to the end of its catch."""
-        return self._piece in ("throw", "catch")
 
     @property
     def path(self) -> diabolo.TipPath:
@@ -263,11 +260,8 @@ def play_level(
     what: str,
     level: Levelling,
     longest: float = math.inf,
-    *,
-    hold: bool = False,
 ) -> Levelled:
-    """The plant's diabolo in a play of PLAYS, by hands that turn their motion to the axle; where they `hold`,
-    not while they throw and catch."""
+    """The plant's diabolo in a play of PLAYS, by hands that turn their motion to the axle."""
     rng = np.random.default_rng(plant.seed)
     throws: dict[str, dict[str, Any]] = {
         "throw": {"throws": THROWS},
@@ -297,19 +291,14 @@ def play_level(
             rows.append((step * PERIOD, tilt, beside, heading, moment.spin))
             look = moment.axis + NOISE * rng.standard_normal(3)
             looks.append(look / np.linalg.norm(look))
-            held = hold and motion.throws
-            if not held:
-                began = time.thread_time()
-                see(level, looks[max(0, step - late)], moment, step * PERIOD, motion.path)
-                thought += time.thread_time() - began
-                level.advance(PERIOD)
+            began = time.thread_time()
+            see(level, looks[max(0, step - late)], moment, step * PERIOD, motion.path)
+            thought += time.thread_time() - began
+            level.advance(PERIOD)
             seen = as_the_hands_see(moment, level.heading + level.lead, motion.home)
             place, velocity = motion.at((step + 1) * PERIOD, seen)
             tips = level.tips(place[:3], place[3:], velocity[:3], velocity[3:])
-            moves = np.concatenate(tips[2:])
-            if held:
-                moves -= np.concatenate(level.tips(place[:3], place[3:], np.zeros(3), np.zeros(3))[2:])
-            live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), moves))
+            live.push(PERIOD, hands.towards(np.concatenate(tips[:2]), np.concatenate(tips[2:])))
         else:
             lost = False
     times, tilts, yaws, headings, spins = np.array(rows or [(0.0,) * 5]).T
@@ -321,9 +310,11 @@ def see(
     level: Levelling, axis: NDArray[np.float64], moment: driver.Moment, time: float, path: diabolo.TipPath
 ) -> None:
     """Show the hands the axle, and what else they look at."""
+    mode = StringState[moment.mode]
     if isinstance(level, diabolo.LevelHorizon):
-        mode = StringState[moment.mode]
         level.see(time, State(moment.position, moment.velocity, moment.spin, mode, axis=axis), path)
+    elif isinstance(level, diabolo.LevelHands):
+        level.see(axis, moment.spin, mode)
     else:
         level.see(axis, moment.spin)
 
@@ -344,6 +335,13 @@ def angles(axis: NDArray[np.float64]) -> tuple[float, float]:
     )
 
 
+def without_nutation(play: Levelled) -> NDArray[np.float64]:
+    """How far the mean axle of NUTATION up to each time was off [deg]."""
+    share = np.full(round(NUTATION / PERIOD), PERIOD / NUTATION)
+    tilt, yaw = (np.abs(np.convolve(one, share)[: len(one)]) for one in (play.tilt, play.yaw))
+    return np.maximum(tilt, yaw)
+
+
 class Outcome(NamedTuple):
     """Whether one plant's play is what is wanted, what became of it, how far the axle was off from SOON on at
     most and in the median [deg], and how long the hands thought of it for a second of play [s]."""
@@ -360,7 +358,7 @@ def outcome(what: str, number: int, given: argparse.Namespace) -> Outcome:
     plant = draw(given.plant, rng)
     axle = draw_axle(rng, TILT if what in ("back", "catch") else 0.0)
     try:
-        play = play_level(plant, axle, what, hands_that_level(plant, axle, given.by), hold=given.hold)
+        play = play_level(plant, axle, what, hands_that_level(plant, axle, given.by))
     except ValueError as error:
         return Outcome(False, str(error))
     off = np.maximum(np.abs(play.tilt), np.abs(play.yaw))
@@ -369,9 +367,13 @@ def outcome(what: str, number: int, given: argparse.Namespace) -> Outcome:
         then = off[np.searchsorted(play.time, SOON) - 1]
         said = f"tilt {abs(play.tilt[0]):.0f} deg, {then:.1f} after {SOON:g} s"
     elif what == "catch":
-        after = off[play.time >= play.caught_at + SOON]
+        from_then = play.time >= play.caught_at + SOON
+        after, mean = off[from_then], without_nutation(play)[from_then]
         well = not play.lost and play.caught == 1 and bool((after < LEVEL).all())
-        said = f"{play.caught} caught, off by {after.max(initial=0.0):.1f} deg from {SOON:g} s after it on"
+        said = (
+            f"{play.caught} caught, off by {after.max(initial=0.0):.1f} deg from {SOON:g} s after it on, "
+            f"by {mean.max(initial=0.0):.1f} without nutation"
+        )
     elif what == "throw":
         well = not play.lost and play.caught == THROWS
         said = f"{play.caught} throws caught, off by {off.max():.0f} deg at most"
@@ -419,9 +421,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         help="exit with 1 where fewer are well (%(default)s)",
     )  # fmt: skip
     parser.add_argument("--by", choices=BY, default="model", help="what levels (%(default)s)")
-    parser.add_argument(
-        "--hold", action="store_true", help="the hands do not turn while they throw and catch"
-    )
     driver.add_option(parser)
     return command.run(parser, run, arguments)
 

@@ -21,6 +21,7 @@ struct LevelForesight {
   static constexpr double kPiece = 0.2;      ///< kSteps of them [s]
 
   State<double> start;
+  bool in_air = false;               ///< whether the diabolo is in_the_air() then
   TurningHands hands;                ///< as they are at the start
   double quickness = 10.0;           ///< of the hands, see LevelHandLimits
   std::vector<Tips<double>> base{};  ///< the play's tips, not turned; one more than there are steps
@@ -49,11 +50,13 @@ struct LevelForesight {
       parts.push_back(value * std::sqrt(time) / size);
     };
     State<double> state = start;
+    bool flies = in_air;
     TurningHands moved = hands;
     Tips<double> tips = moved.tips(base.front());
     Eigen::Vector3d angles = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i + 1 < base.size(); ++i) {
-      moved.follow(x[i / kSteps], x[kPieces + i / kSteps], kStep, quickness);
+      flies = in_the_air(flies, state.string_state);
+      moved.follow(flies ? 0.0 : x[i / kSteps], x[kPieces + i / kSteps], kStep, quickness);
       const Tips<double> next = moved.tips(base[i + 1]);
       model.step(state, tips, next, kStep);
       tips = next;

@@ -10,7 +10,8 @@
 namespace diabolo {
 
 /// Hands that keep the axle of a diabolo level while they play any motion: the motion turned towards the
-/// axle, and beyond it to tilt it, by the gains of level_regulator() for the spin that is seen.
+/// axle, and beyond it to tilt it, by the gains of level_regulator() for the spin that is seen; without a
+/// lead from a throw to its catch.
 class LevelHands {
  public:
   /// `home` are the hands of the play at rest; the play turns about the vertical through their middle. Throws
@@ -24,13 +25,14 @@ class LevelHands {
 
   /// Takes in what is seen of the diabolo: the hands will answer it from now on; with the last gains where it
   /// is too slow to steer.
-  void see(const Vector3<double>& axis, double spin) {
+  void see(const Vector3<double>& axis, double spin, StringState string = StringState::kOnString) {
     const AxleAngles angles = axle_angles(axis);
     const double heading = hands_.turned.heading;
     const double yaw = std::remainder(angles.yaw - heading, 2.0 * std::numbers::pi);
     const Eigen::Vector2d wanted =
         -regulator_.at(spin).gains * Eigen::Vector3d(angles.tilt, heading + yaw, heading);
-    wanted_lead_ = std::clamp(wanted[0], -limits_.lead, limits_.lead);
+    in_air_ = in_the_air(in_air_, string);
+    wanted_lead_ = in_air_ ? 0.0 : std::clamp(wanted[0], -limits_.lead, limits_.lead);
     wanted_turn_ = std::clamp(wanted[1], -limits_.turn, limits_.turn);
   }
 
@@ -49,6 +51,7 @@ class LevelHands {
   LevelHandLimits limits_;
   TurningHands hands_;
   double wanted_lead_ = 0.0, wanted_turn_ = 0.0;
+  bool in_air_ = false;
 };
 
 }  // namespace diabolo

@@ -39,6 +39,7 @@ class LevelHorizon {
   /// the hands are to play, not turned. Each kAgain it is planned anew, by the mean of the axles seen since.
   void see(double time, const State<double>& state, const TipPath<double>& path) {
     axles_ += state.axis;
+    in_air_ = in_the_air(in_air_, state.string_state);
     if (time < planned_ + kAgain - 1e-9) return;
     foresight_.start = state;
     foresight_.start.axis = axles_.norm() > 1e-3 ? Vector3<double>(axles_.normalized()) : state.axis;
@@ -50,7 +51,8 @@ class LevelHorizon {
   /// Lets the hands follow for `dt` [s].
   void advance(double dt) {
     const std::size_t piece = piece_after(since_);
-    hands_.follow(wanted_[piece], wanted_[LevelForesight::kPieces + piece], dt, limits_.quickness);
+    hands_.follow(in_air_ ? 0.0 : wanted_[piece], wanted_[LevelForesight::kPieces + piece], dt,
+                  limits_.quickness);
     since_ += dt;
   }
 
@@ -75,6 +77,7 @@ class LevelHorizon {
   void plan(double time, const TipPath<double>& path) {
     constexpr std::size_t kPieces = LevelForesight::kPieces;
     foresight_.hands = hands_;
+    foresight_.in_air = in_air_;
     foresight_.to_go = regulator_.at(foresight_.start.spin).to_go;
     foresight_.base.clear();
     std::size_t hint = 0;
@@ -103,6 +106,7 @@ class LevelHorizon {
   LevelHandLimits limits_;
   LevelForesight foresight_;
   TurningHands hands_;
+  bool in_air_ = false;
   std::vector<double> wanted_;  ///< of the last plan, see LevelForesight::residuals()
   Vector3<double> axles_ = Vector3<double>::Zero();
   double planned_ = -std::numeric_limits<double>::infinity(), since_ = 0.0;  ///< [s]

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diabolo/plan/turned.hpp"
+#include "diabolo/state.hpp"
 #include "diabolo/text/expect_positive.hpp"
 
 namespace diabolo {
@@ -21,6 +22,12 @@ struct LevelHandLimits {
     expect_positive("quickness", quickness, 100.0, "1/s");
   }
 };
+
+/// Whether a diabolo is in the air, from when it flies until a string pulls it again; `before`: whether it
+/// was. Hands take no lead then: it would tilt nothing, and they would catch the axle askew.
+inline bool in_the_air(bool before, StringState string) {
+  return string == StringState::kFlying || (before && string != StringState::kOnString);
+}
 
 /// Hands that play any motion turned, and follow a wanted lead and turn: the lead critically damped, the rate
 /// of the heading with a lag of first order. Both are exact for what is wanted constantly.
