@@ -48,7 +48,7 @@ def test_another_model_is_another_play(tmp_path: Path, capsys: pytest.CaptureFix
     ("arguments", "complaint"),
     [
         ("play Fly", "TASK 'Fly'; expected one of Hold, Swing"),
-        ("play Hold", "task: 'Hold' has no agent in the package; expected SpinUp"),
+        ("play Hold", "task: 'Hold' has no agent in the package; expected Level, SpinUp"),
         ("play SpinUp --episodes 0", "--episodes 0; expected 1 to 1048576"),
         ("play SpinUp --seed -1", "--seed -1; expected 0 to"),
         ("play SpinUp --agent nothing.json", "nothing.json: "),
