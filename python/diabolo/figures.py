@@ -18,7 +18,7 @@ INK = {"base": "#e11d48", "corrected": "#059669", "recorded": "#17202c", "noise 
 """The first two as in the view."""
 UNSEEN = "#dfe3e8"
 MODE_COLORS = {"ON_STRING": "#3b6ea5", "LOOSE": "#d9a441", "FLYING": "#8e6bb0"}
-LEFT_OVER = ["#f1f3f5", "#f59e0b", "#dc2626", "#580c1f"]
+LEFT_OVER = ["#f1f3f5", "#d8b4fe", "#9333ea", "#3b0764"]
 """From nothing to what is farthest off, as in the view."""
 DEVIATIONS = {"z": "base", "z_after": "corrected"}
 """Fields of a window, and what they are of."""
@@ -219,7 +219,7 @@ def _missing(
         for index, direction in enumerate(directions)
     }
     ticks = (-1000, -100, -10, 0, 10, 100, 1000)
-    title = f"{DEVIATIONS[key]}<br>[deviations]"
+    title = f"{DEVIATIONS[key]},<br>z-score"
     _heat(figure, row, windows, values, math.asinh, (-scale.z, scale.z), ticks, title, "RdBu_r")
 
 
@@ -230,9 +230,9 @@ def _modes(windows: Windows, words: Words, figure: Any, row: int) -> None:
             span for span, window in zip(_spans(windows), windows, strict=True) if window.get("mode") == mode
         ]
         figure.add_bar(
-            base=[begin for begin, _ in own],
-            x=[end - begin for begin, end in own],
-            y=["state of the string"] * len(own),
+            base=[begin for begin, _ in own] or [None],
+            x=[end - begin for begin, end in own] or [None],
+            y=["state of the string"] * len(own) or [None],  # so that the legend has every state
             orientation="h",
             marker={"color": color, "line": {"width": 0}},
             name=words(mode),
@@ -252,7 +252,7 @@ def _left_over(windows: Windows, scale: Scale, figure: Any, row: int) -> None:
     reach = (1e3 * scale.low_m, 1e3 * scale.high_m)
     digits = (1,) if reach[1] > 100.0 * reach[0] else (1, 3)
     ticks = [digit * 10.0**power for power in range(-3, 4) for digit in digits]
-    _heat(figure, row, windows, millimetres, math.log10, reach, ticks, "left [mm]", LEFT_OVER)
+    _heat(figure, row, windows, millimetres, math.log10, reach, ticks, "residual [mm]", LEFT_OVER)
 
 
 def _lines(

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 LONGEST_BAR = 3.0
 """Of the ladder, in thresholds of physics."""
+LEAST_PROBABILITY = 1e-300
+"""A p-value below it is told as that."""
 FIRST_RECORDINGS = 4
 """So many are shown at once; the others unfold."""
 
@@ -55,6 +57,7 @@ def report_html(
         result=result,
         simulator=None if comparison is None else _simulator(comparison),
         fit=_fit(result.get("fit") or {}),
+        tiles=_tiles(result) if comparison is None else _simulator_tiles(result, comparison),
         effects=[_effect(effect, horizons, _rows(locate, "windows")) for effect in _rows(result, "effects")],
         adequacy=_adequacy(result.get("adequacy") or {}, thresholds["times_noise"]),
         learnt=[_learnt(item, horizons) for item in _rows(result, "learnt")],
@@ -71,9 +74,7 @@ def report_html(
             for row in _rows(result, "nuisances")
         ],
         limits=[
-            [_named(row), words(row.get("parameter")), "below " + quantity(row["limit95"], row.get("unit"))]
-            if row.get("limit95") is not None
-            else [_named(row), words(row.get("parameter")), "no limit: this data cannot show it"]
+            [_named(row), words(row.get("parameter")), _limit(row, _ladder_row(result, row))]
             for row in _rows(result, "upper_limits")
         ],
         experiments=[_experiment(row) for row in _rows(result, "next_experiment")],
@@ -161,10 +162,12 @@ def _power_of_ten(power: int) -> str:
 def probability(p: float | None) -> str:
     if p is None:
         return "not known"
-    if p >= 1e-3 or p == 0.0:
-        return f"{p:.2g}" if p else "below what can be counted"
+    if p >= 1e-3:
+        return f"{p:.2g}"
+    if p < LEAST_PROBABILITY:
+        return "< 10⁻³⁰⁰"
     digit, power = f"{p:.0e}".split("e")
-    return digit + _power_of_ten(int(power))
+    return (digit + _power_of_ten(int(power))).replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def percent(share: float | None) -> str:
@@ -189,7 +192,7 @@ def _joined(parts: Iterable[str]) -> str:
 
 
 def _fit(fit: dict[str, Any]) -> dict[str, Any]:
-    """Errors on data that was not fitted, before and after, and whether they differ."""
+    """Errors on held-out data, before and after, and whether they differ."""
     rows = _held_out(fit, ("base_error_m", "augmented_error_m", "improvement_ci95_m", "start_error_m"))
     unused = fit.get("holdout_unused") or []
     left = f" Held out, but without a start that could be compared: {_joined(unused)}." if unused else ""
@@ -202,12 +205,8 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
             "axle_title": _axle_title(fit),
         }
     horizon, base, augmented, interval, start = rows[-1]
-    held_out = {
-        "recordings": "whole recordings that the fit did not see",
-        "blocks": "stretches of the recordings that the fit did not see",
-    }.get(fit.get("heldout") or "", "data that the fit did not see")
-    where = f"On {held_out}, the prediction's position error after {quantity(horizon, 's')}"
-    windows = f" ({fit['windows']} windows)" if fit.get("windows") is not None else ""
+    where = f"On {_held_out_data(fit.get('heldout'))}, the mean position error {quantity(horizon, 's')} ahead"
+    windows = f" (at most {fit['windows']} starts)" if fit.get("windows") is not None else ""
     tile = _millimetres(base)
     if augmented is None:
         sentence = f"{where} is {tile}{windows}. There is no corrected simulator to compare with."
@@ -222,7 +221,7 @@ def _fit(fit: dict[str, Any]) -> dict[str, Any]:
         sentence += _improvement(base - augmented, interval)
         if start is not None:
             sentence += f" The noise of the starts alone would make {_millimetres(start)}."
-    tile_label = f"error after {quantity(horizon, 's')}, data not fitted"
+    tile_label = f"mean held-out error, {quantity(horizon, 's')} ahead"
     return {
         "sentence": sentence + left,
         "rows": _error_table(rows, _millimetres),
@@ -249,9 +248,13 @@ def _axle(fit: dict[str, Any]) -> list[list[str]]:
 
 def _axle_title(fit: dict[str, Any]) -> str:
     """What the axle's direction was compared on."""
-    places = {"recordings": "on whole recordings", "blocks": "on stretches"}
-    held_out = places.get(fit.get("axle_heldout") or "", "on data")
-    return f"The axle's direction, {held_out} that the fit did not see"
+    return f"The axle's direction, on {_held_out_data(fit.get('axle_heldout'))}"
+
+
+def _held_out_data(heldout: str | None) -> str:
+    """What was predicted without being fitted."""
+    kinds = {"recordings": "held-out recordings", "blocks": "held-out stretches of the recordings"}
+    return kinds.get(heldout or "", "held-out data")
 
 
 SPIN_ERRORS = (
@@ -276,11 +279,18 @@ def _error_table(rows: Iterable[Sequence[Any]], shown: Callable[..., str]) -> li
             quantity(row[0], "s"),
             shown(row[1]),
             shown(row[2]),
-            "not known" if None in row[1:4] else shown(row[1] - row[2], row[3]),
+            _gain(row, shown),
             shown(row[4]),
         ]
         for row in rows
     ]
+
+
+def _gain(row: Sequence[Any], shown: Callable[..., str]) -> str:
+    """What a correction takes off an error, in an error table."""
+    if None in row[1:3]:
+        return "not known"
+    return "too few independent starts" if row[3] is None else shown(row[1] - row[2], row[3])
 
 
 def _radians_per_second(spin: float | None, interval: Any = None) -> str:
@@ -293,9 +303,13 @@ def _millimetres(length: float | None, interval: Any = None) -> str:
     return quantity(None if length is None else 1e3 * length, "mm", ends)
 
 
+def _error(value: float | None, unit: str | None) -> str:
+    return _millimetres(value) if unit == "m" else quantity(value, unit)
+
+
 def _improvement(gain: float, interval: Any) -> str:
     if not interval or None in interval:
-        return "How sure this is, the result does not say."
+        return "Too few starts are independent for an interval of the improvement."
     shown = f"The improvement is {_millimetres(gain, interval)}, with its 95 % interval"
     if interval[0] > 0.0:
         return f"{shown}, which excludes zero."
@@ -336,9 +350,10 @@ def _differing(item: dict[str, Any]) -> list[list[Any]]:
 
 
 def _left_over(row: dict[str, Any]) -> list[Any]:
-    sizes = [quantity(row.get(name), row.get("unit")) for name in ("base", "left", "noise")]
+    sizes = [_error(row.get(name), row.get("unit")) for name in ("base", "left", "noise")]
     ahead = row.get("ahead_s")
-    what = row.get("quantity") if ahead is None else f"{row.get('quantity')} {ahead:g} s ahead, left out"
+    fitted = f"{row.get('quantity')}, fitted" if row.get("quantity") else None
+    what = fitted if ahead is None else f"{row.get('quantity')}, held out, {ahead:g} s ahead"
     return [what, *sizes, _number(row.get("times_noise"), 1), _number(row.get("windows"), 0)]
 
 
@@ -398,28 +413,35 @@ def _simulator(comparison: dict[str, Any]) -> dict[str, Any]:
         ]
         for law in _rows(comparison, "laws")
     ]
-    fit = comparison.get("fit") or {}
-    errors = zip(
-        fit.get("horizons_s") or [],
-        fit.get("base_error_m") or [],
-        fit.get("augmented_error_m") or [],
-        fit.get("improvement_ci95_m") or [],
-        strict=False,
-    )
-    return {
-        "sentence": comparison["sentence"],
-        "laws": laws,
-        "errors": [
-            [
-                quantity(ahead, "s"),
-                _millimetres(alone),
-                _millimetres(better),
-                _millimetres(alone - better, interval),
-            ]
-            for ahead, alone, better, interval in errors
-            if alone is not None
-        ],
-    }
+    names = ("base_error_m", "augmented_error_m", "improvement_ci95_m", "start_error_m")
+    errors = _held_out(comparison.get("fit") or {}, names)
+    told = {"sentence": comparison["sentence"], "laws": laws, "errors": []}
+    if errors:
+        ahead, alone, corrected = errors[-1][:3]
+        told["errors"] = [row[:4] for row in _error_table(errors, _millimetres)]
+        told["tile_label"] = f"your simulator's mean held-out error, {quantity(ahead, 's')} ahead"
+        told["tile"] = f"{_millimetres(alone)} → {_millimetres(corrected)}"
+    return told
+
+
+def _tiles(result: dict[str, Any]) -> list[list[Any]]:
+    """Beside the held-out error: label and value."""
+    return [
+        ["effects claimed", len(_rows(result, "effects")) or "none"],
+        ["base simulator", result.get("base") or "not given"],
+        ["recordings", len(_rows(result, "inputs")) or "not given"],
+    ]
+
+
+def _simulator_tiles(result: dict[str, Any], comparison: dict[str, Any]) -> list[list[Any]]:
+    """The same about somebody's simulator."""
+    verdicts = [law["verdict"] for law in _rows(comparison, "laws")]
+    differ = [verdict for verdict in verdicts if verdict not in ("agrees", "cannot_tell")]
+    return [
+        ["laws that differ", len(differ) or "none"],
+        ["laws compared", len(verdicts) or "none"],
+        ["recordings", len(_rows(result, "inputs")) or "not given"],
+    ]
 
 
 def _effect(effect: dict[str, Any], horizons: list[float], windows: list[dict[str, Any]]) -> list[Any]:
@@ -429,13 +451,15 @@ def _effect(effect: dict[str, Any], horizons: list[float], windows: list[dict[st
     ]
     notes = [str(effect["kind"])] if effect.get("kind") else []
     notes += ["too small to matter"] if effect.get("material") is False else []
+    ties = list(filter(None, effect.get("tied_with") or []))
+    notes += [f"tied with {_joined(map(words, ties))}: the value may include its effect"] if ties else []
     return [
         {**_named(effect), "notes": notes},
         parameters or ["none"],
         _where(effect.get("where") or {}, windows),
         _effect_sizes(effect, horizons) or ["not known"],
         probability(effect.get("p_value")),
-        percent(effect.get("confidence")),
+        "one of a tie" if ties else percent(effect.get("confidence")),
     ]
 
 
@@ -444,14 +468,14 @@ def _effect_sizes(effect: dict[str, Any], horizons: list[float]) -> list[str]:
     without, size = _without(effect, horizons), dict(effect.get("size") or {})
     if turned := effect.get("axle_worse_without_ci95_rad"):
         low, high = np.degrees(turned)
-        without = [f"without it the axle is off by {low:.2g} to {high:.2g} deg more on data not fitted"]
+        without = [f"without it the axle is off by {low:.2g} to {high:.2g} deg more on held-out data"]
     if without:
         size["position_1s_m"] = None
     return [*_sizes(size), *without]
 
 
 def _without(effect: dict[str, Any], horizons: list[float]) -> list[str]:
-    """How much worse data that was not fitted is predicted without it, at the longest horizon that tells."""
+    """How much worse held-out data is predicted without it, at the longest horizon that tells."""
     rows = zip(horizons, effect.get("worse_without_ci95_m") or [], strict=False)
     told = [(horizon, interval) for horizon, interval in rows if interval and None not in interval]
     if not told or told[-1][1] == [0.0, 0.0]:
@@ -459,12 +483,12 @@ def _without(effect: dict[str, Any], horizons: list[float]) -> list[str]:
     horizon, (low, high) = next((row for row in reversed(told) if row[1][0] > 0.0), told[-1])
     sure = "" if low > 0.0 else ", so not shown to help there"
     worse = f"{1e3 * low:.3g} to {1e3 * high:.3g} mm worse after {horizon:g} s"
-    return [f"without it {worse} on data not fitted{sure}"]
+    return [f"without it {worse} on held-out data{sure}"]
 
 
 def _sizes(row: dict[str, Any]) -> list[str]:
     sizes = [
-        f"{quantity(row[key], unit)}{after}"
+        f"{_error(row[key], unit)}{after}"
         for key, unit, after in (
             ("acceleration_mps2", "m/s^2", ""),
             ("size_m", "m", " after 0.5 s"),
@@ -519,8 +543,8 @@ def _dependence(item: dict[str, Any]) -> list[str]:
         return []
     gains = [_number(item.get(key), 1) for key in ("gain_by_strength", "gain_permuted")]
     return [
-        f"by its strength in each window those left out gain {gains[0]} in chi^2, by strengths exchanged at "
-        f"random {gains[1]} (p = {chance:.3g})"
+        f"held-out windows gain {gains[0]} in chi^2 by its strength in each, and {gains[1]} by strengths "
+        f"exchanged at random (p = {chance:.3g})"
     ]
 
 
@@ -576,9 +600,24 @@ def _inseparable(row: dict[str, Any], thresholds: dict[str, float], noise: float
     z = abs(row.get("z") or 0.0)
     if row.get("claimed") or not 0.0 < z < _threshold(row, thresholds):
         return ""
-    deviation = (row.get("size_m") or 0.0) / z
-    known = f"known to ±{quantity(deviation, 'm')} after 0.5 s only"
-    return f"not separable here from what else is fitted: {known}" if deviation > noise > 0.0 else ""
+    is_open = (row.get("size_m") or 0.0) / z > noise > 0.0
+    return "not identifiable: what else is fitted has the same effect on the motion" if is_open else ""
+
+
+def _ladder_row(result: dict[str, Any], limit: dict[str, Any]) -> dict[str, Any]:
+    """The candidate that a limit is of."""
+    return next((row for row in _rows(result, "ladder") if row.get("name") == limit.get("name")), {})
+
+
+def _limit(limit: dict[str, Any], candidate: dict[str, Any]) -> str:
+    """How large an effect may be that is not claimed."""
+    if limit.get("limit95") is None:
+        return "no limit: this data cannot show it"
+    below = "below " + quantity(limit["limit95"], limit.get("unit"))
+    if abs(candidate.get("z") or 0.0) < Thresholds().physics:
+        return below
+    fitted = quantity(candidate.get("estimate"), candidate.get("unit"))
+    return f"{below}; {fitted} is significant in the fit, and not confirmed by held-out data"
 
 
 def _ties(result: dict[str, Any], worthwhile: float) -> list[str]:
@@ -642,7 +681,7 @@ def _located(locate: dict[str, Any], replays: Sequence[Replay], threshold: float
         said = [_strongest(own, directions, threshold)] if own else []
         if name in by_name:
             before, after = (_millimetres(_mean_error(by_name[name], key)) for key in ("base", "corrected"))
-            said.append(f"On average predictions are off by {before} (base) and {after} (corrected).")
+            said.append(f"Mean distance in the replay: {before} (base), {after} (corrected).")
         rows = -(-figures.MOST_ROWS // len(names))
         figure = figures.take_figure(own, directions, by_name.get(name), scale, rows, words)
         located.append({"recording": name, "said": " ".join(said), "figure": figure})

@@ -115,14 +115,14 @@ def page_of(data: Mapping[str, Any]) -> str:
 
 
 @contextmanager
-def _told_before() -> Iterator[None]:
-    """What is odd about recordings is not said once more."""
+def told_before() -> Iterator[None]:
+    """What is odd about recordings is not said: it was before, or their simulator knows better."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RecordingWarning)
         yield
 
 
-@_told_before()
+@told_before()
 def replay_of(recording: Recording, base: Model, corrected: Model) -> Replay:
     """Base and answer beside a recording."""
     models = {"base": base, "corrected": corrected}
@@ -131,7 +131,7 @@ def replay_of(recording: Recording, base: Model, corrected: Model) -> Replay:
     )
 
 
-@_told_before()
+@told_before()
 def replay_html(replay: Replay) -> str:
     """The page of a replay; of a long one that of its worst stretch."""
     take, (first, last) = replay.recording, replay.worst()
@@ -154,7 +154,7 @@ def predict_anew(recording: Recording, model: Model, every: float) -> NDArray[np
     warn_of([recording])
     places = np.full((len(recording), 6), np.nan)
     step = max(1, round(every * recording.rate))
-    with _told_before():
+    with told_before():
         for first in range(0, len(recording), step):
             last = min(first + step, len(recording)) - 1
             piece = recording.cut(0, last)

@@ -299,8 +299,8 @@ def test_the_page_gives_the_answer_first_and_its_parts_in_order() -> None:
     parts = [
         "Physics named NAMED",
         INVENTED["sentence"],
-        "error after 1 s, data not fitted",
-        "On whole recordings that the fit did not see",
+        "mean held-out error, 1 s ahead",
+        "On held-out recordings, the mean position error",
         "1 s 1.6 rad/s 0.5 rad/s 1.10 [0.90, 1.30] rad/s 0.1 rad/s",
         "Sideways lift by the spin (Magnus) magnus_lift",
         "friction of the string string_friction invented_throw coefficient 0.104 [0.091, 0.117]",
@@ -308,8 +308,8 @@ def test_the_page_gives_the_answer_first_and_its_parts_in_order() -> None:
         "Strongest: in flight: axle × velocity",
         "Rejected: its sign is against physics",
         "More is left than the camera's noise would leave",
-        "position 12 mm 1.4 mm 0.6 mm 2.3 40",
-        "in flight; sideways position 15 mm 3 mm 0.6 mm 5.0 40",
+        "position, fitted 12 mm 1.4 mm 0.6 mm 2.3 40",
+        "in flight; sideways position, fitted 15 mm 3 mm 0.6 mm 5.0 40",
         "Acceleration sideways 0.4 m/s² comes and goes, 0.31 Hz 5.2",
         "True length of the string 4 mm steadily, by 2.1 mm each second 4.4",
         "no claimed effect is tied",
@@ -326,7 +326,7 @@ def test_the_page_gives_the_answer_first_and_its_parts_in_order() -> None:
 
 def test_held_out_errors_are_in_the_units_of_people() -> None:
     text = Page(report_html(invented())).text
-    assert "goes from 91.5 mm to 21.4 mm (77 % less) (412 windows)" in text
+    assert "goes from 91.5 mm to 21.4 mm (77 % less) (at most 412 starts)" in text
     assert "70 [59, 81] mm, with its 95 % interval, which excludes zero" in text
 
 
@@ -335,8 +335,8 @@ def test_held_out_errors_are_in_the_units_of_people() -> None:
     [
         ([-0.01, 0.02], "zero is inside, so no improvement is shown"),
         ([-0.02, -0.01], "it predicts worse"),
-        (None, "How sure this is, the result does not say"),
-        ([None, 0.02], "How sure this is, the result does not say"),
+        (None, "Too few starts are independent for an interval"),
+        ([None, 0.02], "Too few starts are independent for an interval"),
     ],
 )
 def test_an_improvement_that_is_not_sure_is_not_called_one(interval: Any, said: str) -> None:
@@ -373,8 +373,8 @@ def replay(name: str = "invented_play", seconds: float = 3.0, base_off: float = 
 def test_every_take_shows_measured_beside_predicted_before_and_after() -> None:
     html = report_html(invented(), replays=[replay("first"), replay("second", base_off=0.2)])
     text = Page(html).text
-    assert "first On average predictions are off by 100 mm (base) and 2 mm (corrected)." in text
-    assert "second On average predictions are off by 200 mm (base) and 2 mm (corrected)." in text
+    assert "first Mean distance in the replay: 100 mm (base), 2 mm (corrected)." in text
+    assert "second Mean distance in the replay: 200 mm (base), 2 mm (corrected)." in text
     for figure in drawn(html)[-2:]:
         named = [trace["name"] for trace in figure["data"] if trace.get("type") == "scatter"]
         assert named.count("recorded") == 3 and named.count("base") == named.count("corrected") == 4
@@ -545,6 +545,40 @@ def test_a_tie_is_told_once_with_what_would_part_it() -> None:
     assert text.count("this data cannot tell them apart. What would: a throw as high as can be caught.") == 1
 
 
+def test_a_tied_effect_has_no_chance_of_its_own() -> None:
+    effects = [INVENTED["effects"][0] | {"tied_with": ["wind"]}, INVENTED["effects"][1]]
+    text = Page(report_html(invented(effects=effects))).text
+    assert "physics tied with Wind: the value may include its effect coefficient" in text
+    assert "one of a tie" in text and "97 %" not in text and "93 %" in text
+
+
+def test_a_limit_of_what_held_out_data_deny_says_that_it_fits() -> None:
+    row = candidate("wind", 36.9, 3.98, "m/s", "wind_x", "denied")
+    limit = {"name": "wind", "parameter": "wind_x", "limit95": 4.16, "unit": "m/s"}
+
+    def text_of(z: float) -> str:
+        return Page(report_html(invented(ladder=[row | {"z": z}], upper_limits=[limit]))).text
+
+    denied = "; 3.98 m/s is significant in the fit, and not confirmed by held-out data"
+    assert f"below 4.16 m/s{denied}" in text_of(36.9)
+    assert "below 4.16 m/s" in text_of(1.2) and denied not in text_of(1.2)
+
+
+@pytest.mark.parametrize(
+    ("p", "text"), [(0.0, "< 10⁻³⁰⁰"), (4e-297, "4\xa0×\xa010⁻²⁹⁷"), (0.02, "0.02"), (None, "not known")]
+)
+def test_a_probability_that_is_next_to_nothing_has_a_bound(p: float | None, text: str) -> None:
+    assert report.probability(p) == text
+
+
+def test_errors_are_in_millimetres_however_large() -> None:
+    overall = [left_over("position", 0.138, 0.0035, 0.0027) | {"ahead_s": 1.0}]
+    effects = [{"name": "string_friction", "size": {"size_m": 0.342}}]
+    text = Page(report_html(invented(effects=effects, adequacy={"overall": overall}))).text
+    assert "position, held out, 1 s ahead 138 mm 3.5 mm 2.7 mm" in text
+    assert "342 mm after 0.5 s" in text
+
+
 def test_an_unnamed_law_is_shown_with_its_curve() -> None:
     law = "along -v, in flight, |v|^1.4"
     item = {"where": {"modes": ["FLYING"]}, "law": law, "curve": [[0, 0], [2, 0.11]], "explained": 0.8}
@@ -571,7 +605,10 @@ def test_a_learnt_law_is_told_with_what_exchanged_strengths_gain(chance: float |
         "dependence_p_value": chance,
     }
     text = Page(report_html(invented(learnt=[item]))).text
-    said = "those left out gain 280.0 in chi^2, by strengths exchanged at random 12.5 (p = 0.005)"
+    said = (
+        "held-out windows gain 280.0 in chi^2 by its strength in each, and 12.5 by strengths exchanged at "
+        "random (p = 0.005)"
+    )
     assert (said in text) == (chance is not None)
 
 
@@ -592,8 +629,24 @@ def test_the_size_of_what_turns_the_axle_is_an_angle() -> None:
     size = {"acceleration_mps2": None, "position_1s_m": None, "axle_1s_rad": 0.1}
     text = Page(report_html(invented(effects=[{"name": "groove", "size": size}]))).text
     assert "String climbs the groove's flanks groove" in text and "turns the axle by 5.73 deg in 1 s" in text
-    assert "The axle's direction, on whole recordings that the fit did not see" in text
+    assert "The axle's direction, on held-out recordings" in text
     assert "1 s 11.5 deg 5.73 deg 0.573 deg 5.2 [4.0, 6.3] deg" in text
+
+
+def test_a_comparison_begins_with_the_laws_and_the_errors_of_that_simulator() -> None:
+    verdicts = ("lacks", "agrees", "cannot_tell", "should_not_have")
+    laws = [{"name": "wind", "what": "wind", "verdict": verdict} for verdict in verdicts]
+    comparison: dict[str, Any] = {"sentence": "The simulator lacks wind.", "laws": laws}
+    without = Page(report_html(invented(), comparison, [replay()])).text
+    tiles, rest = without.split("law by law", 1)
+    assert "laws that differ 2 laws compared 4 recordings 2" in tiles
+    assert "mm" not in tiles and "consistent" not in tiles, "errors of our preset are none of that simulator"
+    assert rest.find("lacks it") < rest.find("Replay:") < rest.find("Does the correction predict better?")
+    errors = {"base_error_m": [0.112], "augmented_error_m": [0.008], "improvement_ci95_m": [None]}
+    comparison["fit"] = {"horizons_s": [1.0], **errors}
+    tiles, rest = Page(report_html(invented(), comparison)).text.split("law by law", 1)
+    assert "your simulator's mean held-out error, 1 s ahead 112 mm → 8 mm" in tiles
+    assert "1 s 112 mm 8 mm too few independent starts" in rest
 
 
 def test_a_compared_law_has_the_size_of_its_difference() -> None:
@@ -606,7 +659,7 @@ def test_a_compared_law_has_the_size_of_its_difference() -> None:
     assert "lacks it none none none 4 mm after 0.5 s" in text
 
 
-def test_says_what_a_claim_is_worth_on_data_that_was_not_fitted() -> None:
+def test_says_what_a_claim_is_worth_on_held_out_data() -> None:
     fit = {"horizons_s": [0.5, 1.0]}
 
     def text_of(intervals: list[list[float] | None]) -> str:
@@ -615,7 +668,7 @@ def test_says_what_a_claim_is_worth_on_data_that_was_not_fitted() -> None:
 
     assert "without it 2 to 5 mm worse after 0.5 s" in text_of([[0.002, 0.005], [-0.001, 0.004]])
     unsure = text_of([[-0.002, 0.005], None])
-    assert "without it -2 to 5 mm worse after 0.5 s on data not fitted, so not shown to help there" in unsure
+    assert "without it -2 to 5 mm worse after 0.5 s on held-out data, so not shown to help there" in unsure
     assert "without it" not in text_of([])
 
 
@@ -646,13 +699,13 @@ def test_places_are_named_with_their_recording() -> None:
 @pytest.mark.parametrize(
     ("z", "size", "said"),
     [
-        (0.2, 0.0003, "not separable here from what else is fitted: known to ±1.5 mm after 0.5 s only"),
+        (0.2, 0.0003, "not identifiable: what else is fitted has the same effect on the motion"),
         (1.3, 0.0003, "too small"),
         (5.2, 0.02, "too small"),
         (0.2, None, "too small"),
     ],
 )
-def test_what_only_cannot_be_separated_is_not_called_small(z: float, size: float | None, said: str) -> None:
+def test_what_is_not_identifiable_is_not_called_small(z: float, size: float | None, said: str) -> None:
     row = candidate("wind", z, 0.1, "m/s", "wind_x", "too small") | {"size_m": size}
     assert f"Rejected: {said}" in Page(report_html(invented(ladder=[row]))).text
 

@@ -170,6 +170,7 @@ def test_check_says_that_a_plan_can_be_played(command: Command, tmp_path: Path) 
     result = command("robot", "check", str(plan), "--json", str(tmp_path / "found.json"))
     assert result.returncode == 0, result.stderr
     assert "can be played" in result.stdout and "as fast as planned" in result.stdout
+    assert "s of motion and 0.20 s to start and to stop\nleast clearance: 0." in result.stdout
     found = json.loads((tmp_path / "found.json").read_text())
     assert found["schema"] == "diabolo.robot_check/1"
     assert found["playable"] is True and found["slowed"] is False and found["troubles"] == []

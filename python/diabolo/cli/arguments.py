@@ -26,10 +26,11 @@ OF_RECORDINGS = ("calibration", "up", "columns", "topics")
 """Options that say how a recording is read, but for --arms."""
 FARTHEST_BASE = 100.0
 """An arm stands no farther from the world's origin [m]."""
-RECORDING_HELP = (
-    "a Motive export, a tidy recording, a bag of ROS or another of docs/recordings.md; NAME.csv:0-180 takes "
-    "the rows 0 to 180 of it only"
+FILE_HELP = (
+    "a Motive export, a tidy recording, a CSV of your own (--columns), a bag of ROS, C3D, or another of "
+    "docs/recordings.md"
 )
+RECORDING_HELP = f"{FILE_HELP}; NAME.csv:0-180 takes the rows 0 to 180 of it only"
 
 
 def add_command(

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import time
+from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -13,17 +14,18 @@ from typing import Any
 import numpy as np
 
 from .. import files
-from .._core import Estimate, FormulaLaws, InputFile, Recording
+from .._core import DiagnosisResult, Estimate, FormulaLaws, InputFile, Recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import MOST_DRAWS, Comparison, Diagnosis, compare_simulator
 from ..diagnosis import diagnose as run_diagnosis
 from ..evaluation import DEFAULT_MODELS, Excerpt
 from ..formats import check_writer, load_recording, reader_of
+from ..report import LEAST_PROBABILITY, report_html
 from ..report import check as check_report
-from ..report import report_html
 from ..view import Replay, replay_of
 from .arguments import (
     BODIES,
+    RECORDING_HELP,
     add_calibration,
     add_command,
     output_name,
@@ -55,7 +57,7 @@ def add_parser(commands: Any) -> None:
         "recordings",
         nargs="+",
         metavar="RECORDING",
-        help="Motive exports or tidy recordings of one set-up; NAME.csv:0-180 takes the rows 0 to 180 only",
+        help=f"of one set-up, each {RECORDING_HELP}",
     )
     parser.add_argument(
         "--base",
@@ -177,7 +179,8 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.json == files.STDOUT:
         files.write_json(arguments.json, told)
     if arguments.json != files.STDOUT:
-        print(text_of(diagnosis) if comparison is None else comparison_text(comparison))
+        own = [law["name"] for law in laws]
+        print(text_of(diagnosis, own) if comparison is None else comparison_text(comparison, own))
         if folder is not None:
             print(f"{folder / REPORT_FILE}: the report; {folder / MODEL_FILE}: the model")
 
@@ -242,8 +245,8 @@ def read_simulated(path: str, like: Recording) -> Recording:
     )
 
 
-def comparison_text(comparison: Comparison) -> str:
-    """The answer about a simulator in a few lines."""
+def comparison_text(comparison: Comparison, own: Sequence[str] = ()) -> str:
+    """The answer about a simulator in a few lines; `own` are the names of one's own laws."""
     lines = [comparison.sentence]
     for law in comparison.laws:
         lines.append(f"  {law.verdict.replace('_', ' '):15} {law.name}")
@@ -254,17 +257,17 @@ def comparison_text(comparison: Comparison) -> str:
         ):
             if numbers and not (law.verdict in ("agrees", "cannot_tell") and name == "to add"):
                 lines.append(f"    {name:10} {', '.join(_value(number) for number in numbers)}")
-    lines.append(f"Of the recordings alone: {text_of(comparison.real)}")
+    lines.append(f"Of the recordings alone: {text_of(comparison.real, own)}")
     return "\n".join(lines)
 
 
-def text_of(diagnosis: Diagnosis) -> str:
-    """The answer in a few lines."""
+def text_of(diagnosis: Diagnosis, own: Sequence[str] = ()) -> str:
+    """The answer in a few lines; `own` are the names of one's own laws."""
     lines = [f"{diagnosis.headline}: {diagnosis.sentence}"]
     for effect in diagnosis.effects:
         values = ", ".join(_value(parameter) for parameter in effect.parameters)
-        p_value = "" if effect.p_value is None else f"; p = {effect.p_value:.1g}"
-        lines.append(f"  {effect.name}: {values}{p_value}")
+        lines.append(f"  {effect.name}: {values}{_p_value(effect.p_value)}")
+    lines += [f"  {_own_law(name, diagnosis.result)}" for name in own]
     fit = diagnosis.result.fit
     for what, unit, per_unit, base, augmented in (
         ("error", "mm", 1e3, fit.base_error_m, fit.augmented_error_m),
@@ -291,6 +294,26 @@ def text_of(diagnosis: Diagnosis) -> str:
     return "\n".join(lines)
 
 
+def _own_law(name: str, result: DiagnosisResult) -> str:
+    """Whether a law of --law is claimed, and if not, why and how much of it may be there."""
+    row = next((row for row in result.ladder if row.name == name), None)
+    if row is None:
+        return f"your law {name}: not tested"
+    if row.claimed:
+        return f"your law {name}: claimed, with the numbers above"
+    limits = [limit for limit in result.upper_limits if limit.name == name]
+    below = [
+        f"; {limit.parameter} below {_with_unit(f'{limit.limit95:.4g}', limit.unit)}" for limit in limits
+    ]
+    return f"your law {name}: not claimed, {row.reason}{''.join(below)}"
+
+
+def _p_value(p: float | None) -> str:
+    if p is None:
+        return ""
+    return f"; p = {p:.1g}" if p >= LEAST_PROBABILITY else f"; p < {LEAST_PROBABILITY:g}"
+
+
 def _cut(excerpt: Excerpt) -> Recording:
     return excerpt.recording.cut(excerpt.first, excerpt.last)
 
@@ -299,7 +322,11 @@ def _value(parameter: Estimate) -> str:
     text = f"{parameter.name} {parameter.value:.4g}"
     if parameter.ci90 is not None:
         text += f" [{parameter.ci90.low:.4g}, {parameter.ci90.high:.4g}]"
-    return text if parameter.unit == "1" else f"{text} {parameter.unit}"
+    return _with_unit(text, parameter.unit)
+
+
+def _with_unit(text: str, unit: str) -> str:
+    return text if unit == "1" else f"{text} {unit}"
 
 
 def input_file(path: str | Path) -> InputFile:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .. import files
 from .._core import MotiveTake, Recording, RecordingError
 from ..formats import reader_of
-from .arguments import Reading, add_calibration, add_command, reading_of
+from .arguments import FILE_HELP, Reading, add_calibration, add_command, reading_of
 from .tables import format_table
 
 SCHEMA = "diabolo.info/1"
@@ -44,7 +44,7 @@ def add_parser(commands: Any) -> None:
         example="  diabolo info throw_1.csv\n  diabolo info throw_1.csv --json -\n"
         "  diabolo info own.csv --columns time=t[ms],left_x=lx[mm],...",
     )
-    parser.add_argument("recording", metavar="RECORDING", help="a Motive export or a tidy recording")
+    parser.add_argument("recording", metavar="RECORDING", help=FILE_HELP)
     add_calibration(parser)
     parser.add_argument(
         "--json",
@@ -137,7 +137,10 @@ def text_of(found: dict[str, Any]) -> str:
     if found["not_calibrated"]:
         lines.append(f"No tips and no spin: {found['not_calibrated']}.")
     elif spin is None:
-        lines.append("The diabolo's spin is unknown: no orientations that tell it.")
+        lines.append(
+            "The diabolo's spin is unknown: no orientations that tell it. "
+            "A diagnosis finds friction without it, but tests no law of the spin."
+        )
     else:
         lines.append(
             f"spin: {spin['min']:.1f} to {spin['max']:.1f} rad/s, median {spin['median']:.1f} rad/s; "

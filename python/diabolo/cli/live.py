@@ -44,7 +44,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--out",
         metavar="FILE.csv",
         type=output_name,
-        help="write the longest stretch of a live play between two beginnings as a tidy recording",
+        help="with --live, in place of TIDY.csv: write the longest stretch between two beginnings as a tidy "
+        "recording",
     )
 
 

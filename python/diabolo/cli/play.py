@@ -73,7 +73,7 @@ def run(arguments: argparse.Namespace) -> None:
     check_library("diabolo play", "gymnasium", "envs")
     from .. import envs
     from ..envs.spaces import limits_of
-    from ..view import view_html
+    from ..view import told_before, view_html
 
     check_task(arguments.task, envs.TASKS)
     for name, value, low, high in (
@@ -108,7 +108,9 @@ def run(arguments: argparse.Namespace) -> None:
         if arguments.out:
             recording.save(arguments.out)
         if arguments.html:
-            files.write_texts({Path(arguments.html): view_html(recording)})
+            with told_before():  # the spin, which so few samples a second do not tell
+                page = view_html(recording)
+            files.write_texts({Path(arguments.html): page})
     found = {
         "schema": SCHEMA,
         "task": arguments.task,

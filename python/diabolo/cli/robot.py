@@ -132,6 +132,7 @@ def run_check(arguments: argparse.Namespace) -> int:
     for trouble in found["troubles"]:
         trouble["tip_m"] = trouble["tip_m"].tolist()
     ratio = _ratio(found)
+    found["motion_s"] = float(motion.times[-1] - motion.times[0])
     found["slowed"] = None if ratio is None else ratio > SLOWED
     files.write_json(arguments.json, {"schema": "diabolo.robot_check/1", "file": arguments.plan, **found})
     if arguments.json != files.STDOUT:
@@ -184,8 +185,13 @@ def text_of(name: str, found: dict[str, Any]) -> str:
                 f"at {found['worst_at_s']:.2f} s"
             )
         )
-        lines.append(f"within the limits of the joints {pace}: {found['as_played_s']:.2f} s")
-        lines.append(f"closest to each other: {found['nearest_parts']}, {found['least_clearance_m']:.3f} m")
+        rest = found["as_planned_s"] - found["motion_s"]
+        lines.append(
+            f"within the limits of the joints {pace}: {found['as_played_s']:.2f} s; planned are "
+            f"{found['motion_s']:.2f} s of motion and {rest:.2f} s to start and to stop"
+        )
+        parts = found["nearest_parts"].replace(" and ", " to ")
+        lines.append(f"least clearance: {found['least_clearance_m']:.3f} m, {parts}")
     if found["troubles"]:
         rows = [
             [

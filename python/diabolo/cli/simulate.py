@@ -51,7 +51,8 @@ def add_parser(commands: Any) -> None:
         run=run,
         summary="write a predicted play as a tidy recording",
         text="Predict the diabolo from a motion of the stick tips, that of a recording or a built-in one,\n"
-        "and write tips and diabolo as a tidy recording (TIDY.csv, with TIDY.json beside it).\n\n"
+        "and write tips and diabolo as a tidy recording (TIDY.csv, with TIDY.json beside it).\n"
+        "The presets' string has no thickness: a diagnosis of such a recording finds it 20 mm too long.\n\n"
         "With --live you are the player: open the address that is printed in a browser on this machine,\n"
         "and drag the tips with the mouse. Closing the page or Ctrl-C ends the play.",
         example="  diabolo simulate swing.csv --motion swing\n"
@@ -59,7 +60,11 @@ def add_parser(commands: Any) -> None:
         "  diabolo simulate --live --out played.csv",
     )
     parser.add_argument(
-        "tidy", metavar="TIDY.csv", type=output_name, nargs="?", help="what to write, without --live"
+        "tidy",
+        metavar="TIDY.csv",
+        type=output_name,
+        nargs="?",
+        help="the recording to write; with --live it is --out that names one",
     )
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("--on", metavar="RECORDING", help=f"the tips of {RECORDING_HELP}")

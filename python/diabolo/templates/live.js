@@ -2,7 +2,8 @@
 // The viewer plays live: frames come from the server, and it is told where the pointer wants the tips.
 (() => {
 "use strict";
-const wanted = { ...HOME }, STATES = { on_string: "taut", loose: "loose", flying: "in flight" };
+const wanted = { ...HOME }, STATES = {
+  on_string: ["taut", colors.goals], loose: ["slack", "#b45309"], flying: ["in flight", "#7c3aed"] };
 const KEPT = 240;  // frames, for the trails
 let seen = null, frames = 0, begin = null, sending = false, again = false;
 
@@ -69,7 +70,7 @@ playByPointers(canvas, toWorld, wanted, () => element("both").checked, tell, eve
 // ---- what is shown ----
 Object.assign(camera, { middle: [data.left[0][0], 0, 1.25], yaw: 0, pitch: 0.06, distance: 3 });
 for (const id of ["time", "clock"]) element(id).hidden = true;
-for (const [key, what, title] of [["r", "again", "again (R)"], ["s", "spin", "spin (S)"]]) {
+for (const [key, what, title] of [["r", "again", "start over (R)"], ["s", "spin", "spin (S)"]]) {
   const button = Object.assign(document.createElement("button"), { textContent: title, type: "button", id: what });
   button.onclick = () => { beginBy(what); button.blur(); };
   element("bar").append(button);
@@ -79,7 +80,8 @@ for (const [key, what, title] of [["r", "again", "again (R)"], ["s", "spin", "sp
 }
 const choice = document.createElement("label");
 choice.innerHTML = '<input id="both" type="checkbox" checked> one pointer moves both tips';
-element("bar").append(choice, "Drag a tip. The right button or Shift turns the view.");
+element("bar").append(choice, "Right button or Shift: turn the view.");
+element("key").append(said("Drag a tip. To throw, part the tips fast. To catch, hold them wide apart under the diabolo."));
 element("speed").value = "1";
 element("speed").onchange = tell;
 element("play").addEventListener("click", tell);
@@ -90,8 +92,8 @@ draw = () => {
   const size = Math.min(30, canvas.clientWidth / 24), ratio = devicePixelRatio;
   const middle = 0.5 * canvas.width, below = (element("key").getBoundingClientRect().bottom + 1.3 * size) * ratio;
   text(`${seen.spin.toFixed(0)} rad/s`, middle - 0.5 * size * ratio, below, colors.diabolo, "right", size);
-  text(STATES[seen.string], middle + 0.5 * size * ratio, below,
-       seen.string === "on_string" ? colors.goals : colors.spheroid, "left", size);
+  const [state, color] = STATES[seen.string];
+  text(state, middle + 0.5 * size * ratio, below, color, "left", size);
   const [across, height] = project(seen.diabolo);
   if (height < 0) text(`\u25b2 ${seen.diabolo[2].toFixed(1)} m`, across, below + 1.5 * size * ratio, colors.diabolo, "center", size);
   ["left", "right"].forEach((side, k) => {
