@@ -189,23 +189,36 @@ def draw_diagnosis(path: Path) -> None:
     answer = diabolo.diagnose([diabolo.load_recording(file) for file in paths]).to_dict()
     truths = concealed_in(paths[0])
     figure, (found, errors) = panels()
-    labels = {"string_friction": "friction", "air_drag_quadratic": "air drag", "gravity_tilt": "frame's tilt"}
-    effects = [effect for effect in answer["effects"] if effect["name"] in truths]
-    for row, effect in enumerate(effects):
-        leading = effect["parameters"][0]
-        truth = truths[effect["name"]][leading["name"]]
-        low, high = (end / truth for end in leading["ci90"])
-        found.plot([low, high], [row, row], color=AFTER, lw=5, solid_capstyle="butt", alpha=0.5)
-        found.plot(leading["value"] / truth, row, "o", color=AFTER, ms=7)
+    labels = {
+        "string_friction": "friction",
+        "air_drag_quadratic": "air drag",
+        "gravity_tilt": "frame's tilt",
+        "azimuth_deg": "tilt's azimuth",
+    }
+    rows = [
+        (
+            effect["name"] if index == 0 else parameter["name"],
+            parameter,
+            truths[effect["name"]][parameter["name"]],
+        )
+        for effect in answer["effects"]
+        if effect["name"] in truths
+        for index, parameter in enumerate(effect["parameters"])
+    ]
+    for row, (_, parameter, truth) in enumerate(rows):
+        low, high = (end / truth for end in parameter["ci90"])
+        color = AFTER if low <= 1.0 <= high else BEFORE
+        found.plot([low, high], [row, row], color=color, lw=5, solid_capstyle="butt", alpha=0.5)
+        found.plot(parameter["value"] / truth, row, "o", color=color, ms=7)
     found.axvline(1.0, color=INK, lw=1.2, ls="--")
     found.text(1.0, -0.75, " concealed value", color=INK, fontsize=9)
     found.set(
         title="found, with 90 % interval",
         xlabel="found / concealed",
-        xlim=(0.8, 1.2),
-        ylim=(len(effects) - 0.5, -1),
+        xlim=(0.7, 1.3),
+        ylim=(len(rows) - 0.5, -1),
     )
-    found.set_yticks(range(len(effects)), [labels.get(effect["name"], effect["name"]) for effect in effects])
+    found.set_yticks(range(len(rows)), [labels.get(name, name) for name, _, _ in rows])
     fit = answer["fit"]
     for key, color, label in (
         ("base_error_m", BEFORE, "as given"),

@@ -1158,14 +1158,14 @@ class HorizonScore:
   def windows(self) -> int:
     """Starts that could be compared."""
 class ResidualAndNoise:
-  """What windows of half a second, or predictions of data left out, leave over, and what noise would."""
+  """What windows of half a second, or predictions of held-out data, leave over, and what noise would."""
   __hash__: typing.ClassVar[None] = None
   def __eq__(self, other: typing.Any) -> bool: ...
   def to_dict(self) -> dict:
     """The same as its file has it."""
   @property
   def ahead_s(self) -> float | None:
-    """Of a prediction of data left out; null for windows that are fitted."""
+    """Of a prediction of held-out data; null for windows that are fitted."""
   @property
   def base(self) -> float:
     """Left by the base in the middle window, root mean square; ahead, the middle distance."""
@@ -1420,10 +1420,10 @@ class LearntLawFound:
     """Of the numbers and of FormulaLaws.variables()."""
   @property
   def gain(self) -> float:
-    """In chi^2, of windows that were left out."""
+    """In chi^2, of held-out windows."""
   @property
   def gain_by_strength(self) -> float | None:
-    """In chi^2, of windows that were left out, where it is as strong in each as it is on average there; null where it does not change from window to window, or too fast for them."""
+    """In chi^2, of held-out windows, where it is as strong in each as it is on average there; null where it does not change from window to window, or too fast for them."""
   @property
   def gain_permuted(self) -> float | None:
     """The same once these strengths are exchanged among the windows, the median of many times."""

@@ -104,7 +104,7 @@ TEST_CASE("an impossible goal ends in a plan within the limits that names what b
   CHECK(keeps_all(plan));
   CHECK_THAT(plan.answer, Contains("apex is missed by") && Contains("what binds") && Contains("tip speed"));
   problem.limits.speed = 1e-9;  // next to nothing of the seed is left
-  CHECK_THAT(GradientSearch{}(problem, {}).answer, Contains("made smaller for: left tip speed"));
+  CHECK_THAT(GradientSearch{}(problem, {}).answer, Contains("slowed to keep: left tip speed"));
   problem.limits.speed = 1.5;
   problem.limits.highest.z() = 1.2;
   CHECK_THROWS_WITH(GradientSearch{}(problem, {}), Contains("left tip z, highest, 1.2 m"));
@@ -115,8 +115,8 @@ TEST_CASE("limits that the seed broke, but the plan is far from, are told apart 
       far{"acceleration", 20.0, 60.0, "m/s^2", 0.2, -0.67},
       broken{"acceleration", 80.0, 60.0, "m/s^2", 0.2, 0.33}, unused{"jerk", 1.0, 9.0, "m/s^3", 0.0, -0.9};
   CHECK(plan_detail::binding_limits({near, far, unused}, {{near, broken, unused}}) ==
-        "; what binds: speed (3.9 of 4 m/s at 0.5 s); made smaller for: acceleration (20 of 60 m/s^2 at 0.2 "
-        "s)");
+        "; what binds: speed (3.9 of 4 m/s at 0.5 s); slowed to keep: acceleration (80 wanted, limit 60 "
+        "m/s^2)");
   CHECK(plan_detail::binding_limits({far, unused}, {{far, unused}}).empty());
 }
 

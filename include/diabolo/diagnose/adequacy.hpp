@@ -19,7 +19,7 @@ inline constexpr double kTimesNoise = 2.0;
 struct ResidualAndNoise {
   static constexpr const char* kName = "ResidualAndNoise";
   static constexpr const char* kDoc =
-      "What windows of half a second, or predictions of data left out, leave over, and what noise would.";
+      "What windows of half a second, or predictions of held-out data, leave over, and what noise would.";
 
   std::string quantity, unit, mode, direction, recording;
   double begin_s = kNaN, end_s = kNaN;
@@ -37,7 +37,7 @@ struct ResidualAndNoise {
     visit("begin_s", &ResidualAndNoise::begin_s, "Of the stretch of time.");
     visit("end_s", &ResidualAndNoise::end_s, "");
     visit("ahead_s", &ResidualAndNoise::ahead_s,
-          "Of a prediction of data left out; null for windows that are fitted.");
+          "Of a prediction of held-out data; null for windows that are fitted.");
     visit("windows", &ResidualAndNoise::windows,
           "How many were looked at, of half a second each; or predictions.");
     visit("base", &ResidualAndNoise::base,

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "diabolo/diagnose/axle_left_out.hpp"
@@ -15,6 +16,7 @@
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/time_budget.hpp"
 #include "diabolo/math/bootstrap.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
@@ -107,18 +109,26 @@ class AxleInquiry {
     f.p_value = family_wise(f.z);
     f.sure = is_free(kept_, law);
     if (!f.sure) {
-      f.reason = "too small to be told from nothing";
+      f.reason = kNotSignificant;
       return f;
     }
     measure(f);
-    f.axle_worsening_ci95 = interval_of(errors_with(free_without(law)), found, generator);
+    const std::vector<double> without = errors_with(free_without(law));
+    f.axle_worsening_ci95 = interval_of(without, found, generator);
     f.claimed = f.material && helps(f.axle_worsening_ci95);
     f.confidence = f.claimed ? confidence_of(std::abs(f.z)) : 0.0;
     f.reason = !f.axle_worsening_ci95          ? "the axle was seen for too short a time to judge"
-               : !helps(f.axle_worsening_ci95) ? "does not help on data that were left out"
-               : !f.material                   ? "there, but too small to matter"
-                                               : "sure, and large enough to matter";
+               : !helps(f.axle_worsening_ci95) ? predicts_no_better(without, found)
+               : !f.material                   ? kImmaterial
+                                               : kMaterial;
     return f;
+  }
+
+  /// Of a law that fits, and does not help: the mean held-out errors without it and with it.
+  static std::string predicts_no_better(const std::vector<double>& without, const std::vector<double>& with) {
+    return "significant, but the axle's held-out direction is predicted no better: " +
+           shown_rounded(mean_of(without) / kDegree) + " -> " + shown_rounded(mean_of(with) / kDegree) +
+           " deg";
   }
 
   /// How far a law turns the axle, and where that matters.

@@ -18,9 +18,6 @@
 
 namespace diabolo {
 
-/// Why a claim fell that predicts nothing better.
-inline constexpr const char* kDenied = "does not help on data that were left out";
-
 inline void claims_first(Diagnosis& d) {
   // (The algorithm on ranges returns a subrange, which Clang 14 cannot read in libstdc++ 12.)
   std::stable_partition(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.claimed; });
@@ -165,10 +162,10 @@ inline std::string left_plainly(const Diagnosis& d) {
     std::string text = " law that has no name is at work: ";
     for (std::size_t i = 0; i < d.learnt.size(); ++i)
       text += (i > 0 ? "; and " : "") + learnt_plainly(d.learnt[i]);
-    return text + ". Windows that were left out fit better with it.";
+    return text + ". Held-out windows fit better with it.";
   }
   return " force that has no name is left: " + plainly(d.unexplained_forces.front().unknown) +
-         "; no law of it was found that helps on data that were left out.";
+         "; no law of it was found that improves predictions of held-out data.";
 }
 
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
@@ -237,7 +234,7 @@ inline void conclude(Diagnosis& d) {
     d.sentence = "A" + left_plainly(d);
   } else if (d.withdrawn) {
     d.headline = Headline::kUnnamedStructure;
-    d.sentence = "Something is missing, but no explanation of it helps on data that were left out.";
+    d.sentence = "Something is missing, but no explanation of it improves predictions of held-out data.";
   } else if (beyond_noise) {
     d.headline = Headline::kUnnamedStructure;
     d.sentence = "Something is missing that has no name.";

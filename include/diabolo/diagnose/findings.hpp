@@ -64,6 +64,12 @@ inline void remember_directions(Diagnosis& result, const std::vector<WindowSyste
   }
 }
 
+/// Why a candidate is claimed or not.
+inline constexpr const char *kNotSignificant = "not significant",
+                            *kImmaterial = "significant, but too small to matter",
+                            *kMaterial = "significant, and large enough to matter",
+                            *kDenied = "does not improve predictions of held-out data";
+
 /// The chance that any of so many normal variables is beyond z.
 inline double family_wise(double z) {
   return std::min(1.0, static_cast<double>(candidates().size()) * std::erfc(std::abs(z) / std::sqrt(2.0)));
@@ -71,8 +77,10 @@ inline double family_wise(double z) {
 
 /// The chance that the name of a claim is right that stands out by so many standard deviations. From the
 /// sealed batches second and third (docs/proof.md): 21 of 30 were right below 11 deviations, 66 of 72 above
-/// 15; what is wrong then is a law that resembles the right one, which no number of deviations mends.
-inline double confidence_of(double z) {
+/// 15; what is wrong then is a law that resembles the right one, which no number of deviations mends. In a
+/// tie the odds are even.
+inline double confidence_of(double z, bool tied = false) {
+  if (tied) return 0.5;
   return 0.65 + 0.28 * (1.0 - std::exp(-(std::max(z, kSignificance) - kSignificance) / 6.0));
 }
 
@@ -149,14 +157,14 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     f.possible = candidate.kind == CandidateKind::kPhysics || is_possible(candidate, own);
     f.claimed = f.sure && f.material && is_in(set, candidate);
     f.reason = !f.sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"
-                                                                     : "too small to be told from nothing")
-               : !f.material ? "there, but too small to matter"
-                             : "sure, and large enough to matter";
+                                                                     : kNotSignificant)
+               : !f.material ? kImmaterial
+                             : kMaterial;
     if (f.claimed && candidate.kind == CandidateKind::kPhysics)
       for (const Candidate* other : bank)
         if (is_law(*other) && other != member && is_tied(evidence, set, candidate, *other))
           f.tied_with.emplace_back(other->name);
-    f.confidence = !f.claimed ? 0.0 : !f.tied_with.empty() ? 0.5 : confidence_of(std::abs(f.z));
+    f.confidence = !f.claimed ? 0.0 : confidence_of(std::abs(f.z), !f.tied_with.empty());
     result.findings.push_back(f);
   }
   for (int k = 0; k < kLatents; ++k) {

@@ -72,9 +72,9 @@ struct LearntLawFound {
     visit("acts", &LearntLawFound::acts, "What the formula is the size of, see FormulaLaws.");
     visit("formula", &LearntLawFound::formula, "Of the numbers and of FormulaLaws.variables().");
     visit("numbers", &LearntLawFound::numbers, "Of the formula, the size first.");
-    visit("gain", &LearntLawFound::gain, "In chi^2, of windows that were left out.");
+    visit("gain", &LearntLawFound::gain, "In chi^2, of held-out windows.");
     visit("gain_by_strength", &LearntLawFound::gain_by_strength,
-          "In chi^2, of windows that were left out, where it is as strong in each as it is on average there; "
+          "In chi^2, of held-out windows, where it is as strong in each as it is on average there; "
           "null where it does not change from window to window, or too fast for them.");
     visit("gain_permuted", &LearntLawFound::gain_permuted,
           "The same once these strengths are exchanged among the windows, the median of many times.");

@@ -107,7 +107,7 @@ void add_flight(const Play<Scalar>& play, const Goals& goals, std::vector<GoalEr
   // A release that is certain: the diabolo is well above the plane of the tips when they have come to rest.
   const Scalar missing = Scalar(kRelease) - height_over_tips<Scalar>(end.state.position, end.tips);
   const bool released = end.state.string_state == StringState::kFlying;
-  errors.push_back({"release", 1.0, 0.0, "m", {maximum(missing, Scalar(0))}, released});
+  errors.push_back({"height that a release needs", 1.0, 0.0, "m", {maximum(missing, Scalar(0))}, released});
   const double inverse = 0.5 / play.gravity;
   if (goals.apex) {
     std::size_t i = play.planned - 1;  // the last instant on the way up, or the first of the flight

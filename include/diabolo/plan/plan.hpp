@@ -55,20 +55,24 @@ inline std::function<bool()> deadline(double seconds) {
 namespace plan_detail {
 
 /// Limits that stand in the way of more, in a clause: those nearly used up, and those that one of the
-/// `wanted` motions breaks, in whose place a smaller one stands.
+/// `wanted` motions breaks, in whose place a slower or smaller one stands.
 inline std::string binding_limits(const std::vector<LimitUse>& uses,
                                   const std::vector<std::vector<LimitUse>>& wanted) {
   std::ostringstream binding, broken;
   for (std::ostringstream* text : {&binding, &broken}) text->precision(3);
-  const auto add = [](std::ostringstream& text, const LimitUse& use, const char* before) {
-    text << (text.tellp() > 0 ? ", " : before) << use.name << " (" << use.value << " of " << use.limit << ' '
-         << use.unit << " at " << use.time << " s)";
-  };
   for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (uses[i].excess >= (uses[i].unit == "m" ? -0.004 : -0.03))
-      add(binding, uses[i], "; what binds: ");
-    else if (std::ranges::any_of(wanted, [i](const auto& of) { return i < of.size() && of[i].excess > 0.0; }))
-      add(broken, uses[i], "; made smaller for: ");
+    const LimitUse& use = uses[i];
+    if (use.excess >= (use.unit == "m" ? -0.004 : -0.03)) {
+      binding << (binding.tellp() > 0 ? ", " : "; what binds: ") << use.name << " (" << use.value << " of "
+              << use.limit << ' ' << use.unit << " at " << use.time << " s)";
+      continue;
+    }
+    const LimitUse* most = nullptr;  // of those that break it
+    for (const std::vector<LimitUse>& of : wanted)
+      if (i < of.size() && of[i].excess > (most == nullptr ? 0.0 : most->excess)) most = &of[i];
+    if (most != nullptr)
+      broken << (broken.tellp() > 0 ? ", " : "; slowed to keep: ") << use.name << " (" << most->value
+             << " wanted, limit " << use.limit << ' ' << use.unit << ')';
   }
   return binding.str() + broken.str();
 }

@@ -174,7 +174,7 @@ def summary_text(
         name, found, truth = (cell.ljust(width) for cell, width in zip(cells[:3], widths, strict=True))
         lines.append(f"  {name}  {paint(found, color)}  {truth}  {cells[3]}".rstrip())
     fit = answer["fit"]
-    lines += ["", "  " + paint("mean error on the held-out recording", CYAN)]
+    lines += ["", "  " + paint("mean error on each recording, held out in turn", CYAN)]
     compared = zip(fit["horizons_s"], fit["base_error_m"], fit["augmented_error_m"], strict=True)
     for horizon, before, after in compared:
         if before is not None and after is not None:
