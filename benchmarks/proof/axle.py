@@ -82,7 +82,7 @@ def draw(number: int, seed: int) -> Case:
 def told_of(result: diabolo.DiagnosisResult, law: str, truth: float) -> Told:
     rung = next(rung for rung in result.ladder if rung.name == law)
     claim = next((effect for effect in result.effects if effect.name == law), None)
-    sure = claim is not None or rung.reason.startswith("there")
+    sure = claim is not None or rung.reason.endswith("too small to matter")
     interval = claim.parameters[0].ci90 if claim else None
     holds = interval is not None and interval.low <= truth <= interval.high
     return Told(law, truth, rung.estimate, sure, claim is not None, holds)

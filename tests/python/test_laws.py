@@ -6,7 +6,8 @@ from __future__ import annotations
 import copy
 import pickle
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import diabolo
 import numpy as np
@@ -88,6 +89,19 @@ def test_the_command_asks_about_the_laws_of_several_files(
     take = ROOT / "data/recordings/swing.csv"
     assert cli.main(["diagnose", str(take), "--law", str(files[0]), "--law", str(files[1])]) == 2
     assert asked == ["first", "second"]
+
+
+def test_the_command_says_of_each_own_law_whether_it_is_claimed() -> None:
+    creep = SimpleNamespace(name="creep", claimed=True, reason="significant, and large enough to matter")
+    drag = SimpleNamespace(name="own_drag", claimed=False, reason="not significant")
+    limit = SimpleNamespace(name="own_drag", parameter="k", limit95=0.25, unit="1/s")
+    result = SimpleNamespace(ladder=[creep, drag], upper_limits=[limit])
+    names = ["own_drag", "creep", "untried"]
+    assert [cli.diagnose.own_law_text(name, cast(Any, result)) for name in names] == [
+        "your law own_drag: not claimed, not significant; k below 0.25 1/s",
+        "your law creep: claimed, with the numbers above",
+        "your law untried: not tested",
+    ]
 
 
 @pytest.mark.parametrize(

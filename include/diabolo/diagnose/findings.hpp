@@ -77,10 +77,8 @@ inline double family_wise(double z) {
 
 /// The chance that the name of a claim is right that stands out by so many standard deviations. From the
 /// sealed batches second and third (docs/proof.md): 21 of 30 were right below 11 deviations, 66 of 72 above
-/// 15; what is wrong then is a law that resembles the right one, which no number of deviations mends. In a
-/// tie the odds are even.
-inline double confidence_of(double z, bool tied = false) {
-  if (tied) return 0.5;
+/// 15; what is wrong then is a law that resembles the right one, which no number of deviations mends.
+inline double confidence_of(double z) {
   return 0.65 + 0.28 * (1.0 - std::exp(-(std::max(z, kSignificance) - kSignificance) / 6.0));
 }
 
@@ -164,7 +162,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
       for (const Candidate* other : bank)
         if (is_law(*other) && other != member && is_tied(evidence, set, candidate, *other))
           f.tied_with.emplace_back(other->name);
-    f.confidence = !f.claimed ? 0.0 : confidence_of(std::abs(f.z), !f.tied_with.empty());
+    f.confidence = !f.claimed ? 0.0 : !f.tied_with.empty() ? 0.5 : confidence_of(std::abs(f.z));
     result.findings.push_back(f);
   }
   for (int k = 0; k < kLatents; ++k) {

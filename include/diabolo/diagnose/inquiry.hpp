@@ -116,7 +116,6 @@ class Inquiry : public ClaimSearch<D> {
       for (const Replacement& exchange : exchanged_)
         if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
       for (const Candidate* candidate : denied_) std::erase(f.tied_with, candidate->name);
-      if (f.claimed) f.confidence = confidence_of(std::abs(f.z), !f.tied_with.empty());
     }
     for (const Replacement& exchange : exchanged_)
       if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);

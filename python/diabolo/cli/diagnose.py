@@ -267,7 +267,7 @@ def text_of(diagnosis: Diagnosis, own: Sequence[str] = ()) -> str:
     for effect in diagnosis.effects:
         values = ", ".join(_value(parameter) for parameter in effect.parameters)
         lines.append(f"  {effect.name}: {values}{_p_value(effect.p_value)}")
-    lines += [f"  {_own_law(name, diagnosis.result)}" for name in own]
+    lines += [f"  {own_law_text(name, diagnosis.result)}" for name in own]
     fit = diagnosis.result.fit
     for what, unit, per_unit, base, augmented in (
         ("error", "mm", 1e3, fit.base_error_m, fit.augmented_error_m),
@@ -294,7 +294,7 @@ def text_of(diagnosis: Diagnosis, own: Sequence[str] = ()) -> str:
     return "\n".join(lines)
 
 
-def _own_law(name: str, result: DiagnosisResult) -> str:
+def own_law_text(name: str, result: DiagnosisResult) -> str:
     """Whether a law of --law is claimed, and if not, why and how much of it may be there."""
     row = next((row for row in result.ladder if row.name == name), None)
     if row is None:
