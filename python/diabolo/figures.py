@@ -229,10 +229,11 @@ def _modes(windows: Windows, words: Words, figure: Any, row: int) -> None:
         own = [
             span for span, window in zip(_spans(windows), windows, strict=True) if window.get("mode") == mode
         ]
+        shown = own or [(math.nan, math.nan)]  # the legend has every state
         figure.add_bar(
-            base=[begin for begin, _ in own] or [None],
-            x=[end - begin for begin, end in own] or [None],
-            y=["state of the string"] * len(own) or [None],  # so that the legend has every state
+            base=[begin for begin, _ in shown],
+            x=[end - begin for begin, end in shown],
+            y=["state of the string"] * len(shown),
             orientation="h",
             marker={"color": color, "line": {"width": 0}},
             name=words(mode),

@@ -427,6 +427,15 @@ def test_directions_are_mapped_before_and_after() -> None:
     np.testing.assert_allclose(after, 0.1 * before)
 
 
+def test_the_legend_has_every_state_of_the_string() -> None:
+    result = invented()
+    for window in result["locate"]["windows"]:
+        window["mode"] = "ON_STRING"
+    bars = [t for figure in drawn(report_html(result)) for t in figure["data"] if t["type"] == "bar"]
+    assert [bar["name"] for bar in bars[:3]] == ["on the string", "string slack", "in flight"]
+    assert all(len(bar["x"]) > 0 for bar in bars), "plotly names none that is empty"
+
+
 def test_the_same_result_makes_the_same_page() -> None:
     assert report_html(invented()) == report_html(invented())
 
