@@ -384,6 +384,9 @@ TEST_CASE(
   const Recording forwards = played(effects, 14.0, 2), backwards = with_time_reversed(forwards);
   CHECK(claimed(diagnose({forwards}), "string_friction") != nullptr);
   CHECK(with_time_reversed(backwards).diabolo.position == forwards.diabolo.position);
+  CHECK(with_time_reversed(backwards).time.isApprox(forwards.time));
+  CHECK(backwards.diabolo_orientation.quaternion.col(0) ==
+        forwards.diabolo_orientation.quaternion.col(forwards.size() - 1));
   Recording told = backwards;  // sticks that point forwards tell which is which
   told.left_orientation = told.right_orientation = OrientationTrack::missing(told.size());
   for (OrientationTrack* track : {&told.left_orientation, &told.right_orientation}) {
@@ -397,6 +400,34 @@ TEST_CASE(
     CHECK_THAT(d.reason, Contains("time seems to run backwards"));
     CHECK(d.findings.empty());
   }
+}
+
+TEST_CASE("a take without orientations beside one with them keeps friction its name") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.2;
+  const Recording seen = played(effects, 10.0, 2);
+  Recording unseen = played(effects, 10.0, 3);
+  unseen.name = "unseen";
+  unseen.diabolo_orientation = {};
+  const Diagnosis both = diagnose({seen, unseen});
+  CAPTURE(both.sentence);
+  REQUIRE(claimed(both, "string_friction") != nullptr);
+  CHECK(claimed(both, "string_friction")->estimate[index_of(Unknown::kFriction)] == Approx(0.2).epsilon(0.1));
+  CHECK(both.learnt.empty());
+  DiagnosisOptions options;
+  options.holdout = {unseen};
+  CHECK(claimed(diagnose({seen}, options), "string_friction") != nullptr);
+}
+
+TEST_CASE("what drives a play forwards is no time that runs backwards") {
+  AllEffects<double> effects;
+  FormulaLaws<double> driving({Law("motor", "a motor", Acts::kAlong, "size * taut * tanh(slip / 0.05)",
+                                   {{"size", "m/s^2", 0.5, 0.0, -100.0, 100.0}})});
+  driving.numbers[0] = 1.0;
+  effects.get<FormulaLaws>() = driving;
+  const Diagnosis d = diagnose({played(effects, 14.0, 2)});
+  CAPTURE(d.sentence);
+  CHECK(d.headline != Headline::kInsufficientData);
 }
 
 TEST_CASE("a spin that no orientation shows, or a wrong one, is told not to be asked about") {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "diabolo/diagnose/left_out_says.hpp"
 #include "recording/support.hpp"
 
 using namespace diabolo;
@@ -48,7 +49,7 @@ TEST_CASE("where nobody sees the spin, predictions begin with that of the middle
   seen->has_spin = true;
   fit.fit_takes[0].take = take;
   fit.fit_takes[1].take = seen;
-  CHECK(unseen_spin(fit) == 0.0);
+  CHECK(unseen_spin(fit) == 0.0);  // no windows
   for (const double spin : {70.0, 90.0, -400.0}) {
     FitWindow window{};
     window.start.spin = spin;
@@ -57,4 +58,22 @@ TEST_CASE("where nobody sees the spin, predictions begin with that of the middle
     fit.fit_takes[1].windows.push_back(window);
   }
   CHECK(unseen_spin(fit) == 70.0);
+  fit.fit_takes.erase(fit.fit_takes.begin());
+  CHECK(unseen_spin(fit) == 700.0);  // all show it: another recording of theirs may turn alike
+}
+
+TEST_CASE("what nobody would notice says nothing for or against, nor counts as a horizon") {
+  const std::vector<std::optional<Interval>> slight{Interval{-3e-6, -1e-6}, Interval{-2e-6, 5e-6},
+                                                    std::nullopt};
+  const LeftOutSays nothing(slight, kImmaterialPosition);
+  CHECK(nothing.horizons == 0);
+  CHECK_FALSE(nothing.against());
+  CHECK_FALSE(nothing.leans_against());
+  const LeftOutSays all(slight, 0.0);
+  CHECK(all.against());
+  std::vector<std::optional<Interval>> gains = slight;
+  gains.push_back(Interval{1e-3, 4e-3});
+  const LeftOutSays one(gains, kImmaterialPosition);
+  CHECK(one.horizons == 1);
+  CHECK(one.better == 1);
 }

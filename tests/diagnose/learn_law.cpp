@@ -102,6 +102,28 @@ TEST_CASE("a force that begins is guessed from the moment on at which windows se
   }
 }
 
+TEST_CASE("an excerpt's laws in time begin by the clock of the whole, and not in its first or last second") {
+  Fit excerpt = fit_of_nothing();
+  Take take = *excerpt.fit_takes.front().take;
+  take.recording.clock = 6.0;
+  excerpt.fit_takes.front().take = std::make_shared<Take>(take);
+  std::vector<WindowFinding> windows = swinging_windows(0.3);
+  for (WindowFinding& w : windows) w.slope[0] = w.begin < 13.5 ? 0.0 : 100.0;
+  const auto onset_of = [&](const Fit& fit) -> std::optional<LawNumber> {
+    for (const LawGuess& guess : law_guesses(fit, windows))
+      if (guess.law.acts == Acts::kForward && guess.law.numbers.back().name == "onset")
+        return guess.law.numbers.back();
+    return std::nullopt;
+  };
+  REQUIRE(onset_of(excerpt));
+  CHECK(onset_of(excerpt)->expected == Approx(19.5));
+  CHECK(onset_of(excerpt)->minimum == Approx(6.0));
+  CHECK(onset_of(excerpt)->maximum == Approx(35.5));
+  for (WindowFinding& w : windows) w.slope[0] = w.begin < 29.0 ? 0.0 : 100.0;  // the last window alone
+  REQUIRE(onset_of(excerpt));
+  CHECK(onset_of(excerpt)->expected < 35.0);
+}
+
 TEST_CASE("more laws leave those that are there, under names that are free") {
   Model model = consistent_model();
   const Law known("learnt_1", "", Acts::kUp, "k", {{"k", "1"}});

@@ -123,11 +123,14 @@ inline std::pair<double, double> best_frequency(const WindowSeries& series) {
   return best;
 }
 
-/// The begin [s] of the window from which on a constant, beside another one before, leaves least of a series.
-inline double best_onset(const WindowSeries& series) {
-  double best = series.time.front(), least = left_beside(series, {});
-  for (const double onset : series.time) {
-    if (onset == series.time.front()) continue;
+/// The begin [s] of the window from which on a constant, beside another one before, leaves least of a series;
+/// none where a constant throughout leaves as little. At least three windows see either.
+inline std::optional<double> best_onset(const WindowSeries& series) {
+  constexpr std::size_t kFewest = 3;
+  std::optional<double> best;
+  double least = left_beside(series, {});
+  for (std::size_t i = kFewest; i + kFewest <= series.size(); ++i) {
+    const double onset = series.time[i];
     const double left = left_beside(series, {[onset](double t) { return t < onset ? 0.0 : 1.0; }});
     if (left < least) best = onset, least = left;
   }

@@ -108,7 +108,7 @@ class ClaimSearch {
     const FitWatch everything = step("fitting everything", again ? 0.6 : 0.15, again ? 0.7 : 0.4, kFitsShare);
     if (again)  // starts that bounce, or are late, are others
       approach<D>(fit_, physics_, ActiveSet::Constant(false), 3, options_.threads, everything);
-    const bool in_time = std::ranges::any_of(fit_.fit_takes, has_spin) || again
+    const bool in_time = std::ranges::all_of(fit_.fit_takes, has_spin) || again
                              ? fit_everything<D>(fit_, physics_, set_, options_.threads, everything)
                              : fit_unseen_spin<D>(fit_, physics_, set_, options_.threads, everything);
     return again || in_time;

@@ -40,7 +40,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
   check_threads(options.threads);
   long swapped = 0, frames = 0;
   std::string places;
-  bool sides_are_right = true, sides_are_wrong = false;
+  bool sticks_are_known = true, sides_are_wrong = false;
   for (std::vector<Recording>* list : {&recordings, &options.holdout})
     for (Recording& recording : *list) {
       const Swaps swaps = unswap(recording);
@@ -49,7 +49,7 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
       const std::optional<bool> exchanged = sticks_are_exchanged(recording);
       if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
-      sides_are_right = sides_are_right && !exchanged.value_or(true);
+      sticks_are_known = sticks_are_known && exchanged.has_value();
       sides_are_wrong = sides_are_wrong || exchanged.value_or(false);
       swapped += exchanged.value_or(false) ? rows - jumped : jumped;
       frames += rows;
@@ -59,12 +59,9 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
   diagnose_detail::Inquiry<D> inquiry(recordings, options, watch, options.budget);
   Diagnosis result = inquiry.answer();
   bool by_friction = false;
-  if (inquiry.backwards() && budget.spent()) {
-    result.not_done.emplace_back("asking again with sticks exchanged, or time reversed (beyond the budget)");
-    conclude(result);
-  } else if (inquiry.backwards()) {
+  if (inquiry.backwards()) {
     auto other =
-        diagnose_detail::other_reading<D>(result, sides_are_right, recordings, options, watch, budget);
+        diagnose_detail::other_reading<D>(result, sticks_are_known, recordings, options, watch, budget);
     if (other && other->reading == diagnose_detail::Reading::kTimeReversed)
       result = diagnose_detail::refused_as_reversed(result, options);
     else if (other)

@@ -113,8 +113,9 @@ inline void without_spin(Bank& bank, ActiveSet& set) {
   std::erase_if(bank, [](const Candidate* candidate) { return candidate->by_spin; });
 }
 
-/// Where nobody saw the diabolo turn: friction is begun with a fast spin of either sense, and what fits
-/// better is gone on with. (It saturates with the slip: how fast does not matter.)
+/// Where nobody saw the diabolo turn, in some takes or in all: friction is begun there with a fast spin of
+/// either sense, and what fits better is gone on with. (It saturates with the slip: how fast does not
+/// matter.)
 template <class D>
 bool fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                      const FitWatch& watch) {
@@ -122,7 +123,8 @@ bool fit_unseen_spin(Fit& fit, const Model& physics, const ActiveSet& set, int t
   const auto begun = [&](double spin) {
     Fit trial = fit;
     for (FitTake& fit_take : trial.fit_takes)
-      for (FitWindow& window : fit_take.windows) window.start.spin = spin;
+      for (FitWindow& window : fit_take.windows)
+        if (!has_spin(fit_take)) window.start.spin = spin;
     in_time = fit_everything<D>(trial, physics, set, threads, watch) && in_time;
     return trial;
   };

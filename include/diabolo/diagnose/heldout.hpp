@@ -26,14 +26,17 @@ struct HeldOutRecording {
   double unseen_spin = 0.0;  ///< of its starts, if it does not show any [rad/s]
 };
 
-/// The spin of the middle window that was fitted, where nobody saw it [rad/s]; zero where all takes show it.
+/// The spin of a play in which nobody saw it [rad/s]: of the middle window that was fitted of such takes, or
+/// of all where all show it.
 inline double unseen_spin(const Fit& fit) {
-  std::vector<double> spins;
+  std::vector<double> unseen, all;
   for (const FitTake& fit_take : fit.fit_takes)
-    for (const FitWindow& window : fit_take.windows)
-      if (!has_spin(fit_take)) spins.push_back(window.start.spin);
-  std::ranges::sort(spins);
-  return spins.empty() ? 0.0 : quantile(spins, 0.5);
+    for (const FitWindow& window : fit_take.windows) {
+      all.push_back(window.start.spin);
+      if (!has_spin(fit_take)) unseen.push_back(window.start.spin);
+    }
+  const std::vector<double>& spins = unseen.empty() ? all : unseen;
+  return spins.empty() ? 0.0 : diagnose_detail::middle_of(spins);
 }
 
 /// Scaled unknowns in SI units, within their bounds, with the wraps that are tried and never free.
@@ -99,13 +102,13 @@ inline constexpr double kImmaterialAhead = 1e-3;
 /// is made from a tenth of a second, and of the tips, which neighbours share.
 inline constexpr std::size_t kStartsAlike = 2;
 
-/// Without a claim or with it, an error counts no more than so many times that of the middle start, of the
-/// two whichever is larger: a missed catch says nothing of the forces.
+/// Without a claim or with it, by the base or with what was found, an error counts no more than so many times
+/// that of the middle start, of the two whichever is larger: a missed catch says nothing of the forces.
 inline constexpr double kFarAhead = 3.0;
 
 namespace diagnose_detail {
 
-/// What predictions from the same starts are wrong by without a claim, and with it.
+/// What predictions from the same starts are wrong by without something, and with it.
 struct WithoutAndWith {
   std::vector<double> without, with;
 
@@ -116,11 +119,7 @@ struct WithoutAndWith {
   /// More without it, see kFarAhead.
   std::vector<double> losses() const {
     if (with.empty()) return {};
-    const auto middle = [](std::vector<double> errors) {
-      std::ranges::sort(errors);
-      return quantile(errors, 0.5);
-    };
-    const double most = kFarAhead * std::max(middle(without), middle(with));
+    const double most = kFarAhead * std::max(middle_of(without), middle_of(with));
     std::vector<double> result;
     for (std::size_t i = 0; i < with.size(); ++i)
       result.push_back(std::min(without[i], most) - std::min(with[i], most));
@@ -130,14 +129,9 @@ struct WithoutAndWith {
 
 /// What predictions are wrong by at one horizon, a number for each start.
 struct Errors {
-  std::vector<double> base, augmented, gain, start;
+  WithoutAndWith found;                ///< by the base, and with what was found
+  std::vector<double> start;           ///< what the start's noise alone makes
   std::vector<WithoutAndWith> claims;  ///< each in its turn
-
-  void add(double of_base, double of_augmented) {
-    base.push_back(of_base);
-    augmented.push_back(of_augmented);
-    gain.push_back(of_base - of_augmented);
-  }
 };
 
 struct ErrorsAhead {
@@ -178,8 +172,8 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
     for (std::size_t h = 0; h < ahead.size(); ++h) {
       const WindowError &a = without[i][h], &b = with[i][h];
       if (!both_predicted(a, b)) continue;
-      ahead[h].position.add(a.model, b.model);
-      if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.add(a.spin, b.spin);
+      ahead[h].position.found.add(a.model, b.model);
+      if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.found.add(a.spin, b.spin);
       if (std::isfinite(b.spin) && std::isfinite(better.spin_noise(i)))
         ahead[h].spin.start.push_back(better.spin_noise(i));
       if (!std::isfinite(scatter[i][h])) continue;
@@ -206,10 +200,10 @@ inline std::optional<double> mean_if_any(const std::vector<double>& errors) {
 /// Takes down one horizon's errors; `interval_of` is that of a mean.
 template <class IntervalOf>
 void add_horizon(const Errors& errors, ErrorsByHorizon& result, const IntervalOf& interval_of) {
-  result.base_error.push_back(mean_if_any(errors.base));
-  result.augmented_error.push_back(mean_if_any(errors.augmented));
+  result.base_error.push_back(mean_if_any(errors.found.without));
+  result.augmented_error.push_back(mean_if_any(errors.found.with));
   result.start_error.push_back(mean_if_any(errors.start));
-  result.improvement_ci95.push_back(interval_of(errors.gain));
+  result.improvement_ci95.push_back(interval_of(errors.found.losses()));
   result.worsening_ci95.resize(errors.claims.size());
   for (std::size_t c = 0; c < errors.claims.size(); ++c)
     result.worsening_ci95[c].push_back(interval_of(errors.claims[c].losses()));
@@ -244,13 +238,12 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
       return summary ? std::optional(summary->mean_ci95) : std::nullopt;
     };
     diagnose_detail::ErrorsAhead& errors = ahead[h];
-    result.windows = std::max(result.windows, errors.position.gain.size());
+    result.windows = std::max(result.windows, errors.position.found.with.size());
     diagnose_detail::add_horizon(errors.position, result.position, interval_of);
     diagnose_detail::add_horizon(errors.spin, result.spin, interval_of);
-    std::vector<double>& distances = errors.position.augmented;
-    std::ranges::sort(distances);
-    result.augmented_median.push_back(distances.empty() ? std::nullopt
-                                                        : std::optional(quantile(distances, 0.5)));
+    const std::vector<double>& distances = errors.position.found.with;
+    result.augmented_median.push_back(
+        distances.empty() ? std::nullopt : std::optional(diagnose_detail::middle_of(distances)));
     if (horizon < kAhead) continue;
     std::optional<ResidualAndNoise> left =
         diagnose_detail::residual_and_noise_of(errors.compared, kImmaterialAhead, kStartsAlike);

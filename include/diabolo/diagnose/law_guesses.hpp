@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -125,15 +126,16 @@ class Guesses {
          quadratures(acts, factor, frequency, words)});
   }
 
-  /// amplitude * factor from the time `onset` on, within a second: what a window sees.
-  void starting(Acts acts, const std::string& factor, double onset, double span) {
+  /// amplitude * factor from the time `onset` on, between `first` and `last` of the law's clock; within a
+  /// second, which is what windows see.
+  void starting(Acts acts, const std::string& factor, double onset, double first, double last) {
     const auto step = [&](const std::string& begin) {
       return product(joined(factor, "(1 + tanh((t - " + begin + ") / 0.5)) / 2"));
     };
     const std::string words = ", from a moment on";
-    const LawNumber begin{"onset", "s", 0.2, onset, 0.0, std::max(span, onset)};
-    list.push_back({made(acts, step("onset"), words, {amplitude(acts), begin}),
-                    {made(acts, step(shown(onset)), words, {amplitude(acts)})}});
+    list.push_back(
+        {made(acts, step("onset"), words, {amplitude(acts), {"onset", "s", 0.2, onset, first, last}}),
+         {made(acts, step(shown(onset)), words, {amplitude(acts)})}});
   }
 
   /// amplitude * factor * sin(2 pi frequency t), and the same of the cosine.
@@ -176,8 +178,9 @@ inline constexpr std::array<Swinging, kMayChange.size()> kSwinging{{{Acts::kForw
                                                                     {Acts::kSpin, "(1 - taut)"},
                                                                     {Acts::kString, ""}}};
 
-/// Laws in time: a trend, and the oscillation and the onset that windows see best.
-inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& windows) {
+/// Laws in time: a trend, and the oscillation and the onset that windows see best. `clock` is the laws' time
+/// at the recording's first row [s].
+inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& windows, double clock) {
   for (std::size_t k = 0; k < kMayChange.size(); ++k) {
     const WindowSeries series = series_of(windows, k);
     if (series.size() < 12) continue;
@@ -186,7 +189,9 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
     guesses.trending(acts, factor);
     const double frequency = std::round(1e4 * best_frequency(series).first) / 1e4;
     if (frequency > 0.0) guesses.swinging(acts, factor, frequency, span, ", to and fro");
-    guesses.starting(acts, factor, std::round(100.0 * best_onset(series)) / 100.0, series.time.back());
+    if (const std::optional<double> onset = best_onset(series))
+      guesses.starting(acts, factor, std::round(100.0 * (clock + *onset)) / 100.0,
+                       clock + series.time.front(), clock + series.time.back());
   }
 }
 
@@ -239,7 +244,8 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   guesses.growing(kSpin, slows, speed, 1.0, ", slowing it, growing with the speed" + at_speed);
   guesses.growing(kString, "", speed, 1.0, ", growing with the speed" + at_speed);
   guesses.growing(kString, "", spin, 1.0, ", growing with the spin" + at_spin);
-  if (fit.fit_takes.size() == 1) diagnose_detail::guess_in_time(guesses, windows);
+  if (fit.fit_takes.size() == 1)
+    diagnose_detail::guess_in_time(guesses, windows, fit.fit_takes.front().take->recording.clock);
   return std::move(guesses.list);
 }
 

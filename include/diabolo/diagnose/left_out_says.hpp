@@ -23,8 +23,8 @@ struct LeftOutSays {
   LeftOutSays(const std::vector<std::optional<Interval>>& gained_ci95, double immaterial) {
     for (const std::optional<Interval>& interval : gained_ci95) {
       if (!interval) continue;
-      ++horizons;
       if (std::max(-interval->low, interval->high) < immaterial) continue;
+      ++horizons;
       better += interval->low > 0.0;
       worse += interval->high < 0.0;
       if (const double width = interval->high - interval->low; width > 0.0)

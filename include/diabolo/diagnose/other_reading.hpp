@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -26,18 +25,19 @@ struct OtherReading {
   Diagnosis answer;
 };
 
-/// How far predictions of data left out are off at the last horizon that any of them reaches [m].
-inline double error_ahead(const Diagnosis& d) {
-  const std::vector<std::optional<double>>& errors = d.heldout.position.augmented_error;
-  for (std::size_t h = errors.size(); h-- > 0;)
-    if (errors[h]) return *errors[h];
-  return std::numeric_limits<double>::infinity();
+/// Whether the middle error on held-out data is at most `factor` times another's at the last horizon that
+/// both reach; not where they reach none.
+inline bool predicts_within(double factor, const Diagnosis& one, const Diagnosis& other) {
+  const auto &ours = one.heldout.augmented_median, &theirs = other.heldout.augmented_median;
+  for (std::size_t h = std::min(ours.size(), theirs.size()); h-- > 0;)
+    if (ours[h] && theirs[h]) return *ours[h] <= factor * *theirs[h];
+  return false;
 }
 
 /// The answer to recordings that are read so, if friction takes energy then.
 template <class D>
-std::optional<OtherReading> read_as(Reading reading, std::vector<Recording> recordings,
-                                    DiagnosisOptions options, const DiagnosisWatch& watch, double seconds) {
+std::optional<OtherReading> answer_as(Reading reading, std::vector<Recording> recordings,
+                                      DiagnosisOptions options, const DiagnosisWatch& watch, double seconds) {
   for (std::vector<Recording>* list : {&recordings, &options.holdout})
     for (Recording& recording : *list)
       recording = reading == Reading::kSticksExchanged ? with_sticks_exchanged(std::move(recording))
@@ -50,26 +50,38 @@ std::optional<OtherReading> read_as(Reading reading, std::vector<Recording> reco
   return OtherReading{reading, std::move(answer)};
 }
 
-/// Where friction gives energy in recordings `as_given`: the reading under which it takes some, of several
-/// the one that predicts best. Sticks are exchanged where nobody sees which is which. In reversed time
-/// predictions must be no worse than as given, which something else that gives energy would make them.
+/// Where friction gives energy in recordings `as_given`: the reading under which it takes some, of two the
+/// one that predicts better. Sticks are exchanged where nobody sees which is which. In reversed time
+/// predictions must be no worse than as given, which something else that gives energy would make them. Notes
+/// what there was no time to ask.
 template <class D>
-std::optional<OtherReading> other_reading(const Diagnosis& as_given, bool sticks_are_known,
+std::optional<OtherReading> other_reading(Diagnosis& as_given, bool sticks_are_known,
                                           const std::vector<Recording>& recordings,
                                           const DiagnosisOptions& options, const DiagnosisWatch& watch,
                                           const TimeBudget& budget) {
   constexpr double kNoWorse = 1.1;
-  std::optional<OtherReading> best;
-  for (const Reading reading : {Reading::kSticksExchanged, Reading::kTimeReversed}) {
-    if ((reading == Reading::kSticksExchanged && sticks_are_known) || budget.spent()) continue;
-    std::optional<OtherReading> other =
-        read_as<D>(reading, recordings, options, watch, options.budget - budget.elapsed());
-    if (!other) continue;
-    const double error = error_ahead(other->answer);
-    if (reading == Reading::kTimeReversed && error > kNoWorse * error_ahead(as_given)) continue;
-    if (!best || error < error_ahead(best->answer)) best = std::move(other);
+  std::optional<OtherReading> exchanged, reversed;
+  if (!sticks_are_known && !budget.spent())
+    exchanged = answer_as<D>(Reading::kSticksExchanged, recordings, options, watch,
+                             options.budget - budget.elapsed());
+  if (!budget.spent())
+    reversed =
+        answer_as<D>(Reading::kTimeReversed, recordings, options, watch, options.budget - budget.elapsed());
+  if (budget.spent()) {
+    const char* const left =
+        "asking whether sticks are exchanged, or time runs backwards (beyond the budget)";
+    as_given.not_done.emplace_back(left);
+    conclude(as_given);
+    if (exchanged) {
+      exchanged->answer.not_done.emplace_back(left);
+      conclude(exchanged->answer);
+    }
+    return exchanged;
   }
-  return best;
+  if (reversed && !predicts_within(kNoWorse, reversed->answer, as_given)) reversed.reset();
+  if (!exchanged || !reversed) return exchanged ? std::move(exchanged) : std::move(reversed);
+  return predicts_within(1.0, exchanged->answer, reversed->answer) ? std::move(exchanged)
+                                                                   : std::move(reversed);
 }
 
 /// Nothing is said of a play that runs backwards.
@@ -81,10 +93,10 @@ inline Diagnosis refused_as_reversed(const Diagnosis& as_given, const DiagnosisO
   d.windows_seen = as_given.windows_seen;
   d.own = as_given.own;
   d.model = options.base;
+  d.not_done = as_given.not_done;
   d.reason =
       "time seems to run backwards: the string's friction gives energy, and takes it where the rows are read "
-      "from "
-      "the last to the first";
+      "from the last to the first";
   conclude(d);
   return d;
 }
