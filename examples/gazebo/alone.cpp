@@ -3,10 +3,14 @@
 // themselves, such as those of two robots. README.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "engine.hpp"
 
@@ -43,6 +47,18 @@ ordered_json models_of(const Scene& scene, const Engine& engine) {
   return models;
 }
 
+/// Throws std::runtime_error where tips or diabolo are so far off that the engine's collisions end the
+/// program.
+void expect_near(const Engine& engine, double time) {
+  const std::pair<const char*, double> distances[] = {{"the left tip", engine.tip(0).place.norm()},
+                                                      {"the right tip", engine.tip(1).place.norm()},
+                                                      {"the diabolo", engine.body().position.norm()}};
+  for (const auto& [what, distance] : distances)
+    if (!(distance < diabolo::kLargestCoordinate))
+      throw std::runtime_error(std::string(what) + " is " + diabolo::shown(distance) + " m off, " +
+                               diabolo::shown(time) + " s into the motion; expected it within 100 m");
+}
+
 /// From tip to tip past the diabolo [m].
 double path_of(const Engine& engine) {
   const auto middle = engine.body().position;
@@ -56,6 +72,7 @@ ordered_json played(const Scene& scene, double seconds) {
   const double dt = engine.dt();
   double longest = path_of(engine), hardest = 0.0;
   for (int i = 0; i * dt < seconds; ++i) {
+    expect_near(engine, i * dt);
     const diabolo::StringWrench wrench =
         string.step(engine.body(), {engine.tip(0), engine.tip(1)}, i * dt, dt);
     engine.pull_tips(wrench);
@@ -84,6 +101,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    if (std::isnan(seconds)) throw std::invalid_argument("SECONDS: nan; expected a number from 0 to 600");
     std::cout << played(diabolo_gazebo::load_scene(world), seconds).dump(2) << '\n';
     return 0;
   } catch (const std::exception& error) {

@@ -32,7 +32,7 @@ def whole(path: Path) -> Iterator[tuple[Path, list[str]]]:
 
     Raises RecordingError where a file of MCAP is not what its checksums say. Those of chunks are left to who
     reads them."""
-    files = sorted(path.iterdir()) if path.is_dir() else [path]
+    files = sorted(file for file in path.iterdir() if file.is_file()) if path.is_dir() else [path]
     cut = [file for file in files if file.suffix.lower() == ".mcap" and _is_cut(file)]
     if not cut and (path.is_dir() or path.suffix.islower()):
         yield path, []

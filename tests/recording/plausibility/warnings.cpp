@@ -76,6 +76,12 @@ TEST_CASE("a tip that is lost for good is named, one that comes late is not") {
   CHECK(only_warning(late).empty());
 }
 
+TEST_CASE("a tip that is never seen is named") {
+  Recording none = swing();
+  none.left = Track::missing(none.size());
+  CHECK(only_warning(none) == "the left tip is never seen; nothing can be predicted");
+}
+
 TEST_CASE("rows that are missing are named, with how often") {
   Recording jumps = swing();
   jumps.time.tail(jumps.size() - 100).array() += 0.5;

@@ -65,7 +65,9 @@ inline std::vector<std::string> warnings(const Recording& recording) {
   const Track* const tips[2] = {&recording.left, &recording.right};
   const Track* const none[2] = {nullptr, nullptr};
   for (const auto& [side, tip] : {std::pair{"left", tips[0]}, std::pair{"right", tips[1]}})
-    if (const Stretches gap = unseen(*tip, recording.time, kLongestUnseen); gap.count > 0)
+    if (recording.size() > 0 && !tip->valid.any())
+      result.push_back(std::string("the ") + side + " tip is never seen; nothing can be predicted");
+    else if (const Stretches gap = unseen(*tip, recording.time, kLongestUnseen); gap.count > 0)
       result.push_back(std::string("the ") + side + " tip is not seen for " + gap.text() +
                        "; a prediction across it goes by a guess");
   if (const MissingRows missing(recording);
