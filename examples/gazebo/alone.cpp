@@ -12,6 +12,9 @@
 #include <string>
 #include <utility>
 
+#include "diabolo/recording/check.hpp"
+#include "diabolo/text/shown.hpp"
+
 #include "engine.hpp"
 
 namespace {
