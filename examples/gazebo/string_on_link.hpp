@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "diabolo/hosts/seen_tips.hpp"
+#include "diabolo/text/shown.hpp"
 #include "string_element.hpp"
 
 namespace diabolo_gazebo {
@@ -29,12 +30,16 @@ struct Body {
 };
 
 /// Of the inertia of the link, and of the one that spins; the same one, where it spins itself. Throws
-/// std::invalid_argument where a centre of mass is beside the link's origin.
+/// std::invalid_argument where a centre of mass is beside the link's origin, or a link weighs nothing.
 template <class Inertial>
 Body body_of(const Inertial& link, const Inertial& spinning) {
-  for (const Inertial* inertial : {&link, &spinning})
+  for (const Inertial* inertial : {&link, &spinning}) {
+    if (!(inertial->MassMatrix().Mass() > 0.0))
+      throw std::invalid_argument("<link>: a mass of " + diabolo::shown(inertial->MassMatrix().Mass()) +
+                                  " kg; expected more than 0");
     if (vector_of(inertial->Pose().Pos()).norm() > 1e-9)
       throw std::invalid_argument("<link>: its centre of mass is beside its origin; expected it there");
+  }
   const double mass = link.MassMatrix().Mass();
   return {&link == &spinning ? mass : mass + spinning.MassMatrix().Mass(), spinning.Moi()(0, 0)};
 }
