@@ -877,6 +877,16 @@ def test_vicon_may_give_degrees_or_a_quaternion_and_skip_frames(tmp_path: Path) 
         np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-7)
 
 
+def test_each_column_of_vicon_has_its_own_unit(tmp_path: Path) -> None:
+    lines = ["Objects", "100", ",,a:a", "Frame,Sub Frame,RX,RY,RZ,TX,TY,TZ", ",,deg,rad,deg,mm,m,cm"]
+    (tmp_path / "a.csv").write_text(
+        "\n".join([*lines, "1,0,0,0,90,100,0.2,30", "2,0,0,0,90,100,0.2,30"]) + "\n"
+    )
+    [body], _ = vicon.read(tmp_path / "a.csv")
+    np.testing.assert_allclose(body.position[0], [0.1, 0.2, 0.3])
+    np.testing.assert_allclose(body.orientation[0], [0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)], atol=1e-7)
+
+
 NEXUS = """\
 Devices
 1000

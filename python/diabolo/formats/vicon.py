@@ -115,19 +115,19 @@ class Group:
 
     def poses(self) -> tuple[Floats, Floats]:
         """Places [m] and quaternions x, y, z, w."""
-        places = self._numbers("TX", "TY", "TZ") * self._scale("TX", METRES)
+        places = self._scaled(METRES, "TX", "TY", "TZ")
         if "RW" in self.columns:
             turned = turns = self._numbers("RX", "RY", "RZ", "RW")
         else:
-            turned = self._numbers("RX", "RY", "RZ")
-            turns = of_vectors(turned * self._scale("RX", RADIANS))
+            turned = self._scaled(RADIANS, "RX", "RY", "RZ")
+            turns = of_vectors(turned)
         nothing = (places == 0.0).all(axis=1) & (turned == 0.0).all(axis=1)
         gone = (nothing | ~np.isfinite(places).all(axis=1))[:, None]
         return np.where(gone, np.nan, places), np.where(gone, np.nan, turns)
 
     def points(self) -> Floats:
         """[m]"""
-        return seen_points(self._numbers("X", "Y", "Z") * self._scale("X", METRES))
+        return seen_points(self._scaled(METRES, "X", "Y", "Z"))
 
     def _numbers(self, *wanted: str) -> Floats:
         for one in wanted:
@@ -136,8 +136,13 @@ class Group:
         numbers: Floats = self.table[:, [self.columns.index(one) for one in wanted]]
         return numbers
 
-    def _scale(self, column: str, units: Mapping[str, float]) -> float:
-        unit = self.unit(column) or ""
-        if unit not in units:
-            self.section.fail(5, unit, f"{' or '.join(units)} below {column} of {self.name}")
-        return units[unit]
+    def _scaled(self, units: Mapping[str, float], *wanted: str) -> Floats:
+        """Numbers of some columns, each by its own unit."""
+        numbers = self._numbers(*wanted)
+        scales = []
+        for column in wanted:
+            unit = self.unit(column) or ""
+            if unit not in units:
+                self.section.fail(5, unit, f"{' or '.join(units)} below {column} of {self.name}")
+            scales.append(units[unit])
+        return numbers * np.array(scales)
