@@ -355,6 +355,15 @@ def test_a_folder_with_a_bag_that_is_cut_off_is_read_up_to_there(swing: Recordin
     assert warned_of_a_cut(found)
 
 
+def test_what_is_no_file_beside_a_bag_is_left_alone(swing: Recording, tmp_path: Path) -> None:
+    bag = tmp_path / "bag"
+    write_bag(bag, swing, TOPICS, {}, mcap=True)
+    os.mkfifo(bag / "pipe.mcap")  # nobody writes into it
+    (bag / "folder.mcap").mkdir()
+    (bag / "nowhere.mcap").symlink_to(tmp_path / "nothing")
+    same(swing, load_recording(bag, topics=TOPICS), places=1e-6)
+
+
 @pytest.mark.parametrize("cut", [0, 500])
 def test_a_chunk_that_is_damaged_is_refused(swing: Recording, tmp_path: Path, cut: int) -> None:
     path = tmp_path / "take.mcap"
