@@ -1562,7 +1562,7 @@ class HeldOutErrors:
     """After the start."""
   @property
   def improvement_ci95_m(self) -> list[Interval | None]:
-    """95 % interval of base less augmented."""
+    """95 % interval of base less augmented, an error counting at most three times the median."""
   @property
   def of_windows(self) -> int:
     """Of so many; the others say least."""
