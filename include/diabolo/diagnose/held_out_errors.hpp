@@ -36,7 +36,8 @@ struct HeldOutErrors {
     visit("horizons_s", &HeldOutErrors::horizons_s, "After the start.");
     visit("base_error_m", &HeldOutErrors::base_error_m, "Mean position error of the base.");
     visit("augmented_error_m", &HeldOutErrors::augmented_error_m, "The same with what was found.");
-    visit("improvement_ci95_m", &HeldOutErrors::improvement_ci95_m, "95 % interval of base less augmented, an error counting at most three times the median.");
+    visit("improvement_ci95_m", &HeldOutErrors::improvement_ci95_m,
+          "95 % interval of base less augmented, an error counting at most three times the median.");
     visit("start_error_m", &HeldOutErrors::start_error_m, "What the noise of the starts alone makes.");
     visit("base_spin_error_radps", &HeldOutErrors::base_spin_error_radps,
           "Mean spin error of the base; null where no spin was seen.");

@@ -145,4 +145,5 @@ class Group:
             if unit not in units:
                 self.section.fail(5, unit, f"{' or '.join(units)} below {column} of {self.name}")
             scales.append(units[unit])
-        return numbers * np.array(scales)
+        scaled: Floats = numbers * np.array(scales)
+        return scaled
