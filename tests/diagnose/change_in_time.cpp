@@ -14,7 +14,7 @@ using namespace diabolo;
 
 namespace {
 
-constexpr std::size_t kSideways = 1, kLength = 10;  // of kMayChange
+constexpr std::size_t kSideways = 1, kLength = 10, kDelay = 12;  // of kMayChange
 
 /// Windows of half a second that see an unknown (SI units) with a deviation of a usual size.
 std::vector<WindowFinding> seen(std::size_t k, int count, const std::function<double(double)>& value,
@@ -46,6 +46,17 @@ TEST_CASE("an acceleration that comes and goes is found with its frequency and s
   CHECK(*changes.front().frequency_hz == Approx(0.21).margin(0.01));
   CHECK(changes.front().size > 0.05);
   CHECK(changes.front().size < 0.2);
+}
+
+TEST_CASE("clocks that drift apart are told, a delay that comes and goes is none") {
+  const std::vector<ChangeInTime> drift = changes_in_time(seen(
+      kDelay, 120, [](double t) { return 1e-3 * (t - 30.0); }, test::fresh_seed()));
+  REQUIRE(drift.size() == 1);
+  CHECK(drift.front().quantity == "time_offset");
+  CHECK(*drift.front().trend_per_s == Approx(1e-3).epsilon(0.3));
+  CHECK(changes_in_time(seen(
+                            kDelay, 120, [](double t) { return 0.1 * wave(t); }, test::fresh_seed()))
+            .empty());
 }
 
 TEST_CASE("a string that creeps is told by how much a second") {

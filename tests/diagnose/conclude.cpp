@@ -118,6 +118,21 @@ TEST_CASE("a wrap is claimed beside friction that is") {
   CHECK_FALSE(stands(without, "string_wrap"));
 }
 
+TEST_CASE("a fault that would have to be larger than any is told where something stays unexplained") {
+  Diagnosis d;
+  d.findings = {claim("stick_tip_offset", 50.0, {})};
+  d.findings.front().possible = false;
+  d.adequacy.adequate = false;
+  withdraw_what_cannot_be(d);
+  conclude(d);
+  CHECK(d.sentence.ends_with(
+      " It is as if the places of the stick tips were off by more than a measurement may be: "
+      "check what was recorded."));
+  d.adequacy.adequate = true;
+  conclude(d);
+  CHECK(d.sentence.find("as if") == std::string::npos);
+}
+
 TEST_CASE("what was not done ends the sentence") {
   Diagnosis d;
   d.not_done = {"this"};

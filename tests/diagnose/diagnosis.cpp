@@ -228,6 +228,36 @@ TEST_CASE("a force that grows is learnt where a constant one, or a tilt, would s
   CHECK(learnt.law.formula.text().find("abs(spin)") != std::string::npos);
 }
 
+TEST_CASE("friction that changes is learnt as that: with use, and with the slip") {
+  const auto asked = [](const char* formula, double size) {
+    AllEffects<double> effects;
+    effects.get<StringFriction>().coefficient = 0.12;
+    effects.get<StringFriction>().spin_gain = 3.3;
+    effects.get<FormulaLaws>() =
+        FormulaLaws<double>({Law("rub", "", Acts::kFriction, formula, {{"k", "1"}})});
+    effects.get<FormulaLaws>().numbers[0] = size;
+    return diagnose({played(effects, 20.0, 12)});
+  };
+  const auto check = [](const Diagnosis& d, const char* formula, double expected) {
+    CAPTURE(d.sentence);
+    CHECK(d.headline == Headline::kNamed);
+    for (const Finding& f : d.findings)
+      if (f.claimed) CHECK(f.candidate->name == "string_friction");
+    REQUIRE(d.learnt.size() == 1);
+    const Learnt& learnt = d.learnt.front();
+    CAPTURE(learnt.law.formula.text(), learnt.value, learnt.deviation);
+    CHECK(learnt.law.acts == Acts::kFriction);
+    CHECK(learnt.law.formula.text().starts_with(formula));
+    CHECK(learnt.value.front() == Approx(expected).epsilon(0.1));
+  };
+  check(asked("k * t", 0.006), "rate * t", 0.006);
+  const Diagnosis slips = asked("k * exp(-abs(slip) / 0.5)", 0.12);
+  CAPTURE(slips.sentence);
+  REQUIRE_FALSE(slips.learnt.empty());
+  CHECK(slips.learnt.front().law.acts == Acts::kFriction);
+  CHECK(slips.learnt.front().law.formula.text().find("slip") != std::string::npos);
+}
+
 TEST_CASE("a law of one's own is named where it is at work, with its size, and not where it is not") {
   const Law creep("creep", "a string that creeps", Acts::kString, "rate * t",
                   {{"rate", "m/s", 1e-3, 0.0, 0.0, 0.1}});

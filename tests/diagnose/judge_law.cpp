@@ -42,6 +42,7 @@ std::vector<WindowFinding> windows_with(double left, double noise) {
 LearntLaw learnt_with(double gain, std::vector<LawNumber> numbers, const char* formula) {
   LearntLaw learnt{Law("any", "", Acts::kUp, formula, std::move(numbers)), 0, {}, {}};
   learnt.gain = gain;
+  for (std::size_t i = 0; i < learnt.law.numbers.size(); ++i) learnt.set[index_of(own_number(i))] = true;
   return learnt;
 }
 
@@ -70,9 +71,17 @@ TEST_CASE("a law that explains less than a quarter of what is beyond noise is an
                               windows_with(1.0, 1.0)));
 }
 
-TEST_CASE("of two laws that gain alike the one with fewer numbers is worth more") {
+TEST_CASE(
+    "of two laws that gain alike the one with fewer numbers is worth more, or that takes the place of a "
+    "claim") {
+  const ActiveSet nothing = ActiveSet::Constant(false);
   const LearntLaw constant = learnt_with(97.0, {{"k", "1"}}, "k"),
                   grows = learnt_with(100.0, {{"k", "1"}, {"power", "1", 0.5, 1.0}}, "k * speed^power");
-  CHECK(worth(constant) > worth(grows));
-  CHECK(worth(learnt_with(90.0, {{"k", "1"}}, "k")) < worth(grows));
+  CHECK(worth(constant, nothing) > worth(grows, nothing));
+  CHECK(worth(learnt_with(90.0, {{"k", "1"}}, "k"), nothing) < worth(grows, nothing));
+  ActiveSet claim = nothing;
+  claim[index_of(Unknown::kGravity)] = true;
+  LearntLaw beside = learnt_with(101.0, {{"k", "1"}}, "k");
+  beside.set[index_of(Unknown::kGravity)] = true;
+  CHECK(worth(grows, claim) > worth(beside, claim));
 }

@@ -113,3 +113,30 @@ TEST_CASE("what is no law is told") {
   const Law one("own", "", Acts::kUp, "k", {{"k", "1"}});
   CHECK_THROWS_WITH(FormulaLaws<double>({one, one}), "law \"own\": the name is there twice");
 }
+
+TEST_CASE("a law of the friction does what such a coefficient does, on a string that else is smooth, too") {
+  const TipMotion<double> motion(
+      {0.0, 0.5, 1.0}, {Vector(0.0, 0.3, 1.0), Vector(0.0, 0.4, 1.2), Vector(0.0, 0.2, 0.9)},
+      {Vector(0.0, -0.3, 1.0), Vector(0.0, -0.4, 0.8), Vector(0.0, -0.3, 1.1)}, Interpolation::kSpline);
+  State<double> start;
+  start.string_state = StringState::kOnString;
+  start.position = Vector(0.0, 0.0, 1.0 - std::sqrt(0.725 * 0.725 - 0.3 * 0.3));
+  start.spin = 90.0;
+  const auto after = [&](double coefficient, double by_law, const char* formula) {
+    Full::Set set;
+    set.get<StringFriction>().coefficient = coefficient;
+    set.get<StringFriction>().spin_gain = 3.0;
+    set.get<FormulaLaws>() = law(Acts::kFriction, formula);
+    set.get<FormulaLaws>().numbers[0] = by_law;
+    return rollout(Full(Parameters<double>::consistent(), set), start, motion, {0.0, 1e-3, 1000});
+  };
+  const auto apart = [](const State<double>& a, const State<double>& b) {
+    return (a.position - b.position).norm() + 0.01 * std::abs(a.spin - b.spin);
+  };
+  const State<double> rough = after(0.15, 1e-12, "k");
+  CHECK(apart(after(0.1, 0.05, "k"), rough) < 1e-9);
+  CHECK(apart(after(0.0, 0.15, "k"), rough) < 1e-9);
+  CHECK(apart(after(0.1, 0.1, "k * t"), rough) > 1e-4);
+  CHECK(apart(after(0.05, 0.1, "k * (1 - t)"), rough) > 1e-4);
+  CHECK(apart(after(0.1, -5.0, "k"), after(0.0, 0.0, "k")) < 1e-9);  // never less than none
+}

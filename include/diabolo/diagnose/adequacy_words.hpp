@@ -20,7 +20,9 @@ inline std::string size_in_words(double value, const std::string& unit) {
   const bool length = unit == "m";
   const double shown_value = length ? 1e3 * value : value;
   const double step = std::pow(10.0, std::floor(std::log10(std::max(shown_value, 1e-3))) - 1.0);
-  return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) + (length ? " mm" : " " + unit);
+  return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) + (length        ? " mm"
+                                                                                 : unit == "1" ? ""
+                                                                                               : " " + unit);
 }
 
 /// Where most is left over, after a comma.
@@ -55,6 +57,8 @@ inline std::string change_in_words(const ChangeInTime& change) {
                            : name == "acceleration_left"  ? "an acceleration sideways"
                            : name == "acceleration_up"    ? "an acceleration up or down"
                            : name == "string_length"      ? "the string's length"
+                           : name == "string_friction"    ? "the string's friction"
+                           : name == "time_offset"        ? "a delay between diabolo and sticks"
                            : name.starts_with("spin")     ? "a torque on the spin"
                            : name.starts_with("flight")   ? "a force in flight"
                                                           : "a force on the string";

@@ -142,7 +142,8 @@ struct MayChange {
   double smallest = 8e-3;  ///< that matters, in the unit: an acceleration of 1 mm in half a second
 };
 
-/// Accelerations in the world by gravity's direction and size, forces, torques, and the string's length.
+/// Accelerations in the world by gravity's direction and size, forces, torques, the string's length and its
+/// friction; and the delay between diabolo and sticks, last.
 inline constexpr std::array kMayChange{
     MayChange{Unknown::kTiltX, "acceleration_forward", "m/s^2", kStandardGravity},
     MayChange{Unknown::kTiltY, "acceleration_left", "m/s^2", kStandardGravity},
@@ -154,7 +155,9 @@ inline constexpr std::array kMayChange{
     MayChange{Unknown::kFlightLift, "flight_axis_x_v", "m/s^2"},
     MayChange{Unknown::kSpinString, "spin_on_string", "rad/s^2", 1.0, 0.5},
     MayChange{Unknown::kSpinFree, "spin_off_string", "rad/s^2", 1.0, 0.5},
-    MayChange{Unknown::kStringLength, "string_length", "m", 1.0, 1e-3}};
+    MayChange{Unknown::kStringLength, "string_length", "m", 1.0, 1e-3},
+    MayChange{Unknown::kFriction, "string_friction", "1", 1.0, 0.02},
+    MayChange{Unknown::kTimeOffset, "time_offset", "s", 1.0, 1e-3}};
 
 /// Whether a law depends on what its formula says, see dependence_of().
 struct Dependence {

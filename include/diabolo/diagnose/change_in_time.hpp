@@ -167,6 +167,8 @@ inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding
     change.z = agreement.z;
     change.size = agreement.size;
     diagnose_detail::name_shape(series, change);
+    if (kMayChange[k].unknown == Unknown::kTimeOffset && !change.trend_per_s)
+      continue;  // no clocks that drift
     result.push_back(change);
   }
   std::ranges::stable_sort(result, std::greater(), &ChangeInTime::z);

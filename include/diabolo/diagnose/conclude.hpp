@@ -168,6 +168,17 @@ inline std::string left_plainly(const Diagnosis& d) {
          "; no law of it was found that improves predictions of held-out data.";
 }
 
+/// Of faults that would have to be larger than they may be, where something stays unexplained: the end of the
+/// sentence.
+inline std::string too_far_in_words(const Diagnosis& d) {
+  if (d.adequacy.adequate.value_or(true)) return {};
+  for (const Finding& f : d.findings)
+    if (!f.claimed && !f.possible && f.sure && std::abs(f.z) > kStrong)
+      return " It is as if " + std::string(f.candidate->plain) +
+             " were off by more than a measurement may be: check what was recorded.";
+  return {};
+}
+
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
 inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
   const auto friction = std::ranges::find_if(
@@ -254,6 +265,7 @@ inline void conclude(Diagnosis& d) {
   const bool of_motion = leading.size() + d.learnt.size() > 0 || d.headline == Headline::kUnnamedStructure;
   if (d.reason.empty() && of_motion && d.headline != Headline::kNumerical)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
+  if (d.reason.empty()) d.sentence += too_far_in_words(d);
   if (!axle_leads) d.sentence += axle_claims_behind(axle);
   d.sentence += axle_ahead_in_words(d.heldout.axle, !axle.empty());
   d.sentence += catch_in_words(d.catch_rule);

@@ -12,6 +12,7 @@
 #include "diabolo/diagnose/inquiry.hpp"
 #include "diabolo/diagnose/other_reading.hpp"
 #include "diabolo/recording/plausibility/odd_orientations.hpp"
+#include "diabolo/recording/plausibility/odd_tips.hpp"
 #include "diabolo/recording/plausibility/odd_tracking.hpp"
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
 
@@ -40,13 +41,14 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
   check_threads(options.threads);
   long swapped = 0, frames = 0;
   std::string places;
-  bool sticks_are_known = true, sides_are_wrong = false;
+  bool sticks_are_known = true, sides_are_wrong = false, seen_by_tips = false;
   for (std::vector<Recording>* list : {&recordings, &options.holdout})
     for (Recording& recording : *list) {
       const Swaps swaps = unswap(recording);
       mask_odd_orientations(recording);
       const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
-      const std::optional<bool> exchanged = sticks_are_exchanged(recording);
+      std::optional<bool> exchanged = sticks_are_exchanged(recording);
+      if (!exchanged && quarters_off(recording) == 2) exchanged = true, seen_by_tips = true;
       if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
       sticks_are_known = sticks_are_known && exchanged.has_value();
@@ -69,7 +71,10 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
     by_friction = other && other->reading == diagnose_detail::Reading::kSticksExchanged;
   }
   if (by_friction) swapped = frames - swapped;
-  const std::string reason = by_friction       ? "friction would give energy unless the sticks are exchanged"
+  const std::string reason = by_friction ? "friction would give energy unless the sticks are exchanged"
+                             : seen_by_tips
+                                 ? "the left tip is on the right: exchanged sticks, or a frame that "
+                                   "is turned by 180 degrees about the vertical"
                              : sides_are_wrong ? "seen along the sticks, the left one is on the right"
                                                : "bodies jump to each other's places and back" + places;
   const bool asked = options.bank.empty() || std::ranges::count(options.bank, "body_swap") > 0;

@@ -71,17 +71,22 @@ inline double beyond_noise(const Fit& fit, const std::vector<WindowFinding>& win
   return sum;
 }
 
+/// The least that a law which is at work explains of what `fit` leaves, in chi^2.
+inline double least_explained(const Fit& fit, const std::vector<WindowFinding>& windows, Acts acts) {
+  return kShareOfLaw * beyond_noise(fit, windows, acts == Acts::kSpin);
+}
+
 /// Whether a law explains as much as one that is at work would.
 inline bool explains_enough(const LearntLaw& learnt, const Fit& before,
                             const std::vector<WindowFinding>& windows) {
   return learnt.gain > kGainOfLaw &&
-         learnt.gain * learnt.fit.dispersion >
-             kShareOfLaw * beyond_noise(before, windows, learnt.law.acts == Acts::kSpin);
+         learnt.gain * learnt.fit.dispersion > least_explained(before, windows, learnt.law.acts);
 }
 
-/// The gain less what its numbers cost.
-inline double worth(const LearntLaw& learnt) {
-  return learnt.gain * (1.0 - kPriceOfNumber * static_cast<double>(learnt.law.numbers.size() - 1));
+/// The gain less what its numbers cost, beyond those of a fit of `set` that stood in its place.
+inline double worth(const LearntLaw& learnt, const ActiveSet& set) {
+  const auto more = static_cast<double>(learnt.set.count() - set.count() - 1);
+  return learnt.gain * (1.0 - kPriceOfNumber * more);
 }
 
 /// Whether a law moves the diabolo, or its spin, by as much as matters.

@@ -77,6 +77,8 @@ inline std::string direction_in_words(Acts acts) {
       return "square to axle and velocity";
     case Acts::kSpin:
       return "on the spin";
+    case Acts::kFriction:
+      return "on the string's friction";
     default:
       return "on the string's length";
   }
@@ -97,7 +99,7 @@ class Guesses {
   void trending(Acts acts, const std::string& factor) {
     LawNumber rate = amplitude(acts);
     rate.name = "rate";
-    rate.unit = acts == Acts::kString ? "m/s" : acts == Acts::kSpin ? "rad/s^3" : "m/s^3";
+    rate.unit = per_second(acts);
     rate.usual *= 0.1;
     const Law law = made(acts, joined("rate", joined(factor, "t")), ", growing in time", {rate});
     list.push_back({law, {law}});
@@ -148,8 +150,23 @@ class Guesses {
 
  private:
   static LawNumber amplitude(Acts acts) {
-    const double usual = acts == Acts::kSpin ? 5.0 : acts == Acts::kString ? 2e-3 : 0.3;
+    const double usual = acts == Acts::kSpin       ? 5.0
+                         : acts == Acts::kString   ? 2e-3
+                         : acts == Acts::kFriction ? 0.03
+                                                   : 0.3;
     return {"size", std::string(unit_of(acts)), usual, 0.0, -1e3, 1e3};
+  }
+  static const char* per_second(Acts acts) {
+    switch (acts) {
+      case Acts::kSpin:
+        return "rad/s^3";
+      case Acts::kString:
+        return "m/s";
+      case Acts::kFriction:
+        return "1/s";
+      default:
+        return "m/s^3";
+    }
   }
   static std::string joined(const std::string& a, const std::string& b) {
     return a.empty() ? b : b.empty() ? a : a + " * " + b;
@@ -161,27 +178,41 @@ class Guesses {
   }
 };
 
-/// What may drive a change in time, as kMayChange has it, and by which factor it acts there.
+/// What the coefficient of the string's friction may depend on: the slip, with which it grows or falls
+/// (Stribeck's curve), the string's pull (Howell, "The general case of friction of a string round a
+/// cylinder", 1953), and the slip's sense. (A power of its own nobody tells from the coefficient itself.)
+inline void guess_rubbing(Guesses& guesses, const Fit& fit, const UsualSizes& usual) {
+  const std::string slip = shown(one_digit(usual.spin * fit.at[index_of(Unknown::kAxleRadius)]));
+  guesses.fixed(Acts::kFriction, "abs(slip) / " + slip, ", growing with the slip (at " + slip + " m/s)");
+  guesses.fixed(Acts::kFriction, "exp(-abs(slip) / " + slip + ")", ", more where the string slips slowly");
+  guesses.fixed(Acts::kFriction, "log(max(pull, 1) / 10)",
+                ", growing with the logarithm of the string's pull");
+  guesses.fixed(Acts::kFriction, "tanh(slip / 0.05)", ", more where the axle turns towards the right tip");
+}
+
+/// What may drive a change in time, as kMayChange has it, and by which factor it acts there; nothing drives a
+/// delay.
 struct Swinging {
   Acts acts;
   const char* factor;
 };
-inline constexpr std::array<Swinging, kMayChange.size()> kSwinging{{{Acts::kForward, ""},
-                                                                    {Acts::kLeft, ""},
-                                                                    {Acts::kUp, ""},
-                                                                    {Acts::kAlong, "taut"},
-                                                                    {Acts::kAcross, "taut"},
-                                                                    {Acts::kAgainst, "(1 - taut)"},
-                                                                    {Acts::kUp, "(1 - taut)"},
-                                                                    {Acts::kLift, "(1 - taut)"},
-                                                                    {Acts::kSpin, "taut"},
-                                                                    {Acts::kSpin, "(1 - taut)"},
-                                                                    {Acts::kString, ""}}};
+inline constexpr std::array<Swinging, kMayChange.size() - 1> kSwinging{{{Acts::kForward, ""},
+                                                                        {Acts::kLeft, ""},
+                                                                        {Acts::kUp, ""},
+                                                                        {Acts::kAlong, "taut"},
+                                                                        {Acts::kAcross, "taut"},
+                                                                        {Acts::kAgainst, "(1 - taut)"},
+                                                                        {Acts::kUp, "(1 - taut)"},
+                                                                        {Acts::kLift, "(1 - taut)"},
+                                                                        {Acts::kSpin, "taut"},
+                                                                        {Acts::kSpin, "(1 - taut)"},
+                                                                        {Acts::kString, ""},
+                                                                        {Acts::kFriction, ""}}};
 
 /// Laws in time: a trend, and the oscillation and the onset that windows see best. `clock` is the laws' time
 /// at the recording's first row [s].
 inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& windows, double clock) {
-  for (std::size_t k = 0; k < kMayChange.size(); ++k) {
+  for (std::size_t k = 0; k < kSwinging.size(); ++k) {
     const WindowSeries series = series_of(windows, k);
     if (series.size() < 12) continue;
     const double span = series.time.back() - series.time.front();
@@ -233,8 +264,10 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
     guesses.fixed(acts, "taut", " while on the string, of constant size");
     for (const char* place : {"x", "y", "z"})
       guesses.fixed(acts, place, std::string(", growing with ") + place + " (at 1 m)");
+    guesses.growing(acts, "", spin, 1.0, ", growing with the spin" + at_spin);
     guesses.growing(acts, "", tips, 1.0, ", growing with the speed of the tips" + at_tips);
   }
+  if (fit.at[index_of(Unknown::kFriction)] > 0.0) diagnose_detail::guess_rubbing(guesses, fit, usual);
   const std::string slows = "tanh(-spin)";
   for (const double power : {1.0, 3.0})
     guesses.growing(kSpin, slows, spin, power, ", slowing it, growing with it" + at_spin, {0.0, 2.0});

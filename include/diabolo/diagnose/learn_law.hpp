@@ -23,6 +23,9 @@ namespace diabolo {
 /// A guess is fitted that promises so much: what stands in a law's place may hide some of it.
 inline constexpr double kGainOfGuess = kSignificance * kSignificance;
 
+/// So many times what a guess promises its law may gain by a shape of its own.
+inline constexpr double kMayOvertake = 4.0;
+
 namespace diagnose_detail {
 
 inline std::size_t numbers_of(const FormulaLaws<double>& laws) {
@@ -153,16 +156,20 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
                                    const Bank& bank, const std::vector<WindowFinding>& windows,
                                    const DiagnosisOptions& options, const FitWatch& watch) {
   constexpr std::size_t kMostFits = 4;
-  constexpr double kMayOvertake = 4.0;  // a shape of its own may bring so many times what a guess promises
   std::vector<LawGuess> guesses = law_guesses(fit, windows);
   if (fit.fit_takes.size() == 1)
     std::ranges::move(diagnose_detail::fast_guesses<D>(fit, physics, set, options.threads, watch),
                       std::back_inserter(guesses));
   leave_out_unseen(guesses, fit);
   std::vector<LearntLaw> trials;
-  for (const auto& scored :
-       diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits, options.threads, watch)) {
-    if (!trials.empty() && kMayOvertake * scored.gain < trials.front().gain) break;
+  const auto best =
+      diagnose_detail::best_guesses<D>(guesses, fit, physics, set, kMostFits, options.threads, watch);
+  for (const auto& scored : best) {
+    // What promises most is fitted in any case: where others stand in its place, it may gain far more.
+    const double at_best = kMayOvertake * scored.gain,
+                 least = diagnose_detail::least_explained(fit, windows, scored.guess->law.acts);
+    if (scored.guess != best.front().guess && at_best * fit.dispersion < least) continue;
+    if (!trials.empty() && at_best < trials.front().gain) break;
     LearntLaw trial = diagnose_detail::fitted<D>(scored, fit, physics, set, bank, options.threads, watch);
     if (watch.is_enough()) return std::nullopt;  // it may not have settled
     if (diagnose_detail::explains_enough(trial, fit, windows) && diagnose_detail::matters(trial) &&
@@ -170,7 +177,8 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
         !diagnose_detail::may_have_a_name(trial, scored.guess->named_powers))
       trials.push_back(std::move(trial));
   }
-  std::ranges::stable_sort(trials, std::greater(), diagnose_detail::worth);
+  std::ranges::stable_sort(trials, std::greater(),
+                           [&](const LearntLaw& law) { return diagnose_detail::worth(law, set); });
   for (LearntLaw& trial : trials)
     if (diagnose_detail::helps(trial, fit, set, options, watch)) return std::move(trial);
   return std::nullopt;

@@ -108,6 +108,7 @@ inline void note_noise(std::vector<WindowFinding>& windows, const Fit& fit, cons
       WindowFinding& found = windows[i++];
       for (std::size_t k = 0; k < kMayChange.size(); ++k) {
         const int u = index_of(kMayChange[k].unknown);
+        if (kMayChange[k].unknown == Unknown::kFriction && fit.at[u] == 0.0) continue;  // none, none changes
         found.slope[k] = fit.scores[i - 1].score[u];
         found.curvature[k] = fit.scores[i - 1].information(u, u);
       }

@@ -100,9 +100,14 @@ struct NeutralEffect {
   Spring<Scalar> spring_at(const State<Scalar>&, const Tips<Scalar>&) const { return {}; }
   /// Share of the path's rate that a catch gives back, from 0 to 1.
   Scalar restitution() const { return Scalar(0); }
-  /// Of what goes with the string's tension, such as friction along the string.
+  /// Whether it changes the coefficient of the string's friction, and by how much.
+  bool rubs() const { return false; }
+  Scalar friction(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
+    return Scalar(0);
+  }
+  /// Of what goes with the string's tension, as friction does; others add `friction` to its coefficient.
   Contact<Scalar> contact(const State<Scalar>&, const Tips<Scalar>&, const StringStepResult<Scalar>&,
-                          const Scalar& /*dt*/, const Parameters<Scalar>&) const {
+                          const Scalar& /*dt*/, const Parameters<Scalar>&, const Scalar& /*friction*/) const {
     return {};
   }
   /// Torque of the string about the diabolo's centre, mean over a step, less what is along the axle; over the
@@ -193,9 +198,7 @@ struct EffectSet {
   }
   /// Whether no effect is at work.
   bool neutral() const {
-    bool none = true;
-    each([&](const auto&) { none = false; });
-    return none;
+    return std::apply([](const auto&... effect) { return (effect.neutral() && ...); }, members);
   }
   /// Whether any effect that is at work changes the strands before a step.
   bool moves_tips() const {
@@ -203,9 +206,13 @@ struct EffectSet {
     each([&]<class Effect>(const Effect&) { moves |= kChangesStrands<Effect>; });
     return moves;
   }
+  /// Whether any effect that is at work changes the coefficient of the string's friction.
+  bool rubs() const {
+    return std::apply([](const auto&... effect) { return (effect.rubs() || ...); }, members);
+  }
   /// Whether any effect has a contact impulse.
   bool touches() const {
-    bool touches = false;
+    bool touches = rubs();
     each([&]<class Effect>(const Effect&) { touches |= hides(&Effect::contact, &Neutral::contact); });
     return touches;
   }
@@ -230,22 +237,25 @@ struct EffectSet {
   Scalar touch(Vector3<Scalar>& velocity, Scalar& spin, const State<Scalar>& state, const Tips<Scalar>& given,
                const StringStepResult<Scalar>& result, const Scalar& dt,
                const Parameters<Scalar>& parameters) const {
-    Scalar pull_difference{0};
-    each([&]<class Effect>(const Effect& effect) {
+    Scalar pull_difference{0}, friction{0};
+    const bool changed = rubs();  // of a string that else is smooth, too
+    if (changed) each([&](const auto& effect) { friction += effect.friction(state, given, parameters); });
+    const auto touch_one = [&]<class Effect>(const Effect& effect) {
       if constexpr (hides(&Effect::contact, &Neutral::contact)) {
-        const Contact<Scalar> own = effect.contact(state, given, result, dt, parameters);
+        if (effect.neutral() && !changed) return;
+        const Contact<Scalar> own = effect.contact(state, given, result, dt, parameters, friction);
         velocity = velocity + own.impulse;
         spin += own.spin;
         pull_difference += own.pull_difference;
       }
-    });
+    };
+    std::apply([&](const auto&... effect) { (touch_one(effect), ...); }, members);
     return pull_difference;
   }
   /// Whether the axle turns where no string pulls, too.
   bool tumbles() const {
-    bool tumbles = false;
-    each([&](const auto& effect) { tumbles |= effect.tumbles(); });
-    return tumbles;
+    return std::apply([](const auto&... effect) { return ((!effect.neutral() && effect.tumbles()) || ...); },
+                      members);
   }
   /// Turns the axle of the state at a step's beginning.
   void turn_axle(State<Scalar>& state, const Tips<Scalar>& given, const StringStepResult<Scalar>& result,

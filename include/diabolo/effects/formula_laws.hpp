@@ -63,7 +63,7 @@ struct FormulaLaws : NeutralEffect<Scalar> {
                                const Parameters<Scalar>& parameters) const {
     Vector3<Scalar> sum = Vector3<Scalar>::Constant(Scalar(0));
     each([&](const Law& law, std::size_t first) {
-      if (law.acts == Acts::kSpin || law.acts == Acts::kString) return;
+      if (law.acts >= Acts::kSpin) return;  // no acceleration
       const Scalar size = value(law, first, state, tips, parameters);
       // No step takes more than all of the velocity.
       const Scalar most = law.acts == Acts::kAgainst ? norm(state.velocity) / dt : Scalar(kHardest);
@@ -81,6 +81,19 @@ struct FormulaLaws : NeutralEffect<Scalar> {
   Scalar spin_acceleration(const Scalar&, const State<Scalar>& state, const Tips<Scalar>& tips, const Scalar&,
                            const Parameters<Scalar>& parameters) const {
     return sum_of(Acts::kSpin, kHardest, state, tips, parameters);
+  }
+
+  bool rubs() const {
+    bool rubs = false;
+    each([&](const Law& law, std::size_t first) {
+      rubs |= law.acts == Acts::kFriction && !is_constant_zero(numbers[first]);
+    });
+    return rubs;
+  }
+
+  Scalar friction(const State<Scalar>& state, const Tips<Scalar>& tips,
+                  const Parameters<Scalar>& parameters) const {
+    return sum_of(Acts::kFriction, kRoughest, state, tips, parameters);
   }
 
   /// Calls `visit(info, field)` for every number of the laws that are there.
@@ -105,7 +118,8 @@ struct FormulaLaws : NeutralEffect<Scalar> {
   }
 
  private:
-  static constexpr double kHardest = 1e3, kLongest = 0.5;  ///< [m/s^2] or [rad/s^2], and [m]
+  static constexpr double kHardest = 1e3, kLongest = 0.5,
+                          kRoughest = 3.0;  ///< [m/s^2] or [rad/s^2], [m], [1]
 
   static Vector3<Scalar> direction(Acts acts, const State<Scalar>& state, const Tips<Scalar>& tips) {
     const Scalar zero(0), one(1);

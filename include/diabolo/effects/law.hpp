@@ -18,24 +18,34 @@ namespace diabolo {
 
 /// What a law's formula is the size of.
 enum class Acts {
-  kForward,  ///< acceleration along the world's x [m/s^2]
-  kLeft,     ///< along y [m/s^2]
-  kUp,       ///< along z [m/s^2]
-  kAgainst,  ///< against the velocity [m/s^2]
-  kAlong,    ///< in the string's plane, towards the right tip [m/s^2]
-  kAcross,   ///< square to the string's plane, forwards [m/s^2]
-  kLift,     ///< along omega x v [m/s^2]
-  kSpin,     ///< rate of change of the spin [rad/s^2]
-  kString,   ///< added to the string's length [m]
+  kForward,   ///< acceleration along the world's x [m/s^2]
+  kLeft,      ///< along y [m/s^2]
+  kUp,        ///< along z [m/s^2]
+  kAgainst,   ///< against the velocity [m/s^2]
+  kAlong,     ///< in the string's plane, towards the right tip [m/s^2]
+  kAcross,    ///< square to the string's plane, forwards [m/s^2]
+  kLift,      ///< along omega x v [m/s^2]
+  kSpin,      ///< rate of change of the spin [rad/s^2]
+  kString,    ///< added to the string's length [m]
+  kFriction,  ///< added to the coefficient of the string's friction [1]
 };
 
 /// Their names, in the order of their numbers from 0.
-inline constexpr std::array<std::string_view, 9> names_of(Acts) {
-  return {"forward", "left", "up", "against", "along", "across", "lift", "spin", "string"};
+inline constexpr std::array<std::string_view, 10> names_of(Acts) {
+  return {"forward", "left", "up", "against", "along", "across", "lift", "spin", "string", "friction"};
 }
 
 inline std::string_view unit_of(Acts acts) {
-  return acts == Acts::kString ? "m" : acts == Acts::kSpin ? "rad/s^2" : "m/s^2";
+  switch (acts) {
+    case Acts::kSpin:
+      return "rad/s^2";
+    case Acts::kString:
+      return "m";
+    case Acts::kFriction:
+      return "1";
+    default:
+      return "m/s^2";
+  }
 }
 
 /// What a formula may ask of the state and the tips at a step's beginning.

@@ -44,7 +44,7 @@ struct StickFlex : NeutralEffect<Scalar> {
   /// rest; where the step does not resolve the bending, the tips do not move.
   Contact<Scalar> contact(const State<Scalar>& state, const Tips<Scalar>& tips,
                           const StringStepResult<Scalar>& result, const Scalar& dt,
-                          const Parameters<Scalar>& parameters) const {
+                          const Parameters<Scalar>& parameters, const Scalar& /*friction*/) const {
     if (is_constant_zero(tip_mass)) return {};
     Tips<Scalar> earlier = tips;
     earlier.left -= tips.left_velocity * dt;

@@ -38,11 +38,12 @@ struct StringFriction : NeutralEffect<Scalar> {
 
   Contact<Scalar> contact(const State<Scalar>& state, const Tips<Scalar>& tips,
                           const StringStepResult<Scalar>& result, const Scalar& dt,
-                          const Parameters<Scalar>& parameters) const {
+                          const Parameters<Scalar>& parameters, const Scalar& more) const {
     using std::atan2;
     using std::tanh;
+    const Scalar rubbing = maximum(Scalar(coefficient + more), Scalar(0));
     if (parameters.follow_turns)
-      return wound_contact(coefficient, spin_gain, state, tips, result, dt, parameters);
+      return wound_contact(rubbing, spin_gain, state, tips, result, dt, parameters);
     // Everything at the middle of the step: the strands, the slip and the normal force.
     const Scalar half = Scalar(0.5) * dt;
     const Vector3<Scalar> middle = (state.position + result.position) * Scalar(0.5);
@@ -57,8 +58,8 @@ struct StringFriction : NeutralEffect<Scalar> {
     const Vector3<Scalar> tangent = across * Scalar(Scalar(1) / maximum(sine, tiny<Scalar>()));
     // Nearly straight strings have no tangent worth the name: the constraint holds the diabolo there.
     const Scalar thin = maximum(cosine, Scalar(0.02)), steepness = sine / thin;
-    const Scalar exponent = coefficient * (atan2(cosine, sine) +
-                                           Scalar(0.5) * wrapped_angle(parameters));  // half of coefficient b
+    const Scalar exponent =
+        rubbing * (atan2(cosine, sine) + Scalar(0.5) * wrapped_angle(parameters));  // half of coefficient b
     const Scalar largest = norm(result.string_acceleration) * dt * steepness;
     const Scalar slip = result.passed / dt - parameters.axle_radius * state.spin;
     const Scalar lean = tanh(exponent * tanh(slip_left(slip, Scalar(0.25) * sine * largest, exponent)));

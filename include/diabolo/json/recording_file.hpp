@@ -108,9 +108,10 @@ inline void check_up(const Recording& recording, double yaw, const std::string& 
                        "; read it with --up=" + text_of(up) + ", or with --up=z as it stands");
 }
 
-/// What every recording goes through once it is read: stamps that jitter are put right; samples that jump or
-/// freeze, and orientations that show no spin, become dropouts; notes tell. Throws RecordingError where a
-/// coordinate was not recorded, or another axis than z points up.
+/// What every recording goes through once it is read: stamps that jitter, and a frame that is turned by a
+/// quarter about the vertical, are put right; samples that jump or freeze, and orientations that show no
+/// spin, become dropouts; notes tell. Throws RecordingError where a coordinate was not recorded, or another
+/// axis than z points up.
 inline Recording put_right(Recording recording, double yaw, const ReadOptions& options,
                            const std::string& file_name) {
   if (const std::string odd = constant_coordinate(recording); !odd.empty())
@@ -118,8 +119,9 @@ inline Recording put_right(Recording recording, double yaw, const ReadOptions& o
   regularise_times(recording);
   mask_jumps(recording);
   mask_frozen(recording);
-  mask_odd_orientations(recording);
   if (!options.up) check_up(recording, yaw, file_name);
+  recording = turned_to_face_forward(std::move(recording));
+  mask_odd_orientations(recording);
   return recording;
 }
 

@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diabolo/parameters.hpp"
@@ -49,21 +51,33 @@ inline double median_step(const Eigen::VectorXd& time) {
   return *middle;
 }
 
-/// Throws RecordingError unless the sampling rate [Hz] is believable and fits the median time step (to 5 %);
-/// says so where the times would fit in a smaller unit.
+/// Whether times, in a unit [s], step at that rate [Hz]: to 5 % in the median of those steps that leave no
+/// row out, a quarter of all at least.
+inline bool steps_at(double rate, const Eigen::VectorXd& time, double unit = 1.0) {
+  std::vector<double> steps;
+  for (Eigen::Index i = 0; i + 1 < time.size(); ++i)
+    if (const double periods = (time[i + 1] - time[i]) * unit * rate; periods > 0.5 && periods < 1.5)
+      steps.push_back(periods);
+  if (4 * static_cast<Eigen::Index>(steps.size()) < time.size() - 1 || steps.empty()) return false;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  return std::abs(*middle - 1.0) <= 0.05;
+}
+
+/// Throws RecordingError unless the sampling rate [Hz] is believable and fits the times, see steps_at(); says
+/// so where they would in a smaller unit.
 inline void check_rate(double rate, const Eigen::VectorXd& time, const std::string& where) {
   if (!(rate > 0.0 && rate <= 1e6))
     throw RecordingError(where + ": rate " + shown(rate) + " Hz; expected more than 0, at most 1e6");
   if (time.size() < 2) return;
-  const auto fits = [step = median_step(time), rate](double unit) {
-    return std::abs(step * unit * rate - 1.0) <= 0.05;
-  };
-  if (fits(1.0)) return;
-  const std::string unit = fits(1e-3) ? "ms" : fits(1e-6) ? "us" : fits(1e-9) ? "ns" : "";
+  if (steps_at(rate, time)) return;
+  std::string unit;
+  for (const auto& [name, seconds] : {std::pair{"ns", 1e-9}, std::pair{"us", 1e-6}, std::pair{"ms", 1e-3}})
+    if (steps_at(rate, time, seconds)) unit = name;
   throw RecordingError(
       where + ": rate " + shown(rate) + " Hz, but the times step by " +
-      shown(std::round(1e6 * median_step(time)) / 1e6) + " s" +
-      (unit.empty() ? "" : ", as if they were in " + unit + ": --columns time=NAME[" + unit + "]"));
+      shown(std::round(1e6 * median_step(time)) / 1e6) + " s (" + shown_rounded(1.0 / median_step(time)) +
+      " Hz)" + (unit.empty() ? "" : ", as if they were in " + unit + ": --columns time=NAME[" + unit + "]"));
 }
 
 /// Throws RecordingError unless the sizes of the cups are believable, and mass, axle and string length such

@@ -131,9 +131,9 @@ TEST_CASE("Times have to increase at the stated rate") {
         "play.csv, line 4: time 5000 s comes more than an hour after 0.01 s; expected one take a file");
   CHECK(says_of("\n0.02,", "\n1e10,") == "play.csv, line 4: time 1e+10 s; expected a number within 1e9 s");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, 120.0}) ==
-        "play.csv: rate 120 Hz, but the times step by 0.01 s");
+        "play.csv: rate 120 Hz, but the times step by 0.01 s (100 Hz)");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, 1e5}) ==
-        "play.csv: rate 1e+05 Hz, but the times step by 0.01 s, as if they were in ms: --columns "
+        "play.csv: rate 1e+05 Hz, but the times step by 0.01 s (100 Hz), as if they were in ms: --columns "
         "time=NAME[ms]");
   CHECK(says(tidy_text(), {kBlueDiabolo, 1.5, kNaN}) ==
         "play.csv: rate nan Hz; expected more than 0, at most 1e6");

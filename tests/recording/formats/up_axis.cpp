@@ -12,12 +12,11 @@ namespace {
 
 /// As a capture writes it in whose frame another axis points up: the opposite turn.
 Recording written_with(const Recording& r, const UpAxis& up) {
-  const Eigen::Matrix3d turn = turn_to_z_up(up).transpose();
-  Recording result = r;
-  recording_formats_detail::turn_frame(turn, result.left.position, result.left_orientation.quaternion);
-  recording_formats_detail::turn_frame(turn, result.right.position, result.right_orientation.quaternion);
-  recording_formats_detail::turn_frame(turn, result.diabolo.position, result.diabolo_orientation.quaternion);
-  return result;
+  return turned(r, turn_to_z_up(up).transpose());
+}
+
+Recording turned_by(const Recording& r, double degrees) {
+  return turned(r, Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix());
 }
 
 }  // namespace
@@ -93,4 +92,42 @@ TEST_CASE("The real takes are read as before, and turned ones are refused by the
             .select(0.0, (given.left.position - turned.left.position).array())
             .abs()
             .maxCoeff() < 1e-12);
+}
+
+TEST_CASE("A player who faces along another axis is turned to face along x") {
+  const Recording given = test::shipped("swing");
+  REQUIRE(sticks_are_exchanged(given) == false);
+  const auto is_as_given = [&](const Recording& r) {
+    return (r.diabolo.position - given.diabolo.position).cwiseAbs().maxCoeff() < 1e-12 &&
+           (r.right.position - given.right.position).cwiseAbs().maxCoeff() < 1e-12;
+  };
+  CHECK(turned_to_face_forward(given).notes.empty());
+  for (const double degrees : {90.0, -90.0, 180.0}) {
+    CAPTURE(degrees);
+    const Recording r = turned_to_face_forward(turned_by(given, degrees));
+    CHECK(is_as_given(r));
+    REQUIRE(r.notes.size() == 1);
+    CHECK(r.notes.front().starts_with("the player faces another way than along x: the frame is turned by "));
+    // Under each other's names the sticks end where they are once these are put right.
+    const Recording renamed =
+        with_sticks_exchanged(turned_to_face_forward(with_sticks_exchanged(turned_by(given, degrees))));
+    CHECK(is_as_given(renamed));
+  }
+  CHECK(turned_to_face_forward(turned_by(given, 30.0)).notes.empty());
+  // By half a turn, or exchanged: without the sticks' directions nobody knows.
+  Recording plain = turned_by(given, 180.0);
+  plain.left_orientation.valid.setConstant(false);
+  CHECK(turned_to_face_forward(plain).notes.empty());
+  CHECK(odd_heading(plain).starts_with("the left tip lies to the right of the right one"));
+}
+
+TEST_CASE("A quarter turn about the vertical takes the spin's sign from no reader") {
+  const test::TemporaryFolder folder;
+  const Recording given = test::shipped("swing");
+  save_tidy(turned_by(given, 90.0), folder / "swing.csv");
+  const Recording read = load_recording(folder / "swing.csv");
+  const Spin before = signed_spin(given), after = signed_spin(read);
+  CHECK(before.valid.count() == after.valid.count());
+  for (Eigen::Index i = 0; i < given.size(); ++i)
+    if (before.valid[i]) CHECK(after.value[i] == Approx(before.value[i]).margin(1e-3));
 }

@@ -5,10 +5,15 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/plausibility/odd_tips.hpp"
+#include "diabolo/recording/plausibility/swapped_bodies.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/error.hpp"
 #include "diabolo/text/shown.hpp"
@@ -66,13 +71,35 @@ inline void turn_frame(const Eigen::Matrix3d& turn, Eigen::Matrix3Xd& position,
 
 }  // namespace recording_formats_detail
 
-/// The recording with z up, of one in which another axis points up.
-inline Recording turned_to_z_up(Recording r, const UpAxis& up) {
-  const Eigen::Matrix3d turn = turn_to_z_up(up);
+/// The recording in another frame.
+inline Recording turned(Recording r, const Eigen::Matrix3d& turn) {
   recording_formats_detail::turn_frame(turn, r.left.position, r.left_orientation.quaternion);
   recording_formats_detail::turn_frame(turn, r.right.position, r.right_orientation.quaternion);
   recording_formats_detail::turn_frame(turn, r.diabolo.position, r.diabolo_orientation.quaternion);
   return r;
+}
+
+/// The recording with z up, of one in which another axis points up.
+inline Recording turned_to_z_up(Recording r, const UpAxis& up) {
+  return turned(std::move(r), turn_to_z_up(up));
+}
+
+/// The recording with y to the player's left, of one whose frame is turned about the vertical by quarters, as
+/// the tips show; a note tells. (By a half only where the sticks' directions tell which one is the left one:
+/// exchanged sticks look the same.)
+inline Recording turned_to_face_forward(Recording r) {
+  const std::optional<bool> exchanged = sticks_are_exchanged(r);
+  const int seen = quarters_off(r), off = exchanged.value_or(false) ? (seen == 2   ? 0
+                                                                       : seen == 0 ? 2
+                                                                                   : -seen)
+                                                                    : seen;
+  if (off == 0 || (off == 2 && !exchanged)) return r;
+  const int degrees = -90 * off;
+  r.notes.push_back("the player faces another way than along x: the frame is turned by " +
+                    std::to_string(degrees) + " degrees about the vertical");
+  return turned(
+      std::move(r),
+      Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix());
 }
 
 /// The take with z up, of one in which another axis points up; the bodies' own frames stay.

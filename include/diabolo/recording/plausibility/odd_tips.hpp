@@ -67,9 +67,9 @@ inline std::string odd_distance(const Recording& r) {
          std::to_string(std::lround(100.0 * share)) + " % of the rows: wrong units, or another string";
 }
 
-/// A clause about tips of which the left one lies before or behind the right one, where it is not clear which
-/// way an axle points; else empty.
-inline std::string odd_heading(const Recording& r) {
+/// Quarter turns about the vertical by which the left tip lies off the left of the right one, which is along
+/// y: 1 behind it, -1 before it, 2 on its right; 0 where it is not clear.
+inline int quarters_off(const Recording& r) {
   constexpr double kLeastAside = 0.4;  // share of what lies between the tips that is along y
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double length = 0.0;
@@ -79,8 +79,21 @@ inline std::string odd_heading(const Recording& r) {
     sum += across;
     length += across.norm();
   }
-  if (!(sum.norm() > 0.5 * length) || std::abs(sum.y()) > kLeastAside * sum.norm()) return {};
-  return std::string("the left tip lies ") + (sum.x() > 0.0 ? "before" : "behind") +
+  if (!(sum.norm() > 0.5 * length)) return 0;
+  if (std::abs(sum.y()) <= kLeastAside * sum.norm()) return sum.x() > 0.0 ? -1 : 1;
+  return sum.y() < 0.0 ? 2 : 0;
+}
+
+/// A clause about tips of which the left one does not lie on the left, where it is not clear which way an
+/// axle points; else empty.
+inline std::string odd_heading(const Recording& r) {
+  const int quarters = quarters_off(r);
+  if (quarters == 0) return {};
+  if (quarters == 2)
+    return "the left tip lies to the right of the right one: the frame is turned by some 180 degrees about "
+           "the "
+           "vertical, or the sticks are exchanged; expected y to the left";
+  return std::string("the left tip lies ") + (quarters < 0 ? "before" : "behind") +
          " the right one, along x: the frame is turned by some 90 degrees about the vertical, and the spin's "
          "sign is not sure; expected y to the left";
 }

@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/recording.hpp"
@@ -36,52 +38,73 @@ inline bool steps_unevenly(const Recording& r, Eigen::Index i) {
   return i + 1 < r.size() && !r.steps_evenly(i) && (r.time[i + 1] - r.time[i]) * r.rate < kGapInPeriods;
 }
 
+/// Largest share of rows that may step unevenly without a word.
+inline constexpr double kMostUneven = 0.02;
+
+/// A step over more periods than this is a gap: where the rows behind it belong is not counted.
+inline constexpr double kLongestCounted = 10.0;
+
+namespace recording_plausibility_detail {
+
+/// Places of the rows [first, end) on a grid of that period [s], from 0 on. Rows may be left out; the grid
+/// follows the stamps slowly. Of two that come to lie on one place, the first was late where the place before
+/// it is free, else the second is early.
+inline std::vector<double> places_of(const Eigen::VectorXd& time, Eigen::Index first, Eigen::Index end,
+                                     double period) {
+  constexpr double kFollows = 0.1;
+  std::vector<double> places{0.0};
+  double last = time[first];
+  for (Eigen::Index i = first + 1; i < end; ++i) {
+    double steps = std::round((time[i] - last) / period);
+    if (steps < 1.0) {
+      const std::size_t n = places.size();
+      if (n > 1 && places[n - 1] - places[n - 2] > 1.0) places[n - 1] -= 1.0, last -= period;
+      steps = 1.0;
+    }
+    places.push_back(places.back() + steps);
+    last += steps * period;
+    last += kFollows * (time[i] - last);
+  }
+  return places;
+}
+
+}  // namespace recording_plausibility_detail
+
 /// Moves jittering stamps to even times: those of a camera that looks evenly and a clock that stamps late.
-/// Each stretch without gaps keeps its mean time; all have the same period, that of least squares. Nothing
-/// changes where every step is even, or where a stamp is too far from its place for the rate to be clear.
-/// Returns whether times were moved; a note says by how much.
+/// Between long gaps the times keep their mean; all have the same period, that of least squares, and rows
+/// that are left out leave their place free. Nothing changes where every step is even, or where too many
+/// stamps are too far from their places for the rate to be clear. Returns whether times were moved; a note
+/// says by how much.
 inline bool regularise_times(Recording& r) {
   const Eigen::Index size = r.size();
   bool uneven = false;
   for (Eigen::Index i = 0; i < size && !uneven; ++i) uneven = steps_unevenly(r, i);
   if (!uneven) return false;
-  const auto stretch_end = [&r, size](Eigen::Index first) {
-    Eigen::Index end = first + 1;
-    while (end < size && (r.time[end] - r.time[end - 1]) * r.rate < kGapInPeriods) ++end;
-    return end;
-  };
-  const auto middle = [](Eigen::Index first, Eigen::Index end) {
-    return 0.5 * static_cast<double>(first + end - 1);
-  };
-  double covariance = 0.0, variance = 0.0;  // of times and row numbers, within the stretches
+  const double usual = 1.0 / rate_of(r.time);
+  Eigen::VectorXd places(size), means(size);  // less the mean of the stretch; the mean time of the stretch
+  double covariance = 0.0, variance = 0.0;    // of times and places, within the stretches
   for (Eigen::Index first = 0, end = 0; first < size; first = end) {
-    end = stretch_end(first);
-    const double mean = r.time.segment(first, end - first).mean();
-    for (Eigen::Index i = first; i < end; ++i) {
-      const double number = static_cast<double>(i) - middle(first, end);
-      covariance += number * (r.time[i] - mean);
-      variance += number * number;
-    }
+    end = first + 1;
+    while (end < size && r.time[end] - r.time[end - 1] < kLongestCounted * usual) ++end;
+    const Eigen::Index rows = end - first;
+    const std::vector<double> counted = recording_plausibility_detail::places_of(r.time, first, end, usual);
+    places.segment(first, rows) = Eigen::Map<const Eigen::VectorXd>(counted.data(), rows);
+    places.segment(first, rows).array() -= places.segment(first, rows).mean();
+    means.segment(first, rows).setConstant(r.time.segment(first, rows).mean());
+    covariance += places.segment(first, rows).dot(r.time.segment(first, rows) - means.segment(first, rows));
+    variance += places.segment(first, rows).squaredNorm();
   }
   const double period = covariance / variance;
   if (!(std::abs(period * r.rate - 1.0) <= 0.05)) return false;  // as check_rate() has it
-  Eigen::VectorXd even(size);
-  for (Eigen::Index first = 0, end = 0; first < size; first = end) {
-    end = stretch_end(first);
-    const double mean = r.time.segment(first, end - first).mean();
-    for (Eigen::Index i = first; i < end; ++i)
-      even[i] = mean + period * (static_cast<double>(i) - middle(first, end));
-  }
-  if ((even - r.time).cwiseAbs().maxCoeff() > kFarthestStamp * period) return false;
-  const double jitter = std::sqrt((even - r.time).squaredNorm() / static_cast<double>(size));
+  const Eigen::VectorXd even = means + period * places, moved = even - r.time;
+  const auto far = (moved.array().abs() > kFarthestStamp * period).count();
+  if (static_cast<double>(far) > kMostUneven * static_cast<double>(size)) return false;
+  const double jitter = std::sqrt(moved.squaredNorm() / static_cast<double>(size));
   r.notes.push_back("the times jitter by " + shown_rounded(1e3 * jitter) + " ms about " +
                     shown_rounded(1.0 / period) + " Hz: each row is moved to its even time");
   r.time = even;
   return true;
 }
-
-/// Largest share of rows that may step unevenly without a word.
-inline constexpr double kMostUneven = 0.02;
 
 /// A clause about times that step unevenly where no rate is clear, or too slowly for play; else empty.
 inline std::string odd_times(const Recording& r) {
