@@ -89,17 +89,15 @@ inline Recording turned_to_z_up(Recording r, const UpAxis& up) {
 /// exchanged sticks look the same.)
 inline Recording turned_to_face_forward(Recording r) {
   const std::optional<bool> exchanged = sticks_are_exchanged(r);
-  const int seen = quarters_off(r), off = exchanged.value_or(false) ? (seen == 2   ? 0
-                                                                       : seen == 0 ? 2
-                                                                                   : -seen)
-                                                                    : seen;
+  const std::optional<int> seen = quarters_off(r);
+  if (!seen) return r;
+  const int off = (*seen + (exchanged.value_or(false) ? 2 : 0)) % 4;
   if (off == 0 || (off == 2 && !exchanged)) return r;
-  const int degrees = -90 * off;
+  const int degrees = off == 3 ? 90 : -90 * off;
   r.notes.push_back("the player faces another way than along x: the frame is turned by " +
                     std::to_string(degrees) + " degrees about the vertical");
-  return turned(
-      std::move(r),
-      Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
+  return turned(std::move(r), turn.toRotationMatrix());
 }
 
 /// The take with z up, of one in which another axis points up; the bodies' own frames stay.

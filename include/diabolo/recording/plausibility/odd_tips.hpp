@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,8 +69,8 @@ inline std::string odd_distance(const Recording& r) {
 }
 
 /// Quarter turns about the vertical by which the left tip lies off the left of the right one, which is along
-/// y: 1 behind it, -1 before it, 2 on its right; 0 where it is not clear.
-inline int quarters_off(const Recording& r) {
+/// y: 1 behind it, -1 before it, 2 on its right; nothing where it is not clear.
+inline std::optional<int> quarters_off(const Recording& r) {
   constexpr double kLeastAside = 0.4;  // share of what lies between the tips that is along y
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double length = 0.0;
@@ -79,7 +80,7 @@ inline int quarters_off(const Recording& r) {
     sum += across;
     length += across.norm();
   }
-  if (!(sum.norm() > 0.5 * length)) return 0;
+  if (!(sum.norm() > 0.5 * length)) return {};
   if (std::abs(sum.y()) <= kLeastAside * sum.norm()) return sum.x() > 0.0 ? -1 : 1;
   return sum.y() < 0.0 ? 2 : 0;
 }
@@ -87,7 +88,7 @@ inline int quarters_off(const Recording& r) {
 /// A clause about tips of which the left one does not lie on the left, where it is not clear which way an
 /// axle points; else empty.
 inline std::string odd_heading(const Recording& r) {
-  const int quarters = quarters_off(r);
+  const int quarters = quarters_off(r).value_or(0);
   if (quarters == 0) return {};
   if (quarters == 2)
     return "the left tip lies to the right of the right one: the frame is turned by some 180 degrees about "
