@@ -130,6 +130,21 @@ TEST_CASE("the velocity is the derivative of the position") {
   }
 }
 
+TEST_CASE(
+    "at an instant between two straight lines the tips move as they came, on either side of its rounding") {
+  const std::vector<double> times{0.0, 0.3, 0.5};
+  const std::vector<Vector> left{{0.0, 0.3, 1.0}, {0.0, 0.3, 1.3}, {0.0, 0.3, 0.9}};
+  const TipMotion<double> motion(times, left, left, Interpolation::kLinear);
+  for (const double time : {std::nextafter(0.3, 0.0), 0.3, 0.1 * 3.0}) {
+    CHECK(motion.at(time).left_velocity.z() == Approx(1.0));
+    CHECK(motion.at(time).left.z() == Approx(1.3));
+  }
+  CHECK(motion.at(0.0).left_velocity.z() == Approx(1.0));
+  CHECK(motion.at(0.301).left_velocity.z() == Approx(-2.0));
+  std::size_t hint = 1;
+  CHECK(motion.at(0.3, hint).left_velocity.z() == Approx(1.0));
+}
+
 TEST_CASE("the last instant still moves, on either side of its rounding") {
   const std::vector<double> times{0.0, 0.1 * 3.0};
   const std::vector<Vector> left{{0.0, 0.3, 1.0}, {0.0, 0.3, 1.3}}, right{{0.0, -0.3, 1.0}, {0.0, -0.3, 1.3}};

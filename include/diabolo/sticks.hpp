@@ -56,7 +56,7 @@ bool is_direction(const Vector3<Scalar>& v) {
 /// How tips are read between the given instants.
 enum class Interpolation {
   kHeld,    ///< each pose is held until the next one (the published program)
-  kLinear,  ///< straight lines
+  kLinear,  ///< straight lines; at an instant the velocity of the line that ends there
   kSpline,  ///< natural cubic spline: continuous velocity and acceleration
 };
 
@@ -145,10 +145,13 @@ class TipMotion {
     if (time > end() + rounding) return pose(last);
     time = std::max(time, begin());
     if (time >= end()) return interpolation_ == Interpolation::kHeld ? pose(last) : between(last - 1, end());
+    // At an instant between two straight lines the tips still move as they came: a step that ends there has
+    // moved them so. As fast as they go on, they would hold a diabolo that flies off.
+    const double came = interpolation_ == Interpolation::kLinear ? std::max(time - rounding, begin()) : time;
     std::size_t i = hint + 1 < times_.size() ? hint : 0;
-    if (times_[i] > time)
-      i = static_cast<std::size_t>(std::ranges::upper_bound(times_, time) - times_.begin()) - 1;
-    while (times_[i + 1] <= time) ++i;
+    if (times_[i] > came)
+      i = static_cast<std::size_t>(std::ranges::upper_bound(times_, came) - times_.begin()) - 1;
+    while (times_[i + 1] <= came) ++i;
     hint = i;
     if (interpolation_ == Interpolation::kHeld) return pose(i);
     return between(i, time);

@@ -19,7 +19,9 @@ from diabolo import (
     StringElasticity,
     StringState,
     TipMotion,
+    hang_at_rest,
     motions,
+    plan_action,
     rollout,
 )
 from hypothesis import given
@@ -44,6 +46,28 @@ def initial_states(count: int, seed: int) -> NDArray[np.float64]:
     position = CENTRE + random.uniform([-0.1, -0.2, -0.6], [0.1, 0.2, -0.2], size=(count, 3))
     velocity = random.normal(scale=0.5, size=(count, 3))
     return np.hstack([position, velocity, random.uniform(-200.0, 200.0, size=(count, 1))])
+
+
+@pytest.mark.parametrize("rate", [250.0, 500.0])
+def test_tips_in_straight_lines_throw_as_smooth_ones_do(rate: float) -> None:
+    """Whatever the rate of the lines, and whether steps end at their instants."""
+    path = plan_action("throw_and_catch").path
+    times = np.arange(path.begin, path.end, 1.0 / rate)
+    left, right, *_ = path.tips().at(times)
+    model = Parameters()
+    start = hang_at_rest(model, left[0], right[0], 100.0)
+    highest = {
+        (how, dt): rollout(
+            model, start.to_array(), TipMotion(times, left, right, how), dt=dt, string_state="on_string"
+        )
+        .states[:, 2]
+        .max()
+        for how in ("linear", "spline")
+        for dt in (1.0 / rate, 0.25 / rate)
+    }
+    assert highest["spline", 1.0 / rate] > 1.9
+    for height in highest.values():
+        assert height == pytest.approx(1.907, abs=0.03), highest  # lines lag behind their curve
 
 
 def step_by_step(
