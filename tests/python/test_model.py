@@ -6,7 +6,7 @@ from pathlib import Path
 
 import diabolo
 import pytest
-from diabolo import Model, Parameters, StringElasticity
+from diabolo import Model, Parameters, StringElasticity, StringFriction
 
 SPRING = StringElasticity.of_stiffness(600.0, damping=2.0)
 
@@ -65,6 +65,8 @@ def test_bad_model_files_are_named(tmp_path: Path) -> None:
 
 
 def test_effects_are_held_to_their_ranges() -> None:
+    with pytest.raises(ValueError, match=r"string_friction coefficient: 9; must be within \[0, 3\]$"):
+        StringFriction(coefficient=9.0)
     with pytest.raises(ValueError, match=r"string_elasticity compliance: -1 m/N; must be within \[0, 1\]"):
         StringElasticity(compliance=-1.0)
     with pytest.raises(ValueError, match="compliance"):

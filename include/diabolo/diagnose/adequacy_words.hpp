@@ -89,8 +89,7 @@ inline std::string learnt_plainly(const Learnt& learnt) {
     if (number.name == "phase") continue;
     const double value = learnt.value[i], reach = kNormal90 * learnt.deviation[i];
     text += (i == 0 ? ": " : ", " + number.name + " ") + three_digits(value) + " [" +
-            three_digits(value - reach) + ", " + three_digits(value + reach) + "]" +
-            (number.unit == "1" ? "" : " " + number.unit);
+            three_digits(value - reach) + ", " + three_digits(value + reach) + "]" + unit_behind(number.unit);
   }
   const bool sure = !learnt.dependence || learnt.dependence->p_value <= kShownDependence;
   return text + (sure ? "" : " (that it depends on this is not shown)");

@@ -27,8 +27,7 @@ inline std::string values_in_words(const Differing& differing, const Diagnosis& 
   const auto [least, most] = std::ranges::minmax_element(values, {}, &Estimate::value);
   std::string text;
   for (const auto& value : {least, most})
-    text += (text.empty() ? ": " : ", ") + three_digits(value->value) +
-            (value->unit == "1" ? "" : " " + value->unit) + " in " +
+    text += (text.empty() ? ": " : ", ") + three_digits(value->value) + unit_behind(value->unit) + " in " +
             differing.alone[static_cast<std::size_t>(value - values.begin())].recording;
   return text;
 }

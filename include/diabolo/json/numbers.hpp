@@ -24,8 +24,8 @@ inline double number_within(const JsonFields& fields, const ParameterInfo& info)
   const std::string name(info.name);
   const double value = fields.number(name);
   if (!(value >= info.minimum && value <= info.maximum))
-    fields.fail(name, "a number within [" + shown(info.minimum) + ", " + shown(info.maximum) + "] " +
-                          std::string(info.unit));
+    fields.fail(name, "a number within [" + shown(info.minimum) + ", " + shown(info.maximum) + "]" +
+                          unit_behind(info.unit));
   return value;
 }
 

@@ -30,6 +30,9 @@ struct ParameterInfo {
   Sought sought{};
 };
 
+/// A unit behind a number; nothing for the unit "1".
+inline std::string unit_behind(std::string_view unit) { return unit == "1" ? "" : " " + std::string(unit); }
+
 /// Throws std::invalid_argument naming the first field of `Fields::for_each` that is out of its range, its
 /// value and the range.
 template <class Scalar, class Fields>
@@ -38,8 +41,8 @@ void validate_fields(const Fields& fields, const std::string& prefix = {}) {
     if (all(field >= Scalar(info.minimum)) && all(field <= Scalar(info.maximum))) return;
     std::ostringstream text;
     text << prefix << info.name << ": ";
-    if constexpr (std::floating_point<Scalar>) text << field << ' ' << info.unit << "; ";
-    text << "must be within [" << info.minimum << ", " << info.maximum << "] " << info.unit;
+    if constexpr (std::floating_point<Scalar>) text << field << unit_behind(info.unit) << "; ";
+    text << "must be within [" << info.minimum << ", " << info.maximum << "]" << unit_behind(info.unit);
     throw std::invalid_argument(text.str());
   });
 }
