@@ -13,7 +13,7 @@
 /// written.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const diabolo::MotiveTake take =
+    const diabolo::TrackedTake take =
         diabolo::read_motive(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz.csv");
     diabolo::Calibration calibration = diabolo::published_calibration();
     if (take.bodies.empty()) return 0;

@@ -126,7 +126,7 @@ inline Recording put_right(Recording recording, double yaw, const ReadOptions& o
 }
 
 /// The recording of rigid bodies, to which `calibration` is applied. Throws RecordingError.
-inline Recording recording_of(MotiveTake take, const Calibration& calibration, const ReadOptions& options) {
+inline Recording recording_of(TrackedTake take, const Calibration& calibration, const ReadOptions& options) {
   const UpAxis up = options.up.value_or(UpAxis{});
   const std::string file_name = take.file_name;
   if (up.axis != 3 || up.mirrored) take = turned_to_z_up(std::move(take), up);

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import files
-from .._core import MotiveTake, Recording, RecordingError
+from .._core import Recording, RecordingError, TrackedTake
 from ..formats import reader_of
 from .arguments import FILE_HELP, Reading, add_calibration, add_command, reading_of
 from .tables import format_table
@@ -169,11 +169,11 @@ def _unseen(bodies: list[dict[str, Any]]) -> list[str]:
     ]
 
 
-def _motive_take(path: str) -> MotiveTake | None:
+def _motive_take(path: str) -> TrackedTake | None:
     with open(path, encoding="utf-8-sig", errors="replace") as file:
         if not file.readline(80).lstrip('"').startswith("Format Version"):
             return None
-    return MotiveTake.load(path)
+    return TrackedTake.load(path)
 
 
 def _body(name: str, valid: NDArray[np.bool_], time: NDArray[np.float64], rate: float) -> dict[str, Any]:

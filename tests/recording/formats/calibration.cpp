@@ -93,13 +93,13 @@ TEST_CASE("Moving the capture frame moves the recording with it") {
   INFO("seed " << seed);
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> draw(-1.0, 1.0);
-  const MotiveTake take = read_motive(motive_text(), "take.csv");
+  const TrackedTake take = read_motive(motive_text(), "take.csv");
   const Calibration calibration = published_calibration();
   const double angle = 3.0 * draw(generator);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
   const Eigen::Vector3d shift(draw(generator), draw(generator), draw(generator));
-  MotiveTake moved = take;
-  for (MotiveBody& body : moved.bodies)
+  TrackedTake moved = take;
+  for (TrackedBody& body : moved.bodies)
     for (Eigen::Index i = 0; i < moved.time.size(); ++i) {
       body.position.col(i) = turn * Eigen::Vector3d(body.position.col(i)) + shift;
       body.quaternion.col(i) = (turn * Eigen::Quaterniond(Eigen::Vector4d(body.quaternion.col(i)))).coeffs();
@@ -117,25 +117,25 @@ TEST_CASE("Moving the capture frame moves the recording with it") {
 }
 
 TEST_CASE("Names of bodies are tried in order, and a missing body is told with all names") {
-  const MotiveTake take = read_motive(motive_text(), "take.csv");
+  const TrackedTake take = read_motive(motive_text(), "take.csv");
   Calibration calibration = published_calibration();
   calibration.left.bodies = {"stick_left_2020_10", "stick_left"};
   CHECK(apply(calibration, take).left.valid.all());
-  MotiveTake other = take;
+  TrackedTake other = take;
   other.bodies[2].name = "stick";
   calibration.right.bodies = {"right", "stick_right_2010_10"};
   CHECK(complaint([&] { apply(calibration, other); }) ==
         "take.csv: no rigid body for the right stick: tried \"right\", \"stick_right_2010_10\"; the file has "
         "\"stick_left\", \"diabolo_red\", \"stick\"");
-  MotiveTake empty = take;
+  TrackedTake empty = take;
   empty.bodies.clear();
   CHECK(complaint([&] { apply(calibration, empty); }).ends_with("the file has none"));
 }
 
 TEST_CASE("A body by a telling name is taken where it is the only one") {
   const Calibration calibration = published_calibration();
-  const MotiveTake take = read_motive(motive_text(), "take.csv");
-  MotiveTake other = take;
+  const TrackedTake take = read_motive(motive_text(), "take.csv");
+  TrackedTake other = take;
   other.bodies[1].name = "Diabolo_blue_2020_10";
   other.bodies[2].name = "stick_right_2010_10";
   const Recording found = apply(calibration, other), given = apply(calibration, take);
@@ -249,8 +249,8 @@ TEST_CASE("The published processed files are reproduced to 1e-11 m") {
 TEST_CASE("The calibration of the blue take is what its own spin shows") {
   const auto folder = test::recordings_folder("the calibration of the blue take");
   if (!folder) return;
-  const MotiveTake take = load_motive(*folder / "2020-11-12_dia_blue_inclination" /
-                                      "Take 2020-11-12 dia_blue inclination data 1 soft linear.csv");
+  const TrackedTake take = load_motive(*folder / "2020-11-12_dia_blue_inclination" /
+                                       "Take 2020-11-12 dia_blue inclination data 1 soft linear.csv");
   const Calibration calibration = blue_calibration();
   const SpinLine line = find_spin_line(take, *body_of_name(take, calibration.diabolo.bodies));
   CHECK((line.point - calibration.diabolo.point).norm() < 1e-5);

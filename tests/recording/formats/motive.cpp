@@ -30,13 +30,13 @@ std::string replace_all(std::string text, const std::string& from, const std::st
 }  // namespace
 
 TEST_CASE("A Motive export is read as it stands") {
-  const MotiveTake take = read_motive(motive_text(), "take.csv");
+  const TrackedTake take = read_motive(motive_text(), "take.csv");
   CHECK(take.file_name == "take.csv");
   CHECK(take.rate == 120.0);
   CHECK(take.frame == std::vector<long>{40, 41, 42});
   CHECK(take.time == Eigen::Vector3d(0.333333, 0.341667, 0.35));
   REQUIRE(take.bodies.size() == 3);
-  const MotiveBody &left = take.bodies[0], &diabolo = take.bodies[1];
+  const TrackedBody &left = take.bodies[0], &diabolo = take.bodies[1];
   CHECK(left.name == "stick_left");
   CHECK(left.valid.all());
   CHECK(left.position.col(2) == Eigen::Vector3d(-0.25, 0.5, 1.02));
@@ -54,11 +54,11 @@ TEST_CASE("A Motive export is read as it stands") {
 }
 
 TEST_CASE("CRLF, a byte order mark, blank lines at the end and padding from a spreadsheet change nothing") {
-  const MotiveTake plain = read_motive(motive_text(), "take.csv");
+  const TrackedTake plain = read_motive(motive_text(), "take.csv");
   const std::string padded = replaced(motive_text(), "Global\n\n", "Global,,,\n,,,\n");
   for (const std::string& text : {replace_all(motive_text(), "\n", "\r\n"), "\xef\xbb\xbf" + motive_text(),
                                   motive_text() + "\n\n", padded}) {
-    const MotiveTake take = read_motive(text, "take.csv");
+    const TrackedTake take = read_motive(text, "take.csv");
     CHECK(take.time == plain.time);
     CHECK(take.bodies[0].position == plain.bodies[0].position);
     CHECK(take.bodies[2].quaternion == plain.bodies[2].quaternion);
@@ -86,7 +86,7 @@ TEST_CASE("Error and quality columns are skipped, whatever they are called") {
   text = replaced(text, ",,,\n42", ",,,,,\n42");
   text = replaced(text, "0.99,,,,,\n", "0.99,,,,,,\n");
   text = replaced(text, "0.1,0.2,0.35\n", "0.1,0.2,0.35,0.0001,1.000,2\n");
-  const MotiveTake take = read_motive(text, "take.csv");
+  const TrackedTake take = read_motive(text, "take.csv");
   CHECK(take.bodies.size() == 3);
   CHECK(take.markers.size() == 1);
 }
@@ -102,7 +102,7 @@ TEST_CASE("Solved and measured markers of one name are told apart") {
   text = replaced(text, ",0.1,0.2,0.3\n", ",0.1,0.2,0.3,1,2,3\n");
   text = replaced(text, ",,,\n42", ",,,,1,2,3\n42");
   text = replaced(text, "0.1,0.2,0.35\n", "0.1,0.2,0.35,1,2,3\n");
-  const MotiveTake take = read_motive(text, "take.csv");
+  const TrackedTake take = read_motive(text, "take.csv");
   REQUIRE(take.markers.size() == 2);
   CHECK(take.markers[0].measured);
   CHECK(!take.markers[1].measured);
@@ -111,7 +111,7 @@ TEST_CASE("Solved and measured markers of one name are told apart") {
 }
 
 TEST_CASE("Rounded quaternions are normalised, wrong ones refused") {
-  const MotiveTake take =
+  const TrackedTake take =
       read_motive(replaced(motive_text(), ",0.6,0.8,0,0,", ",0.6,0.8004,0,0,"), "take.csv");
   CHECK(take.bodies[1].quaternion.col(2).norm() == Approx(1.0).epsilon(1e-15));
   CHECK(motive_says_of(",0.6,0.8,0,0,", ",0.3,0.4,0,0,") ==
@@ -162,7 +162,7 @@ TEST_CASE("Of a file that is cut off the whole lines are read, with one note") {
       CHECK(motive_says(part).starts_with("take.csv"));
       continue;
     }
-    const MotiveTake take = read_motive(part, "take.csv");
+    const TrackedTake take = read_motive(part, "take.csv");
     const long lines = std::count(part.begin() + static_cast<std::ptrdiff_t>(first), part.end(), '\n');
     CHECK(take.frame.size() == static_cast<std::size_t>(lines));
     CHECK(take.time.size() == lines);
@@ -262,7 +262,7 @@ TEST_CASE("A million columns take bounded work") {
       "Format Version,1.22,Export Frame Rate,120,Total Exported Frames,2,Rotation Type,Quaternion,"
       "Length Units,Meters,Coordinate Space,Global\n\n" +
       types + "\n" + names + "\n" + names + "\n" + kinds + "\n" + axes + "\n";
-  const MotiveTake take = read_motive(header + "0,0" + cells + "\n1,0.008333" + cells + "\n", "take.csv");
+  const TrackedTake take = read_motive(header + "0,0" + cells + "\n1,0.008333" + cells + "\n", "take.csv");
   CHECK(take.markers.size() == 333'333);
   // As many lines without cells: the room that they would need is never asked for.
   CHECK(motive_says(header + "0,0" + cells + "\n" + std::string(1'000'000, '\n') + "1\n") ==
@@ -287,11 +287,11 @@ TEST_CASE("Every published take is read") {
         path.find("/published/") != path.npos)
       continue;
     INFO(path);
-    const MotiveTake take = load_motive(path);
+    const TrackedTake take = load_motive(path);
     ++takes;
     CHECK(!take.bodies.empty());
     CHECK(take.frame.back() - take.frame.front() + 1 == static_cast<long>(take.frame.size()));
-    for (const MotiveBody& body : take.bodies) CHECK(body.valid.count() > 0);
+    for (const TrackedBody& body : take.bodies) CHECK(body.valid.count() > 0);
   }
   CHECK(takes > 0);
 }

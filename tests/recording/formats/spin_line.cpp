@@ -13,18 +13,18 @@ using test::complaint;
 namespace {
 
 /// A body that spins about a line (unit axis through a point of its frame) that swings and yaws.
-MotiveTake spinning(const Eigen::Vector3d& axis, const Eigen::Vector3d& point, double spin, double noise,
-                    std::uint32_t seed) {
+TrackedTake spinning(const Eigen::Vector3d& axis, const Eigen::Vector3d& point, double spin, double noise,
+                     std::uint32_t seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> normal(0.0, noise);
   const Eigen::Index size = 600;
-  MotiveTake take;
+  TrackedTake take;
   take.file_name = "take.csv";
   take.rate = 120.0;
   take.time.resize(size);
   take.bodies.push_back(
       {"diabolo", Eigen::Matrix4Xd(4, size), Eigen::Matrix3Xd(3, size), Marks::Constant(size, true)});
-  MotiveBody& body = take.bodies[0];
+  TrackedBody& body = take.bodies[0];
   for (Eigen::Index i = 0; i < size; ++i) {
     const double time = static_cast<double>(i) / 120.0;
     take.frame.push_back(i);
@@ -48,7 +48,7 @@ TEST_CASE("A spin line is found again, also under noise and between dropouts") {
   const Eigen::Vector3d axis = Eigen::Vector3d(0.99, -0.05, 0.1).normalized();
   const Eigen::Vector3d point =
       Eigen::Vector3d(0.0, 0.02, 0.01) - Eigen::Vector3d(0.0, 0.02, 0.01).dot(axis) * axis;
-  MotiveTake take = spinning(axis, point, 100.0, 0.0, seed);
+  TrackedTake take = spinning(axis, point, 100.0, 0.0, seed);
   SpinLine line = find_spin_line(take, take.bodies[0]);
   CHECK((line.axis - axis).norm() < 2e-3);
   CHECK((line.point - point).norm() < 1e-4);
@@ -64,10 +64,10 @@ TEST_CASE("A spin line is found again, also under noise and between dropouts") {
 }
 
 TEST_CASE("A body that rests shows no spin line") {
-  const MotiveTake take = spinning(Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 0.0, 1e-4, 1);
+  const TrackedTake take = spinning(Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 0.0, 1e-4, 1);
   CHECK(complaint([&] { find_spin_line(take, take.bodies[0]); }) ==
         "take.csv: \"diabolo\" does not spin enough to show its axis");
-  MotiveTake missing = spinning(Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 100.0, 0.0, 1);
+  TrackedTake missing = spinning(Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 100.0, 0.0, 1);
   missing.bodies[0].valid.setConstant(false);
   CHECK(complaint([&] { find_spin_line(missing, missing.bodies[0]); }).ends_with("to show its axis"));
 }
@@ -81,7 +81,7 @@ TEST_CASE(
   for (const char* name :
        {"y_swing_2", "z_hop_1", "z_hop_2", "acceleration_1", "right_hand_extend_1", "throw_1"}) {
     INFO(name);
-    const MotiveTake take = load_motive(*folder / "2020-07-11_basic_physics" / (std::string(name) + ".csv"));
+    const TrackedTake take = load_motive(*folder / "2020-07-11_basic_physics" / (std::string(name) + ".csv"));
     const SpinLine line = find_spin_line(take, *body_of_name(take, red.bodies));
     CHECK((line.point - point).norm() < 2e-3);
     CHECK((line.axis + red.axis).norm() < 0.5 * std::numbers::pi / 180.0);

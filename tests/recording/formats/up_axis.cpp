@@ -73,10 +73,10 @@ TEST_CASE("Another axis up is refused with the way to read it, and read so it is
 TEST_CASE("The real takes are read as before, and turned ones are refused by the capture's axis") {
   const auto folder = test::recordings_folder("turned takes");
   if (!folder) return;
-  const MotiveTake take = load_motive(*folder / "2020-07-11_basic_physics/z_hop_1.csv");
-  MotiveTake y_up = take;
+  const TrackedTake take = load_motive(*folder / "2020-07-11_basic_physics/z_hop_1.csv");
+  TrackedTake y_up = take;
   Eigen::Matrix4Xd none(4, 0);
-  for (MotiveBody& body : y_up.bodies)
+  for (TrackedBody& body : y_up.bodies)
     recording_formats_detail::turn_frame(turn_to_z_up({2, false}).transpose(), body.position,
                                          body.quaternion);
   const Calibration calibration = published_calibration();

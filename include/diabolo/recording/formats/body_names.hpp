@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/formats/tracked_take.hpp"
 #include "diabolo/text/error.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -22,9 +22,9 @@ struct WantedBody {
 };
 
 /// The first body of a take that has one of the names; null for none.
-inline const MotiveBody* body_of_name(const MotiveTake& take, const std::vector<std::string>& names) {
+inline const TrackedBody* body_of_name(const TrackedTake& take, const std::vector<std::string>& names) {
   for (const std::string& wanted : names)
-    for (const MotiveBody& body : take.bodies)
+    for (const TrackedBody& body : take.bodies)
       if (body.name == wanted) return &body;
   return nullptr;
 }
@@ -47,15 +47,16 @@ inline std::string listed(const std::vector<std::string>& names) {
 /// The bodies of a take that are wanted: by name, else the only one that has no wanted name but a telling
 /// one, such as "stick_right_2010_10" for the right stick; a note says so. Throws RecordingError that names
 /// the choices where there are several, and all bodies where there is none.
-inline std::array<const MotiveBody*, 3> find_bodies(const std::array<WantedBody, 3>& wanted,
-                                                    const MotiveTake& take, std::vector<std::string>& notes) {
-  std::array<const MotiveBody*, 3> found;
+inline std::array<const TrackedBody*, 3> find_bodies(const std::array<WantedBody, 3>& wanted,
+                                                     const TrackedTake& take,
+                                                     std::vector<std::string>& notes) {
+  std::array<const TrackedBody*, 3> found;
   for (std::size_t k = 0; k < 3; ++k) found[k] = body_of_name(take, wanted[k].names);
-  const std::array<const MotiveBody*, 3> named = found;
+  const std::array<const TrackedBody*, 3> named = found;
   for (std::size_t k = 0; k < 3; ++k) {
     if (named[k] != nullptr) continue;
     std::vector<std::string> choices, all;
-    for (const MotiveBody& body : take.bodies) {
+    for (const TrackedBody& body : take.bodies) {
       all.push_back(body.name);
       if (std::ranges::find(named, &body) != named.end()) continue;
       std::size_t words = 0;

@@ -13,7 +13,7 @@
 
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/formats/body_names.hpp"
-#include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/formats/tracked_take.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/error.hpp"
 #include "diabolo/text/shown.hpp"
@@ -139,8 +139,8 @@ inline Eigen::Quaterniond turn_from_x(const Eigen::Vector3d& axis) {
 }
 
 /// The left stick's, the right stick's and the diabolo's body; see above.
-inline std::array<const MotiveBody*, 3> find_bodies(const Calibration& calibration, const MotiveTake& take,
-                                                    std::vector<std::string>& notes) {
+inline std::array<const TrackedBody*, 3> find_bodies(const Calibration& calibration, const TrackedTake& take,
+                                                     std::vector<std::string>& notes) {
   return find_bodies({{{calibration.left.bodies, "the left stick", "left"},
                        {calibration.right.bodies, "the right stick", "right"},
                        {calibration.diabolo.bodies, "the diabolo", "diabolo"}}},
@@ -150,11 +150,11 @@ inline std::array<const MotiveBody*, 3> find_bodies(const Calibration& calibrati
 /// The recording that a take shows under a calibration: the bodies' points and axes, in the world frame.
 /// It is named after the take's file. Throws RecordingError where a body is missing or the calibration is
 /// unusable.
-inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
+inline Recording apply(const Calibration& calibration, const TrackedTake& take) {
   check_calibration(calibration, "calibration");
   const Eigen::Quaterniond yaw(Eigen::AngleAxisd(calibration.world_yaw, Eigen::Vector3d::UnitZ()));
   const Eigen::Index size = take.time.size();
-  const auto transform = [&](const BodyPoint& part, const MotiveBody& body, Track& track,
+  const auto transform = [&](const BodyPoint& part, const TrackedBody& body, Track& track,
                              OrientationTrack& orientation) {
     // Any rotation that takes body x to the axis would do; this one turns least.
     const Eigen::Quaterniond to_axis = turn_from_x(part.axis);
@@ -179,12 +179,13 @@ inline Recording apply(const Calibration& calibration, const MotiveTake& take) {
     }
   };
   Recording result;
+  result.file = take.file_name;
   result.name = std::filesystem::path(take.file_name).stem().string();
   result.rate = take.rate;
   result.frame = take.frame;
   result.time = take.time;
   result.notes = take.notes;
-  const std::array<const MotiveBody*, 3> bodies = find_bodies(calibration, take, result.notes);
+  const std::array<const TrackedBody*, 3> bodies = find_bodies(calibration, take, result.notes);
   transform(calibration.left, *bodies[0], result.left, result.left_orientation);
   transform(calibration.right, *bodies[1], result.right, result.right_orientation);
   transform(calibration.diabolo, *bodies[2], result.diabolo, result.diabolo_orientation);

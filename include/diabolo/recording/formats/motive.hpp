@@ -17,40 +17,13 @@
 
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/formats/row_times.hpp"
+#include "diabolo/recording/formats/tracked_take.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/csv.hpp"
 #include "diabolo/text/error.hpp"
 #include "diabolo/text/file.hpp"
 
 namespace diabolo {
-
-/// A rigid body that was tracked over N samples, in the frame of the motion capture.
-struct MotiveBody {
-  std::string name;
-  Eigen::Matrix4Xd quaternion;  ///< x, y, z, w; 4 x N, body to capture frame, unit; NaN in a dropout; 4 x 0
-                                ///< where only a point was tracked
-  Eigen::Matrix3Xd position;    ///< of the body's origin [m], 3 x N; NaN in a dropout
-  Marks valid;                  ///< N; false marks a dropout
-};
-
-/// A single marker over N samples, in the frame of the motion capture.
-struct MotiveMarker {
-  std::string name;
-  bool measured;  ///< true: as the cameras saw it ("Marker"); false: as the solved body carries it
-  Eigen::Matrix3Xd position;  ///< [m], 3 x N; NaN in a dropout
-  Marks valid;                ///< N; false marks a dropout
-};
-
-/// A take as OptiTrack Motive exports it, with nothing interpreted.
-struct MotiveTake {
-  std::string file_name;
-  double rate = 0.0;        ///< export frame rate [Hz]
-  std::vector<long> frame;  ///< strictly increasing, from any number
-  Eigen::VectorXd time;     ///< [s], strictly increasing
-  std::vector<MotiveBody> bodies;
-  std::vector<MotiveMarker> markers;
-  std::vector<std::string> notes;  ///< what its reader changed or took for granted, a clause each
-};
 
 /// The first cell of a Motive export, by which it is recognised.
 inline constexpr std::string_view kMotiveMark = "Format Version";
@@ -63,7 +36,7 @@ class MotiveReader {
     take_.file_name = file_name;
   }
 
-  MotiveTake read() && {
+  TrackedTake read() && {
     read_take_line();
     read_columns();
     read_rows();
@@ -195,7 +168,7 @@ class MotiveReader {
       read_frame_and_time(i);
       for (std::size_t b = 0; b < body_columns_.size(); ++b) read_body(body_columns_[b], take_.bodies[b], i);
       for (std::size_t m = 0; m < marker_columns_.size(); ++m) {
-        MotiveMarker& marker = take_.markers[m];
+        TrackedMarker& marker = take_.markers[m];
         marker.valid[i] = read_position(marker_columns_[m], marker.position, i);
       }
     }
@@ -223,7 +196,7 @@ class MotiveReader {
     take_.time[i] = times_.next(row_[1]);
   }
 
-  void read_body(const Columns& columns, MotiveBody& body, Eigen::Index i) {
+  void read_body(const Columns& columns, TrackedBody& body, Eigen::Index i) {
     body.valid[i] = read_position(columns, body.position, i);
     for (std::size_t k = 0; k < 4; ++k) {
       body.quaternion(static_cast<Eigen::Index>(k), i) = row_[columns.at[k]];
@@ -255,7 +228,7 @@ class MotiveReader {
 
   CsvReader csv_;
   RowTimes times_;
-  MotiveTake take_;
+  TrackedTake take_;
   double units_per_metre_ = 1.0;
   double declared_rows_ = 0.0;
   std::vector<Columns> body_columns_, marker_columns_;
@@ -267,12 +240,12 @@ class MotiveReader {
 /// byte order mark are fine. Throws RecordingError with file, line and what was expected: about anything
 /// else, and about whatever would make a value doubtful (non-unit quaternions, times that do not increase,
 /// other rotations or units). A file that is cut off is read as far as its lines are whole, with a note.
-inline MotiveTake read_motive(std::string_view text, const std::string& file_name) {
+inline TrackedTake read_motive(std::string_view text, const std::string& file_name) {
   return MotiveReader(text, file_name).read();
 }
 
 /// Reads a Motive CSV file; see read_motive().
-inline MotiveTake load_motive(const std::filesystem::path& path) {
+inline TrackedTake load_motive(const std::filesystem::path& path) {
   return read_motive(read_file(path), path.string());
 }
 

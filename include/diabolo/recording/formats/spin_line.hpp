@@ -8,7 +8,7 @@
 
 #include "diabolo/math/solve_symmetric.hpp"
 #include "diabolo/recording/dropouts.hpp"
-#include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/formats/tracked_take.hpp"
 #include "diabolo/text/error.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -26,7 +26,7 @@ struct SpinLine {
 /// the turns from frame to frame; the point is the one whose path has the least second difference (least
 /// squares), since points off the line circle about it. Frames within two of a dropout are left out. Throws
 /// RecordingError where fewer than ten frames remain or the body does not spin.
-inline SpinLine find_spin_line(const MotiveTake& take, const MotiveBody& body) {
+inline SpinLine find_spin_line(const TrackedTake& take, const TrackedBody& body) {
   const Marks usable = widen_dropouts(body.valid, 2);
   const auto rotation = [&body](Eigen::Index i) {
     return Eigen::Quaterniond(Eigen::Vector4d(body.quaternion.col(i))).toRotationMatrix();

@@ -43,7 +43,8 @@ class TidyReader {
     const Eigen::Index size =
         std::min(csv_.lines_left(), static_cast<std::ptrdiff_t>(csv_.bytes_left() / row_.size()) + 1);
     Recording result;
-    result.name = std::filesystem::path(csv_.file()).stem().string();
+    result.file = csv_.file();
+    result.name = std::filesystem::path(result.file).stem().string();
     result.rate = metadata.rate;
     result.properties = metadata.properties;
     result.string_length = metadata.string_length;
@@ -194,8 +195,7 @@ inline Recording read_tidy(std::string_view text, const std::string& file_name, 
 /// Throws RecordingError where `recording` is not what its type promises.
 inline std::string write_tidy(const Recording& recording) {
   check_recording(recording);
-  if (recording.size() == 0)
-    throw RecordingError("recording " + shown(recording.name) + ": no samples to write");
+  if (recording.size() == 0) throw RecordingError(recording.title() + ": no samples to write");
   const bool left = !recording.left_orientation.empty(), right = !recording.right_orientation.empty();
   std::string text;
   for (std::size_t k = 0; k < kTidyColumns.size(); ++k)

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/formats/tracked_take.hpp"
 #include "diabolo/recording/plausibility/odd_tips.hpp"
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
 #include "diabolo/recording/recording.hpp"
@@ -101,12 +101,13 @@ inline Recording turned_to_face_forward(Recording r) {
 }
 
 /// The take with z up, of one in which another axis points up; the bodies' own frames stay.
-inline MotiveTake turned_to_z_up(MotiveTake take, const UpAxis& up) {
+inline TrackedTake turned_to_z_up(TrackedTake take, const UpAxis& up) {
   const Eigen::Matrix3d turn = turn_to_z_up(up);
   Eigen::Matrix4Xd none(4, 0);
-  for (MotiveBody& body : take.bodies)
+  for (TrackedBody& body : take.bodies)
     recording_formats_detail::turn_frame(turn, body.position, body.quaternion);
-  for (MotiveMarker& marker : take.markers) recording_formats_detail::turn_frame(turn, marker.position, none);
+  for (TrackedMarker& marker : take.markers)
+    recording_formats_detail::turn_frame(turn, marker.position, none);
   return take;
 }
 
