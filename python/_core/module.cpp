@@ -17,7 +17,11 @@ PYBIND11_MODULE(_core, module) {
   bind_residual_force(module);
   bind_model(module);
   bind_state(module);
+  bind_calibration(module);
   bind_recording(module);
+  bind_tracked_take(module);
+  bind_recording_file(module);
+  bind_played_recording(module);
   bind_spheroid(module);
   bind_tip_motion(module);
   bind_predictor(module);

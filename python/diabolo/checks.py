@@ -117,7 +117,7 @@ def check_distinct(recordings: Sequence[Recording], *, parts: bool) -> None:
             for track in ("left", "right", "diabolo")
         ):
             raise ValueError(
-                f"recordings: '{a.name}' and '{b.name}' hold the same {len(times)} samples, from "
+                f"recordings: {a.title} and {b.title} hold the same {len(times)} samples, from "
                 f"{times[0]:g} to {times[-1]:g} s; expected each once, since it would count twice"
             )
 

@@ -205,6 +205,38 @@ def test_bad_arrays_are_refused(played: Recording) -> None:
         DiaboloProperties(-1.0, 0.1, 0.1)
 
 
+def test_what_nobody_gives_of_the_set_up_is_assumed(played: Recording) -> None:
+    arrays = (played.time, played.left, played.right, played.diabolo, 120.0)
+    red = DiaboloProperties.red()
+    assert Recording(*arrays).assumed == ["string_length", "diabolo"]
+    assert Recording(*arrays, string_length=1.46).assumed == ["diabolo"]
+    assert Recording(*arrays, properties=red).assumed == ["string_length"]
+    assert Recording(*arrays, string_length=1.46, properties=red).assumed == []
+    bare = Recording(*arrays)
+    assert (bare.string_length, bare.properties.mass) == (1.46, 0.2845)
+    assert any("kg) are assumed: no file, calibration or argument tells" in one for one in bare.warnings())
+    assert pickle.loads(pickle.dumps(bare)).assumed == bare.assumed
+
+
+def test_sentences_name_the_file_of_a_recording(played: Recording, tmp_path: Path) -> None:
+    path = tmp_path / "take.csv"
+    played.save(path)
+    read = load_recording(path)
+    assert (read.title, played.title) == (str(path), 'recording "played"')
+    assert pickle.loads(pickle.dumps(read)).title == read.resample(100.0).title == str(path)
+    with pytest.raises(RecordingError, match=rf"cut of {re.escape(str(path))}: rows 0 to 999; expected"):
+        read.cut(0, 999)
+    with pytest.raises(ValueError, match=rf"recordings: {re.escape(str(path))} and .* hold the same 481"):
+        diabolo.evaluate([read, path])
+
+
+@pytest.mark.parametrize("given", [5, ["time=t"], {"time": 5}, {5: "t"}])
+def test_columns_that_are_no_names_are_refused(given: object, played: Recording, tmp_path: Path) -> None:
+    played.save(tmp_path / "take.csv")
+    with pytest.raises(ValueError, match=r"^columns: .*; expected time=NAME\[UNIT\],... or a dict of such"):
+        load_recording(tmp_path / "take.csv", columns=given)  # type: ignore[arg-type]
+
+
 def test_bad_files_are_named(played: Recording, tmp_path: Path) -> None:
     path = tmp_path / "bad.csv"
     with pytest.raises(RecordingError, match=r"bad\.csv: there is no such file"):

@@ -45,7 +45,7 @@ inline Eigen::Index first_start(const Recording& recording, const StartStates& s
     right = right || recording.right.valid[i];
     if (left && right && starts.known(Start::kPublished, i)) return i;
   }
-  throw RecordingError("recording " + shown(recording.name) +
+  throw RecordingError(recording.title() +
                        ": no two successive rows with the diabolo, and both tips, to start from");
 }
 
@@ -74,7 +74,7 @@ inline ExcerptScore score_excerpt(const Recording& recording, const Model& model
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = score.start_row + 1; i + 1 < recording.size(); ++i)
     if (recording.diabolo.valid[i] && recording.diabolo.valid[i - 1]) rows.push_back(i);
-  if (rows.empty()) throw RecordingError("recording " + shown(recording.name) + ": no row to compare");
+  if (rows.empty()) throw RecordingError(recording.title() + ": no row to compare");
   score.scored = static_cast<Eigen::Index>(rows.size());
   score.skipped = recording.size() - 2 - score.start_row - score.scored;
   const double start_time = times[score.start_row];

@@ -34,7 +34,7 @@ struct Prediction {
 inline State<double> start_state(const Recording& recording, const StartStates& starts, Start start,
                                  Eigen::Index row) {
   const auto fail = [&](const std::string& why) {
-    throw std::invalid_argument("recording " + shown(recording.name) + ": row " + std::to_string(row) + why);
+    throw std::invalid_argument(recording.title() + ": row " + std::to_string(row) + why);
   };
   if (row < 0 || row >= recording.size()) fail("; expected 0 to " + std::to_string(recording.size() - 1));
   if (!starts.known(start, row))

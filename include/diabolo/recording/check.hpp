@@ -152,7 +152,7 @@ inline void check_track(const OrientationTrack& track, Eigen::Index size, const 
 /// Throws RecordingError unless `recording` is what its type promises. Readers only return such recordings;
 /// writers and filters check those made by hand.
 inline void check_recording(const Recording& recording) {
-  const std::string where = "recording " + shown(recording.name);
+  const std::string where = recording.title();
   const Eigen::Index size = recording.size();
   if (static_cast<Eigen::Index>(recording.frame.size()) != size)
     throw RecordingError(where + ": " + std::to_string(recording.frame.size()) + " frame numbers and " +

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diabolo/text/error.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
@@ -74,6 +75,10 @@ struct Recording {
   std::vector<std::string> assumed;               ///< those of kAssumable that no file told
   double clock = 0.0;              ///< of laws in time, at sample 0 [s]: a part keeps that of the whole
   std::vector<std::string> notes;  ///< what its reader changed or took for granted, a clause each
+  std::string file;                ///< that it was read from; empty where it is of none
+
+  /// What messages call it.
+  std::string title() const { return file.empty() ? "recording " + shown(name) : file; }
 
   Eigen::Index size() const { return time.size(); }
 
@@ -87,7 +92,7 @@ struct Recording {
 /// Rows first to last, both included. Throws RecordingError where the recording lacks them.
 inline Recording cut(const Recording& recording, Eigen::Index first, Eigen::Index last) {
   if (first < 0 || last < first || last >= recording.size())
-    throw RecordingError("cut of " + recording.name + ": rows " + std::to_string(first) + " to " +
+    throw RecordingError("cut of " + recording.title() + ": rows " + std::to_string(first) + " to " +
                          std::to_string(last) + "; expected 0 <= first <= last < " +
                          std::to_string(recording.size()));
   const Eigen::Index n = last - first + 1;

@@ -28,7 +28,7 @@ inline constexpr double kSameInstant = 2e-6;
 inline Recording resample(const Recording& recording, const Eigen::VectorXd& times) {
   check_recording(recording);
   const Eigen::Index size = times.size(), last = recording.size() - 1;
-  const std::string where = "resampling of " + shown(recording.name);
+  const std::string where = "resampling of " + recording.title();
   if (last < 0) throw RecordingError(where + ": the recording has no samples");
   Recording result = recording;
   result.time = times;
@@ -90,12 +90,11 @@ inline Recording resample(const Recording& recording, const Eigen::VectorXd& tim
 
 /// The recording at another rate [Hz], from its first to its last sample; see above.
 inline Recording resample(const Recording& recording, double rate) {
-  check_rate(rate, {}, "resampling of " + shown(recording.name));
+  check_rate(rate, {}, "resampling of " + recording.title());
   if (recording.size() == 0) return resample(recording, Eigen::VectorXd());
   const double start = recording.time[0], duration = recording.time[recording.size() - 1] - start;
   const double steps = std::floor((duration + kSameInstant) * rate);
-  if (!(steps < 1e9))
-    throw RecordingError("resampling of " + shown(recording.name) + ": more than 1e9 samples");
+  if (!(steps < 1e9)) throw RecordingError("resampling of " + recording.title() + ": more than 1e9 samples");
   Eigen::VectorXd times(static_cast<Eigen::Index>(steps) + 1);
   for (Eigen::Index k = 0; k < times.size(); ++k) times[k] = start + static_cast<double>(k) / rate;
   Recording result = resample(recording, times);

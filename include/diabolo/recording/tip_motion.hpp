@@ -53,7 +53,7 @@ inline TipSpan tip_span(const Track& tip, const Recording& recording, const char
   while (span.first <= span.last && !tip.valid[span.first]) ++span.first;
   while (span.first <= span.last && !tip.valid[span.last]) --span.last;
   if (span.first > span.last)
-    throw RecordingError("recording " + shown(recording.name) + ": the " + side + " tip is never seen");
+    throw RecordingError(recording.title() + ": the " + side + " tip is never seen");
   return span;
 }
 
@@ -96,8 +96,7 @@ class RecordedTips {
     left_ = fill_gaps(recording.left, tip_span(recording.left, recording, "left"), times_, interpolation);
     right_ = fill_gaps(recording.right, tip_span(recording.right, recording, "right"), times_, interpolation);
     if (!(left_.valid && right_.valid).any())
-      throw RecordingError("recording " + shown(recording.name) +
-                           ": the tips are never seen at the same time");
+      throw RecordingError(recording.title() + ": the tips are never seen at the same time");
     if (interpolation != Interpolation::kHeld)
       whole_ = std::make_shared<TipMotion<double>>(through(0, recording.size() - 1));
   }

@@ -127,7 +127,7 @@ struct Velocity {
 inline Velocity velocity(const Recording& recording, const Track& track, const VelocityFilter& filter) {
   check_recording(recording);
   const Eigen::Index size = recording.size(), length = filter.weight.size();
-  check_track(track, size, "track of " + shown(recording.name));
+  check_track(track, size, "track of " + recording.title());
   Velocity result{Eigen::Matrix3Xd::Constant(3, size, kNaN), Marks::Constant(size, false)};
   Eigen::Index usable = 0;  // frames without a gap, up to and with `last`
   for (Eigen::Index last = 0; last < size; ++last) {

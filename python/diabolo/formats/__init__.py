@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 
 from .. import _core
@@ -55,6 +56,10 @@ def load_recording(
         instance_of("calibration", calibration, Calibration)
     if not isinstance(up, str | None):
         raise ValueError(f"up: {shown(up)}; expected the name of an axis")
+    if not isinstance(columns, str | Mapping | None) or (
+        isinstance(columns, Mapping) and not all(isinstance(one, str) for one in chain(*columns.items()))
+    ):
+        raise ValueError(f"columns: {shown(columns)}; expected time=NAME[UNIT],... or a dict of such names")
     reader = reader_of(path)
     if reader in (None, *NAMED_IN_TEXT):
         _check_text(path)

@@ -49,11 +49,11 @@ TEST_CASE("what no file tells of the set-up is told once") {
   Recording untold = swing();
   untold.assumed = {"string_length", "diabolo"};
   CHECK(only_warning(untold) ==
-        "the string's length (1.46 m) and the diabolo (0.2845 kg) are assumed: neither the file nor a "
-        "calibration tells them");
+        "the string's length (1.46 m) and the diabolo (0.2845 kg) are assumed: no file, calibration or "
+        "argument tells them");
   untold.assumed = {"diabolo"};
   CHECK(only_warning(untold) ==
-        "the diabolo (0.2845 kg) is assumed: neither the file nor a calibration tells it");
+        "the diabolo (0.2845 kg) is assumed: no file, calibration or argument tells it");
 }
 
 TEST_CASE("a tip that is long unseen is named, with the time") {

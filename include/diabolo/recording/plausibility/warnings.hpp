@@ -38,7 +38,7 @@ inline std::string assumed_setup(const Recording& recording) {
   const bool is_one = recording.assumed.size() == 1;
   return what.empty() ? what
                       : what + (is_one ? " is" : " are") +
-                            " assumed: neither the file nor a calibration tells " + (is_one ? "it" : "them");
+                            " assumed: no file, calibration or argument tells " + (is_one ? "it" : "them");
 }
 
 /// What its reader changed in a recording, and what is odd about it although it is well formed: each a clause
