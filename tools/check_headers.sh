@@ -18,7 +18,7 @@ headers() {
     if [ -f "$own" ] && [ "$(grep -m 1 '^#include' "$own")" = "#include \"${header#include/}\"" ]; then
       continue
     fi
-    case $header in include/diabolo/json/*) [ -d /usr/include/nlohmann ] || continue ;; esac
+    case $header in include/diabolo/json/* | include/diabolo/hosts/string_attributes.hpp) [ -d /usr/include/nlohmann ] || continue ;; esac
     echo "$header"
   done < <(find include/diabolo -name '*.hpp' | sort)
 }

@@ -31,8 +31,8 @@ BANDS: tuple[tuple[str, ...], ...] = (
     ("paper", "effects", "recording", "recording/formats", "recording/plausibility"),
     ("verbs", "batch"),
     ("evaluate",),
-    ("diagnose", "plan", "learn", "estimate", "hosts", "robot/arm", "robot/motion", "robot/control"),  # uses
-    ("json",),
+    ("diagnose", "plan", "learn", "estimate", "robot/arm", "robot/motion", "robot/control"),  # uses
+    ("json", "hosts"),
     ("umbrella",),
 )
 BAND_OF = {room: band for band, rooms in enumerate(BANDS) for room in rooms}

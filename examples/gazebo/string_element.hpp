@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "diabolo/json/string_attributes.hpp"
+#include "diabolo/hosts/string_attributes.hpp"
 
 namespace diabolo_gazebo {
 

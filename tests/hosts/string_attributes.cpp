@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/json/string_attributes.hpp"
+#include "diabolo/hosts/string_attributes.hpp"
 
 #include <algorithm>
 #include <map>
