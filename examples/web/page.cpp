@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 
 #include "diabolo/full_predictor.hpp"
+#include "diabolo/hosts/follow_pointers.hpp"
 #include "diabolo/json/agent_file.hpp"
 #include "diabolo/learn/live_agent.hpp"
 #include "diabolo/model.hpp"
@@ -21,10 +21,6 @@ namespace {
 using namespace diabolo;
 
 constexpr double kDt = 1e-3, kSpin = 60.0;
-
-/// The hands follow the pointers as a weight on a critically damped spring does, within a person's limits; so
-/// they do in `diabolo simulate --live`.
-constexpr double kFollow = 22.0, kFastest = 4.0, kHardest = 60.0;  // [1/s], [m/s], [m/s^2]
 
 struct World {
   Model model = consistent_model();
@@ -57,34 +53,6 @@ struct World {
     reset();
   }
 
-  Tips<double> tips() const {
-    Tips<double> result;
-    result.left = hands.position[0];
-    result.right = hands.position[1];
-    result.left_velocity = hands.velocity[0];
-    result.right_velocity = hands.velocity[1];
-    result.time = time;
-    return result;
-  }
-
-  /// Moves the hands by a step towards where the pointers are.
-  void follow(const std::array<Vector3<double>, 2>& wanted) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      Vector3<double> pull =
-          kFollow * kFollow * (wanted[side] - hands.position[side]) - 2.0 * kFollow * hands.velocity[side];
-      pull *= std::min(1.0, kHardest / std::max(pull.norm(), 1e-9));
-      hands.velocity[side] += pull * kDt;
-      hands.velocity[side] *= std::min(1.0, kFastest / std::max(hands.velocity[side].norm(), 1e-9));
-    }
-    const Vector3<double> apart =
-        hands.position[0] - hands.position[1] + (hands.velocity[0] - hands.velocity[1]) * kDt;
-    const double torn =
-        std::max(0.0, 1.0 - 0.995 * model.parameters.string_length / std::max(apart.norm(), 1e-9));
-    hands.velocity[0] -= 0.5 * torn / kDt * apart;  // what would tear the string is taken out
-    hands.velocity[1] += 0.5 * torn / kDt * apart;
-    for (std::size_t side = 0; side < 2; ++side) hands.position[side] += hands.velocity[side] * kDt;
-  }
-
   /// Moves the hands by a step of what the agent does.
   void obey() {
     if (time >= begun + agent->agent().period - 0.5 * kDt) {
@@ -101,13 +69,13 @@ struct World {
   }
 
   void step(const std::array<Vector3<double>, 2>& wanted) {
-    const Tips<double> begin = tips();
+    const Tips<double> begin = tips_of(hands, time);
     if (agent)
       obey();
     else
-      follow(wanted);
+      follow_pointers(hands, wanted, model.parameters.string_length, kDt);
     time += kDt;
-    const Tips<double> end = tips();
+    const Tips<double> end = tips_of(hands, time);
     const State<double> before = state;
     ours->step(state, begin, end, kDt);
     published->step(ghost, begin, end, kDt);
