@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "diabolo/hosts/attach.hpp"
+#include "diabolo/hosts/follow_pointers.hpp"
 #include "diabolo/model.hpp"
 
 #include "state.hpp"
@@ -70,27 +74,31 @@ StringWrench step_attached(Attached& attached, const Array& position, const Arra
   return wrench;
 }
 
-std::array<double, 8> memory_numbers(const StringMemory& m) {
-  return {m.owed.x(),
-          m.owed.y(),
-          m.owed.z(),
-          m.string_acceleration.x(),
-          m.string_acceleration.y(),
-          m.string_acceleration.z(),
-          static_cast<double>(m.string_state),
-          m.turns};
+StringMemory memory_of(const Array& numbers) {
+  StringMemory::Numbers n;
+  expect_shape(numbers, "memory", {n.size()});
+  python::expect_finite(numbers, "memory");
+  std::copy_n(numbers.data(), n.size(), n.begin());
+  to_turns(n.back());
+  return StringMemory::of(n);
 }
 
-StringMemory memory_of(const Array& numbers) {
-  expect_shape(numbers, "memory", {8});
-  python::expect_finite(numbers, "memory");
-  const double* n = numbers.data();
-  if (n[6] != 0.0 && n[6] != 1.0 && n[6] != 2.0)
-    throw std::invalid_argument("memory[6]: " + std::to_string(n[6]) + "; expected a state 0, 1 or 2");
-  return {{n[0], n[1], n[2]},
-          {n[3], n[4], n[5]},
-          static_cast<StringState>(static_cast<int>(n[6])),
-          to_turns(n[7])};
+/// Both hands, left over right, a step later: their places and velocities, shape (2, 3) each.
+std::pair<Array, Array> follow(const Array& position, const Array& velocity, const Array& pointers,
+                               double string_length, double dt) {
+  const auto both = [](const Array& rows, const char* name) {
+    const std::vector<Vector3<double>> read = to_rows(rows, name, 2);
+    return Hands::Pair{read[0], read[1]};
+  };
+  Hands hands{both(position, "position"), both(velocity, "velocity")};
+  follow_pointers(hands, both(pointers, "pointers"), string_length, dt);
+  const auto rows_of = [](const Hands::Pair& pair) {
+    Array rows({2, 3});
+    for (py::ssize_t side = 0; side < 2; ++side)
+      std::copy_n(pair[static_cast<std::size_t>(side)].data(), 3, rows.mutable_data(side, 0));
+    return rows;
+  };
+  return {rows_of(hands.position), rows_of(hands.velocity)};
 }
 
 }  // namespace
@@ -109,7 +117,11 @@ void bind_host(py::module_& module) {
           "on_right", [](const StringWrench& w) { return from_vector3(w.on_right); }, "On the right tip [N].")
       .def_readonly("left_tension", &StringWrench::left_tension, "[N]")
       .def_readonly("right_tension", &StringWrench::right_tension, "[N]")
-      .def_readonly("slip", &StringWrench::slip, "Of the string over the axle, towards the right tip [m/s].");
+      .def_readonly("slip", &StringWrench::slip, "Of the string over the axle, towards the right tip [m/s].")
+      .def_readonly(
+          "overstretched", &StringWrench::overstretched,
+          "Whether the tips are farther apart than the string is long; it holds the diabolo between "
+          "them.");
 
   py::class_<Attached>(module, "AttachedString",
                        R"(Our string on a body of somebody else's simulator, see docs/hosts.md.
@@ -120,14 +132,14 @@ In each step it says which force and torque make a free body move as the predict
       .def(py::init(&attach), "model"_a, "mass"_a, "axial_inertia"_a,
            "gravity"_a = from_vector3({0.0, 0.0, -kStandardGravity}), "motion"_a = "new_velocity")
       .def_property(
-          "memory", [](const Attached& a) { return memory_numbers(a.memory); },
+          "memory", [](const Attached& a) { return a.memory.numbers(); },
           [](Attached& a, const Array& numbers) { a.memory = memory_of(numbers); },
           R"(What is kept from step to step, eight numbers: save and restore it with the host's state. The last two are
 the string's state, 0 on the string, 1 loose (a new one's), 2 in flight, and State.turns.)")
       .def(py::pickle(
           [](const Attached& a) {
             return py::make_tuple(a.model, a.mass, a.axial_inertia, from_vector3(a.gravity), a.motion,
-                                  memory_numbers(a.memory));
+                                  a.memory.numbers());
           },
           [](const py::tuple& t) {
             Attached a = attach(t[0].cast<Model>(), t[1].cast<double>(), t[2].cast<double>(),
@@ -146,6 +158,10 @@ the string's state, 0 on the string, 1 loose (a new one's), 2 in flight, and Sta
 The body's centre [m], its velocity [m/s], its axle forward, a unit vector, and its angular velocity about
 that [rad/s] (the spin is -axle_rate). The rest is as for Predictor.step. Raises FloatingPointError, and leaves
 the memory as it was, where the result is not finite.)");
+  module.def(
+      "follow_pointers", &follow, "position"_a, "velocity"_a, "pointers"_a, "string_length"_a, "dt"_a,
+      "Where the hands of a live play are after a step of `dt` [s], and how fast: both of the shape (2, 3), "
+      "left over right [m, m/s], as they go after the pointers, shape (2, 3) [m].");
 }
 
 }  // namespace diabolo::python

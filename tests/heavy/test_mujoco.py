@@ -374,6 +374,11 @@ def test_bad_attributes_get_a_sentence(was, put, words):
         lambda model: model.body_mass.__imul__(2.0),
         lambda model: model.opt.gravity.__imul__(0.5),
         lambda model: setattr(model.opt, "integrator", mujoco.mjtIntegrator.mjINT_RK4),
+        lambda model: setattr(model.opt, "enableflags", mujoco.mjtEnableBit.mjENBL_SLEEP),
+        lambda model: setattr(model.opt, "disableflags", mujoco.mjtDisableBit.mjDSBL_GRAVITY),
+        lambda model: model.body_gravcomp.__setitem__(model.body("diabolo").id, 1.0),
+        lambda model: model.body_inertia.__imul__(2.0),
+        lambda model: model.body_iquat.__setitem__(model.body("diabolo").id, [0.8, 0.0, 0.0, 0.6]),
     ],
 )
 def test_what_has_changed_since_the_data_were_made_is_told(change):
@@ -400,8 +405,59 @@ def test_a_string_state_that_is_none_is_told(state):
     model, data = loaded(host.scene())
     mujoco.mj_step(model, data)
     data.plugin_state[6] = state
-    with pytest.raises(mujoco.FatalError, match=r"plugin_state: a string state of .*; expected 0, 1 or 2"):
+    with pytest.raises(mujoco.FatalError, match=r"plugin_state: memory\[6\]: a string state of .*; expected 0, 1 or 2"):
         mujoco.mj_step(model, data)
+
+
+@pytest.mark.parametrize(
+    ("break_it", "words"),
+    [
+        ("data.plugin_state[6] = 7.0", "diabolo.string, plugin_state: memory[6]: a string state of 7"),
+        ("model.opt.integrator = 77", "mj_step: invalid integrator"),
+    ],
+)
+def test_an_error_in_several_threads_ends_the_process(tmp_path, break_it, words):
+    """Of MuJoCo's own, too: nobody catches what a thread of mujoco.rollout says. With one it is caught."""
+    done = subprocess.run(
+        [sys.executable, "-c", THREADED.replace("BREAK_IT", break_it)],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        stdin=subprocess.DEVNULL,
+    )
+    assert done.returncode == 1 and done.stdout.splitlines()[0] == "caught"
+    assert words in done.stderr + done.stdout and "Traceback" not in done.stderr
+
+
+THREADED = """
+import copy
+import mujoco
+import numpy as np
+from diabolo.hosts import mujoco as host
+from mujoco import rollout
+
+host.load_plugin()
+model = mujoco.MjModel.from_xml_string(host.scene())
+data = mujoco.MjData(model)
+mujoco.mj_step(model, data)
+BREAK_IT
+whole = mujoco.mjtState.mjSTATE_FULLPHYSICS
+state = np.empty(mujoco.mj_stateSize(model, whole))
+mujoco.mj_getState(model, data, state, whole)
+for threads in (1, 2):
+    try:
+        rollout.rollout(model, [copy.copy(data) for _ in range(threads)], np.tile(state, (8, 1)), nstep=20)
+    except mujoco.FatalError:
+        print("caught", flush=True)
+"""
+
+
+@pytest.mark.parametrize("seen", [False, True])
+def test_tips_too_far_apart_are_told(seen):
+    model, data = loaded(host.scene())
+    data.mocap_pos[0, 1] += 1.0 if seen else 0.0
+    mujoco.mj_step(model, data)
+    assert dict(zip(host.SENSED, data.sensor("string").data, strict=True))["overstretched"] == seen
 
 
 @pytest.mark.parametrize("length", [0.3, 1.45, 5.0])

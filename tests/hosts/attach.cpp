@@ -132,6 +132,15 @@ TEST_CASE("a catch from afar gives the tips what it gives the body") {
   CHECK(string.step(body, tips, tips, kDt, memory).overstretched);
 }
 
+TEST_CASE("what is kept is numbers and back") {
+  const StringMemory kept{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, StringState::kFlying, 0.5};
+  const StringMemory::Numbers numbers{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 2.0, 0.5};
+  CHECK(kept.numbers() == numbers);
+  CHECK(StringMemory::of(numbers).numbers() == numbers);
+  CHECK_THROWS_WITH(StringMemory::of({0, 0, 0, 0, 0, 0, 0.5, 0}),
+                    "memory[6]: a string state of 0.5; expected 0, 1 or 2");
+}
+
 TEST_CASE("the host's gravity does not count twice, nor does another one's") {
   const FullPredictor<double> predictor = predictor_with_all();
   Host host(HostMotion::kNewVelocity, 0.2);

@@ -90,6 +90,14 @@ def test_a_body_that_is_none_is_refused(changes: dict[str, object], words: str) 
         AttachedString(**given)
 
 
+def test_tips_too_far_apart_are_told() -> None:
+    string, _, place = hung()
+    for half, told in ((0.4, False), (0.8, True)):
+        tips = [0, half, 1.3], [0, -half, 1.3]
+        wrench = string.step(place, [0, 0, 0], [1, 0, 0], -60.0, *tips, *tips, DT)
+        assert wrench.overstretched is told
+
+
 def test_a_step_that_cannot_be_is_refused_and_changes_nothing() -> None:
     string, _, place = hung()
     tips = ([0, 0.4, 1.3], [0, -0.4, 1.3], [0, 0.4, 1.3], [0, -0.4, 1.3])

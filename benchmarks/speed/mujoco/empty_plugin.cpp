@@ -10,7 +10,7 @@ mjPLUGIN_LIB_INIT(diabolo_empty) {
   plugin.capabilityflags = mjPLUGIN_PASSIVE | mjPLUGIN_SENSOR;
   plugin.needstage = mjSTAGE_ACC;
   plugin.nstate = [](const mjModel*, int) { return 0; };
-  plugin.nsensordata = [](const mjModel*, int, int) { return 5; };
+  plugin.nsensordata = [](const mjModel*, int, int) { return 6; };
   plugin.compute = [](const mjModel*, mjData*, int, int) {};
   mjp_registerPlugin(&plugin);
 }

@@ -14,18 +14,22 @@
 
 #include "diabolo/hosts/attach.hpp"
 #include "diabolo/hosts/seen_tips.hpp"
-#include "diabolo/json/string_attributes.hpp"
+#include "diabolo/hosts/string_attributes.hpp"
 
 namespace {
 
 using diabolo::Vector3;
 using Seen = Eigen::Map<const Vector3<double>>;
+using Turn = Eigen::Vector4d;  ///< a quaternion as MuJoCo has it
 
 constexpr const char* kTips[2] = {"left", "right"};
 
+/// Tensions, slip, spin, the string's state, and whether it is overstretched.
+constexpr int kSeen = 6;
+
 /// Where the two tips are and how they move, and what the next step begins with.
 struct Memory {
-  double owed[3], string_acceleration[3], string_state, turns;
+  diabolo::StringMemory::Numbers string;
   double tip[2][3], rate[2][3];  ///< see diabolo::TipMemory
 };
 
@@ -35,7 +39,7 @@ struct Stored {
   double begun;      ///< whether a step has been made since the reset
   double time;       ///< at which the step began that was asked about last [s], or kNoStep
   double force[3], torque[3], on_tip[2][3];
-  double seen[5];  ///< what the sensor says
+  double seen[kSeen];  ///< what the sensor says
 };
 constexpr double kNoStep = -1e300;  ///< none has begun
 constexpr int kNumbers = sizeof(Stored) / sizeof(mjtNum);
@@ -55,7 +59,13 @@ class StringOnBody {
   StringOnBody(const mjModel* m, int instance)
       : body_(body_of(m, instance)),
         sites_{site_of(m, instance, 0, body_), site_of(m, instance, 1, body_)},
-        made_(made_for(m)),
+        made_{.mass = m->body_mass[body_],
+              .inertia = Seen(m->body_inertia + 3 * body_),
+              .gravity = Seen(m->opt.gravity),
+              .turn = Turn(m->body_iquat + 4 * body_),
+              .integrator = m->opt.integrator,
+              .disabled = m->opt.disableflags,
+              .enabled = m->opt.enableflags},
         string_(string_of(m, instance)) {
     if (sites_[0] == sites_[1]) throw std::invalid_argument("right: the same site as left; expected two");
   }
@@ -126,18 +136,19 @@ class StringOnBody {
 
   /// What the host's world is like, and the body in it, that the string was made for.
   struct Made {
-    double mass, inertia, integrator;
-    Vector3<double> gravity;
-
-    bool operator==(const Made&) const = default;
+    double mass;
+    Vector3<double> inertia, gravity;
+    Turn turn;
+    int integrator, disabled, enabled;
   };
 
-  Made made_for(const mjModel* m) const {
-    const Vector3<double> axle = inertial_axle(m);
-    const bool weightless = (m->opt.disableflags & mjDSBL_GRAVITY) != 0;
-    return {m->body_mass[body_], axle.dot(Seen(m->body_inertia + 3 * body_).asDiagonal() * axle),
-            static_cast<double>(m->opt.integrator),
-            weightless ? Vector3<double>(Vector3<double>::Zero()) : Vector3<double>(Seen(m->opt.gravity))};
+  bool has_changed(const mjModel* m) const {
+    return m->body_mass[body_] != made_.mass || Seen(m->body_inertia + 3 * body_) != made_.inertia ||
+           m->body_gravcomp[body_] != 0.0 ||
+           Eigen::Map<const Turn>(m->body_iquat + 4 * body_) != made_.turn ||
+           Seen(m->opt.gravity) != made_.gravity || m->opt.integrator != made_.integrator ||
+           ((m->opt.disableflags ^ made_.disabled) & mjDSBL_GRAVITY) != 0 ||
+           ((m->opt.enableflags ^ made_.enabled) & mjENBL_SLEEP) != 0;
   }
 
   /// The string of the attributes, with the mass of the body and the gravity of the model.
@@ -146,7 +157,10 @@ class StringOnBody {
       throw std::invalid_argument("sleep is enabled; expected it off: the string wakes nobody");
     const diabolo::Model model =
         diabolo::model_of_attributes([&](const std::string& key) { return attribute(m, instance, key); });
-    return diabolo::attach_string(model, made_.mass, made_.inertia, made_.gravity,
+    const Vector3<double> axle = inertial_axle(m);
+    const bool weightless = (m->opt.disableflags & mjDSBL_GRAVITY) != 0;
+    return diabolo::attach_string(model, made_.mass, axle.dot(made_.inertia.asDiagonal() * axle),
+                                  weightless ? Vector3<double>(Vector3<double>::Zero()) : made_.gravity,
                                   m->opt.integrator == mjINT_RK4 ? diabolo::HostMotion::kConstantForce
                                                                  : diabolo::HostMotion::kNewVelocity);
   }
@@ -176,13 +190,24 @@ class StringOnBody {
     passive.tail<3>() += Frame(d->xmat + 9 * body_).transpose() * (torque + diabolo::cross(arm, force));
   }
 
+  static diabolo::StringMemory kept_memory(const diabolo::StringMemory::Numbers& numbers) {
+    std::string fault;
+    try {
+      return diabolo::StringMemory::of(numbers);
+    } catch (const std::invalid_argument& error) {
+      fault = error.what();
+    }
+    mju_error("diabolo.string, plugin_state: %s", fault.c_str());
+    return {};
+  }
+
   void ask(const mjModel* m, mjData* d, Stored& stored) const {
     const double dt = m->opt.timestep;
     if (!(dt > 0.0)) mju_error("diabolo.string, timestep: %g s; expected more than 0", dt);
-    if (!(made_for(m) == made_))
+    if (has_changed(m))
       mju_error(
-          "diabolo.string: mass, inertia, gravity or integrator has changed; expected new data (MjData) "
-          "after that");
+          "diabolo.string: mass, inertia, gravity, gravcomp, integrator or sleep has changed; expected new "
+          "data (MjData) after that");
     mjtNum moves[6];
     mj_objectVelocity(m, d, mjOBJ_BODY, body_, moves, 0);
     diabolo::HostBody body;
@@ -193,9 +218,7 @@ class StringOnBody {
     body.axle_rate = body.axle.dot(Seen(moves));
 
     const bool first = stored.begun == 0.0;
-    if (const double said = stored.now.string_state; !first && said != 0.0 && said != 1.0 && said != 2.0)
-      mju_error("diabolo.string, plugin_state: a string state of %g; expected 0, 1 or 2", said);
-    Memory next = stored.now;
+    Memory& next = stored.next;
     diabolo::TipStep tips[2];
     for (int k = 0; k < 2; ++k) {
       const int site = sites_[k];
@@ -216,25 +239,21 @@ class StringOnBody {
     if (!begin.left.allFinite() || !begin.right.allFinite() || !end.left.allFinite() ||
         !end.right.allFinite())
       mju_error("diabolo.string: a tip is not finite; expected numbers");
-    diabolo::StringMemory memory;
-    memory.owed = Seen(stored.now.owed);
-    memory.string_acceleration = Seen(stored.now.string_acceleration);
-    memory.string_state = first ? string_.begin(body.position, begin).string_state
-                                : static_cast<diabolo::StringState>(stored.now.string_state);
-    memory.turns = first ? 0.0 : stored.now.turns;
+    diabolo::StringMemory memory =
+        first ? string_.begin(body.position, begin) : kept_memory(stored.now.string);
     const diabolo::StringWrench wrench = string_.step(body, begin, end, dt, memory);
-    put(next.owed, memory.owed);
-    put(next.string_acceleration, memory.string_acceleration);
-    next.string_state = static_cast<double>(memory.string_state);
-    next.turns = memory.turns;
-    stored.next = next;
+    next.string = memory.numbers();
     stored.time = d->time;
     put(stored.force, wrench.force);
     put(stored.torque, wrench.torque);
     put(stored.on_tip[0], wrench.on_left);
     put(stored.on_tip[1], wrench.on_right);
-    const double seen[5] = {wrench.left_tension, wrench.right_tension, wrench.slip, -body.axle_rate,
-                            next.string_state};
+    const double seen[kSeen] = {wrench.left_tension,
+                                wrench.right_tension,
+                                wrench.slip,
+                                -body.axle_rate,
+                                static_cast<double>(memory.string_state),
+                                wrench.overstretched ? 1.0 : 0.0};
     std::memcpy(stored.seen, seen, sizeof(seen));
   }
 
@@ -309,7 +328,7 @@ mjPLUGIN_LIB_INIT(diabolo_string) {
   plugin.capabilityflags = mjPLUGIN_PASSIVE | mjPLUGIN_SENSOR;
   plugin.needstage = mjSTAGE_ACC;
   plugin.nstate = [](const mjModel*, int) { return kNumbers; };
-  plugin.nsensordata = [](const mjModel*, int, int) { return 5; };
+  plugin.nsensordata = [](const mjModel*, int, int) { return kSeen; };
   plugin.init = init;
   plugin.destroy = [](mjData* d, int instance) { delete &string_on(d, instance); };
   plugin.reset = [](const mjModel*, mjtNum* state, void*, int) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -12,6 +12,7 @@
 #include "diabolo/strand_tensions.hpp"
 #include "diabolo/string/tip_geometry.hpp"
 #include "diabolo/string/winding.hpp"
+#include "diabolo/text/shown.hpp"
 
 // Our string on a body of somebody else's simulator. The host integrates, and knows contacts, joints and all
 // else; in each step we say which force and torque make its body move as the predictor does, see
@@ -45,10 +46,23 @@ struct StringWrench {
 /// What is kept from step to step, beside what the host keeps. To save, copy or reset a simulation, save,
 /// copy or reset this: `StringMemory{}` is a beginning.
 struct StringMemory {
+  using Numbers = std::array<double, 8>;
   Vector3<double> owed = Vector3<double>::Zero();  ///< velocity that the host has not got yet [m/s]
   Vector3<double> string_acceleration = Vector3<double>::Zero();  ///< see State
   StringState string_state = StringState::kLoose;
   double turns = 0.0;  ///< see State
+
+  /// For a host that keeps numbers alone, in this order.
+  Numbers numbers() const {
+    const Vector3<double>&o = owed, &a = string_acceleration;
+    return {o.x(), o.y(), o.z(), a.x(), a.y(), a.z(), static_cast<double>(string_state), turns};
+  }
+  /// Throws std::invalid_argument where the string's state is none.
+  static StringMemory of(const Numbers& n) {
+    if (n[6] != 0.0 && n[6] != 1.0 && n[6] != 2.0)
+      throw std::invalid_argument("memory[6]: a string state of " + shown(n[6]) + "; expected 0, 1 or 2");
+    return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, static_cast<StringState>(static_cast<int>(n[6])), n[7]};
+  }
 };
 
 /// The string between two tips that a host moves, on a body that it integrates. Holds constants alone: one

@@ -17,7 +17,7 @@ from ..robot import joints_of
 from .description import ARM, CUP, CUPS_AT, INERTIA, RED, diabolo_inertia, links_of, numbers, tip_pose
 
 __all__ = ["INERTIA", "SENSED", "cell", "scene"]
-SENSED = ("left_tension_N", "right_tension_N", "slip_mps", "spin_radps", "string_state")
+SENSED = ("left_tension_N", "right_tension_N", "slip_mps", "spin_radps", "string_state", "overstretched")
 """What the sensor of a scene says; the state is 0 on the string, 1 loose, 2 in flight."""
 SERVO = 2e4
 """Stiffness of a joint of a cell, critically damped [N m/rad]: it lags by some hundredths of a second."""

@@ -96,7 +96,7 @@ def _command(mujoco: Path, source: Path) -> list[str]:
     ours = Path(get_include())
     others = (ours / "directories.txt").read_text().split(";")
     found = [option for each in [*others, str(mujoco / "include")] for option in ("-idirafter", each.strip())]
-    flags = ["-std=c++20", "-O2", "-DNDEBUG", "-fPIC", "-shared", "-fvisibility=hidden"]
+    flags = ["-std=c++20", "-O3", "-DNDEBUG", "-fPIC", "-shared", "-fvisibility=hidden"]
     return [*compiler, *flags, f"-I{ours}", *found, str(source), str(libraries[0])]
 
 
