@@ -33,6 +33,7 @@ from diabolo import (
     StringFriction,
 )
 from diabolo.estimate import Estimator, Spread
+from diabolo.rotations import first_axes
 from numpy.typing import NDArray
 
 from .. import command
@@ -157,7 +158,6 @@ def read_truth(path: Path) -> Truth:
     def both(name: str) -> Array:
         return np.stack([columns(*(f"{side}_{name}_{k}" for k in "xyz")) for side in ("left", "right")], 1)
 
-    x, y, z, w = columns("qx", "qy", "qz", "qw").T
     time, tips = columns("time")[:, 0], both("tip")
     return Truth(
         time,
@@ -165,7 +165,7 @@ def read_truth(path: Path) -> Truth:
         columns("x", "y", "z"),
         columns("vx", "vy", "vz"),
         columns("spin")[:, 0],
-        np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], 1),
+        first_axes(columns("qx", "qy", "qz", "qw")),
         tips,
         np.gradient(tips, time, axis=0, edge_order=2),
         both("force"),

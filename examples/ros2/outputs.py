@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from diabolo.rotations import played_orientation
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -10,7 +11,6 @@ from session import QUALITY
 from std_msgs.msg import Header, UInt8
 from string_in_time import StringInTime
 from tips import SIDES
-from turns import turn_of
 
 
 class Outputs:
@@ -38,7 +38,7 @@ class Outputs:
     def _fill_pose(self, play: StringInTime) -> None:
         place, turn = self._pose.pose.position, self._pose.pose.orientation
         place.x, place.y, place.z = play.state.position.tolist()
-        turn.x, turn.y, turn.z, turn.w = turn_of(play.state.axis, play.turned)
+        turn.x, turn.y, turn.z, turn.w = played_orientation(play.state.axis, play.turned).tolist()
 
     def _fill_twist(self, play: StringInTime) -> None:
         linear, angular = self._twist.twist.linear, self._twist.twist.angular

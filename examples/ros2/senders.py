@@ -10,6 +10,7 @@ import numpy as np
 from builtin_interfaces.msg import Time
 from diabolo import TipMotion
 from diabolo.robot import StickArm, joints_of
+from diabolo.rotations import played_orientation
 from geometry_msgs.msg import PoseStamped
 from numpy.typing import NDArray
 from rclpy.duration import Duration
@@ -19,9 +20,13 @@ from sensor_msgs.msg import JointState
 from session import QUALITY
 from std_msgs.msg import Header
 from tips import JOINTS, SIDES
-from turns import turn_of
 
 Floats = NDArray[np.float64]
+
+
+def _turn_to(stick: Floats) -> list[float]:
+    """Zeros where it is not known."""
+    return played_orientation(stick, 0.0).tolist() if stick.any() else [0.0] * 4
 
 
 class TipSender:
@@ -32,7 +37,7 @@ class TipSender:
         self.outputs = [node.create_publisher(PoseStamped, f"{side}_tip", QUALITY) for side in SIDES]
         self._frame, self._message = frame, PoseStamped()
         self._places = [places.tolist() for places in motion.at(times)[:2]]
-        self._turns = [[turn_of(stick) for stick in sticks] for sticks in motion.directions_at(times)]
+        self._turns = [[_turn_to(stick) for stick in sticks] for sticks in motion.directions_at(times)]
 
     def send(self, index: int, stamp: int) -> None:
         """Both tips at a time, with a stamp [ns]."""

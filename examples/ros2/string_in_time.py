@@ -101,7 +101,7 @@ class StringInTime:
         except FloatingPointError as error:
             self._began = None
             raise MessageError("prediction", f"{error}; the play begins anew") from None
-        self.turned -= 0.5 * (spin + state.spin) * dt
+        self.turned += 0.5 * (spin + state.spin) * dt
         self.tensions = status.tensions
         if status.overstretched:
             apart, length = np.linalg.norm(places[2] - places[3]), self._model.parameters.string_length

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from diabolo import robot
-from diabolo.arms import LARGEST_ANGLE, SIDES
+from diabolo.arms import SIDES, JointsError, angles_in
 from diabolo.robot import StickArm
 from diabolo.rollout import FARTHEST
+from diabolo.rotations import first_axes
 from numpy.typing import NDArray
-from turns import first_axis
 
 JOINTS = [f"{side}_{joint}" for side in SIDES for joint in robot.JOINTS]
 """Names of the arms' joints, the left arm's first."""
@@ -92,7 +92,7 @@ def tip_of(topic: str, message: Any, frame: str) -> Tip:
         raise MessageError(
             f"{topic}, orientation", f"a quaternion of length {length:.4g}; expected 1, or all zeros"
         )
-    return Tip(np.array([x, y, z]), first_axis(*(q / length for q in quaternion)))
+    return Tip(np.array([x, y, z]), first_axes(np.array(quaternion) / length))
 
 
 class TipPairs:
@@ -132,26 +132,11 @@ class JointTips:
 
     def tips_of(self, message: Any) -> Tips:
         """Of a JointState. Raises MessageError."""
-        joints = np.array(self._angles_of(message))
-        return Tips(*map(self._tip, self._arms, joints.reshape(2, 6)))
-
-    def _angles_of(self, message: Any) -> list[float]:
-        """In the order of the names [rad]."""
-        names, positions = list(message.name), message.position
-        if missing := [name for name in self._names if name not in names]:
-            raise MessageError("joint_states, joints missing", ", ".join(missing))
-        if not len(positions) == len(names) == len({*names}):
-            raise MessageError(
-                "joint_states, name",
-                f"{len(positions)} positions of {len({*names})} joints; expected one of each",
-            )
-        given = dict(zip(names, positions, strict=True))
-        for name in self._names:
-            if not abs(given[name]) <= LARGEST_ANGLE:
-                raise MessageError(
-                    "joint_states, position", f"{name} is {given[name]:g}; expected rad, within 2 pi"
-                )
-        return [given[name] for name in self._names]
+        try:
+            joints = angles_in(message.name, message.position, self._names)
+        except JointsError as odd:
+            raise MessageError(f"joint_states, {odd.kind}", str(odd)) from None
+        return Tips(*map(self._tip, self._arms, np.reshape(joints, (2, 6))))
 
     @staticmethod
     def _tip(arm: StickArm, joints: NDArray[np.float64]) -> Tip:

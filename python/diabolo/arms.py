@@ -26,6 +26,34 @@ LARGEST_ANGLE = 6.4
 """Of a joint [rad]: a full turn either way, and a little."""
 
 
+class JointsError(ValueError):
+    """Joints of a message that are of no use. kind: what is wrong with them, without names and numbers."""
+
+    def __init__(self, kind: str, sentence: str) -> None:
+        super().__init__(sentence)
+        self.kind = kind
+
+
+def angles_in(
+    names: Sequence[str], positions: Sequence[float], wanted: Sequence[str], *, dropouts: bool = False
+) -> list[float]:
+    """The angles of the joints of the wanted names [rad], of those that a message tells of. With `dropouts`
+    one that is not finite counts as not measured. Raises JointsError."""
+    if len(positions) != len(names):
+        raise JointsError(
+            "joints", f"{len(positions)} positions of {len(names)} joints; expected one of each"
+        )
+    found = dict(zip(names, positions, strict=True))
+    for name in wanted:
+        if name not in found:
+            raise JointsError("joints missing", f"no angle of {name}; expected {wanted[0]} to {wanted[-1]}")
+        if names.count(name) > 1:
+            raise JointsError("joints twice", f"{name} is named twice; expected each joint once")
+        if not abs(found[name]) <= LARGEST_ANGLE and not (dropouts and not np.isfinite(found[name])):
+            raise JointsError("angles", f"{name} is {found[name]:g}; expected rad, within 2 pi")
+    return [float(found[name]) for name in wanted]
+
+
 def two_arms(arms: Sequence[StickArm] | None) -> list[StickArm]:
     """The left and the right one; None: the paper's. Raises ValueError about any others."""
     if arms is None:

@@ -24,8 +24,8 @@ from diabolo.cli import main
 from diabolo.cli.diagnose import input_file
 from diabolo.formats import qualisys, vicon
 from diabolo.formats.bodies import Body, at_common_times
-from diabolo.formats.rotations import quaternions
 from diabolo.robot import StickArm
+from diabolo.rotations import first_axes, played_orientation, quaternions
 from numpy.typing import NDArray
 
 SWING = Path(__file__).parents[2] / "data" / "recordings" / "swing.csv"
@@ -462,6 +462,14 @@ def test_points_of_c3d_are_tips_without_directions(swing: Recording, tmp_path: P
         load_recording(tmp_path / "cut.c3d")
     same(swing, found, times=1e-6, places=1e-6, turned=False)
     assert found.diabolo_orientation is None
+
+
+@pytest.mark.parametrize("axis", [[1, 0, 0], [-1, 0, 0], [0, 0, 1], [0.6, -0.64, 0.48]])
+def test_a_turned_axle_keeps_its_direction(axis: list[float]) -> None:
+    turns = np.array([played_orientation(axis, angle) for angle in np.linspace(-10.0, 10.0, 21)])
+    np.testing.assert_allclose(np.linalg.norm(turns, axis=1), 1.0)
+    np.testing.assert_allclose(first_axes(turns), np.tile(axis, (21, 1)), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(first_axes(turns[0]), axis, rtol=0.0, atol=1e-12)
 
 
 def test_rotations_become_quaternions() -> None:

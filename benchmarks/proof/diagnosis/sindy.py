@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from diabolo import Recording, load_recording
+from diabolo.rotations import first_axes
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -48,11 +49,6 @@ def _unit(vectors: Array) -> Array:
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-9))
 
 
-def _axis(quaternions: Array) -> Array:
-    x, y, z, w = quaternions.T
-    return np.stack([1.0 - 2.0 * (y**2 + z**2), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)], axis=1)
-
-
 def _lasting(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Where a state lasts for all the frames of a parabola."""
     windows = np.lib.stride_tricks.sliding_window_view(flags, 2 * REACH + 1)
@@ -78,7 +74,7 @@ def library(recording: Recording) -> tuple[Array, Array, NDArray[np.bool_]]:
     pull = np.sum(left_over * normal, axis=1, keepdims=True)
     spin = np.asarray(recording.spin())[:, np.newaxis]
     speed = np.linalg.norm(velocity, axis=1, keepdims=True)
-    axis = _axis(np.asarray(recording.diabolo_orientation))
+    axis = first_axes(np.asarray(recording.diabolo_orientation))
     slip = np.sign(spin) * np.where(taut[:, np.newaxis], pull, 0.0) * tangent
     constant = np.ones_like(velocity)
     terms = np.stack(

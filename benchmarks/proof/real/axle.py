@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import diabolo
 import numpy as np
 from diabolo import Model, Parameters, Predictor, State
+from diabolo.rotations import first_axes
 from numpy.typing import NDArray
 
 from ... import command
@@ -48,11 +49,10 @@ class Take:
         recording = diabolo.load_recording(file, calibration=calibration)
         self.name, self._time = recording.name, np.asarray(recording.time)
         self._length = recording.string_length
-        x, y, z, w = np.asarray(recording.diabolo_orientation).T
-        axle = np.array([1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)]).T
+        axle = first_axes(np.asarray(recording.diabolo_orientation))
         self._axle = axle * np.where(axle[:, :1] < 0.0, -1.0, 1.0)
         tips = np.hstack([recording.left, recording.right])
-        known = np.isfinite(np.hstack([tips, axle])).all(axis=1)
+        known: NDArray[np.bool_] = np.isfinite(np.hstack([tips, axle])).all(axis=1)
         self._tips = np.array(
             [np.interp(self._time, self._time[known], column[known]) for column in tips.T]
         ).T

@@ -10,6 +10,7 @@ import sys
 import diabolo
 import numpy as np
 from diabolo import Air, MagnusLift, Model, Recording, SpinLoss, StringFriction, TipMotion
+from diabolo.rotations import first_axes
 from numpy.typing import NDArray
 
 from ... import command
@@ -142,7 +143,7 @@ def turned(take: Recording, spin: NDArray[np.float64]) -> NDArray[np.float64] | 
     if take.diabolo_orientation is None:
         return None
     x, y, z, w = take.diabolo_orientation.T
-    forward = 1.0 - 2.0 * (y * y + z * z) >= 0.0  # the axle's x component in the world
+    forward = first_axes(take.diabolo_orientation)[:, 0] >= 0.0
     turns = np.where(forward, -1.0, 1.0)[:-1] * spin[:-1] * np.diff(take.time)
     half = 0.5 * np.concatenate([[0.0], np.cumsum(turns)])
     s, c = np.sin(half), np.cos(half)

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from .._core import RecordingError
 from ..checks import shown
+from ..rotations import quaternions
 from .bodies import METRES, Body, check_rate, even_stamps, seen_points, unreadable
-from .rotations import quaternions
 
 LONGEST_READ = 60.0  # [s]
 

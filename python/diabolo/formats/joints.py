@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from .._core import RecordingError, StickArm
-from ..arms import JOINTS, LARGEST_ANGLE, SIDES, stick_frame
+from ..arms import JOINTS, SIDES, JointsError, angles_in, stick_frame
 from ..checks import shown
+from ..rotations import quaternions
 from .bodies import Floats
-from .rotations import quaternions
 
 Angles = tuple[float, ...]
 
@@ -40,19 +40,10 @@ def angles_of(topic: str, message: Any) -> Iterator[tuple[str, Angles]]:
 
 def _angles(topic: str, message: Any, names: list[str]) -> Angles:
     """Of the joints of these names; raises RecordingError where they are not there once each."""
-    if len(message.position) != len(message.name):
-        raise RecordingError(
-            f"{topic}: {len(message.position)} positions of {len(message.name)} joints; expected one of each"
-        )
-    found = dict(zip(message.name, message.position, strict=True))
-    for name in names:
-        if name not in found:
-            raise RecordingError(f"{topic}: no angle of {name}; expected {names[0]} to {names[-1]}")
-        if message.name.count(name) > 1:
-            raise RecordingError(f"{topic}: {name} is named twice; expected each joint once")
-        if LARGEST_ANGLE < abs(found[name]) < np.inf:
-            raise RecordingError(f"{topic}: {name} is {found[name]:g}; expected rad, within 2 pi")
-    return tuple(float(found[name]) for name in names)
+    try:
+        return tuple(angles_in(message.name, message.position, names, dropouts=True))
+    except JointsError as odd:
+        raise RecordingError(f"{topic}: {odd}") from None
 
 
 def unknown_joints(names: list[str]) -> str:

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from .._core import RecordingError
+from ..rotations import quaternions
 from .bodies import Body, check_rate, even_stamps, stamps_at
-from .rotations import quaternions
 from .text import numbers, whole_lines
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from .._core import Recording, RecordingError
 from ..files import whole_file
+from ..rotations import first_axes
 from ..view import Replay
 from .bodies import Floats
 
@@ -111,10 +112,7 @@ def _layout(with_errors: bool) -> Any:
 
 def _first_axis(orientation: Floats | None, size: int) -> Floats:
     """Body x in the world, shape (n, 3); NaN where it is not known."""
-    if orientation is None:
-        return np.full((size, 3), np.nan)
-    x, y, z, w = orientation.T
-    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)], axis=1)
+    return np.full((size, 3), np.nan) if orientation is None else first_axes(orientation)
 
 
 def _strips(rows: Sequence[Floats]) -> tuple[Floats, NDArray[np.int64]]:

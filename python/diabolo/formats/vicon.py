@@ -12,8 +12,8 @@ import numpy as np
 
 from .._core import RecordingError
 from ..checks import shown
+from ..rotations import of_vectors
 from .bodies import METRES, Body, Floats, check_rate, even_stamps, seen_points, stamps_at
-from .rotations import of_vectors
 from .text import numbers, whole_lines
 
 BODIES, POINTS, OTHERS = ("Objects", "Segments"), ("Trajectories", "Model Outputs"), ("Devices", "Joints")

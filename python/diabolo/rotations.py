@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Rotations of files as quaternions x, y, z, w."""
+"""Rotations as unit quaternions x, y, z, w, body to world."""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .bodies import Floats
+from ._core import played_orientation
+
+__all__ = ["first_axes", "of_vectors", "played_orientation", "quaternions"]
+
+Floats = NDArray[np.float64]
 
 
 def quaternions(matrices: Floats) -> Floats:
@@ -25,6 +30,12 @@ def quaternions(matrices: Floats) -> Floats:
     rows = product[np.arange(len(m)), longest]
     result: Floats = rows / np.linalg.norm(rows, axis=1, keepdims=True)
     return result
+
+
+def first_axes(turns: Floats) -> Floats:
+    """Body x in the world, shape (..., 3), of quaternions, shape (..., 4)."""
+    x, y, z, w = np.moveaxis(turns, -1, 0)
+    return np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)], axis=-1)
 
 
 def of_vectors(vectors: Floats) -> Floats:
