@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from diabolo import Model, Parameters, State, StringFriction, TipMotion, rollout
 from diabolo.files import whole_file
+from diabolo.motions import swing_and_beat
 from numpy.typing import NDArray
 
 DURATION = 2.0  # [s]
@@ -27,19 +28,10 @@ class Both(NamedTuple):
         return distances
 
 
-def play() -> TipMotion:
-    """Tips that swing and beat, for longer than is played."""
-    t = np.linspace(0.0, DURATION + 0.1, 211)
-    sway, beat = (0.05 * (1.0 - np.cos(2.0 * np.pi * rate * t)) for rate in (0.75, 1.5))
-    left = np.stack([sway, np.full_like(t, 0.4), 1.3 + beat], axis=1)
-    right = np.stack([-sway, np.full_like(t, -0.4), 1.3 - 0.5 * beat], axis=1)
-    return TipMotion(t, left, right, "spline")
-
-
 def compare(simulate: Callable[[Model, State, TipMotion, float, int], NDArray[np.float64]]) -> list[Both]:
     """By two steps, see play_motion.Simulate; prints how far they part."""
     model = Model(Parameters(), name="rubbing", string_friction=StringFriction(coefficient=0.2))
-    tips, drop = play(), 0.5 * np.sqrt(model.parameters.string_length**2 - 0.8**2)
+    tips, drop = swing_and_beat(DURATION + 0.1), 0.5 * np.sqrt(model.parameters.string_length**2 - 0.8**2)
     start = State([0.0, 0.0, 1.3 - drop], [0.3, 0.2, 0.0], 60.0, "loose")
     found = []
     for dt in (2e-3, 1e-3):

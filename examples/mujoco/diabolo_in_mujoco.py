@@ -27,6 +27,7 @@ from diabolo.cli import Parser
 from diabolo.cli.arguments import output_name
 from diabolo.files import check_outputs, whole_file
 from diabolo.hosts import mujoco as host
+from diabolo.motions import swing_and_beat
 
 if ctypes.util.find_library("EGL"):
     os.environ.setdefault("MUJOCO_GL", "egl")  # read when MuJoCo is imported
@@ -45,15 +46,10 @@ DURATION = 5.0  # [s]
 
 def play() -> TipMotion:
     """Tips that rest, swing and beat, go down until the diabolo lies on the floor, and come up again."""
-    times = np.linspace(0.0, DURATION, 501)
-    t = np.maximum(times - 0.02, 0.0)
-    sway = 0.05 * (1.0 - np.cos(2 * np.pi * 0.75 * t))
-    beat = 0.05 * (1.0 - np.cos(2 * np.pi * 1.5 * t))
-    smooth = np.interp(t, [PLAY_UNTIL, 3.0, 3.5, 4.5], [0.0, 1.0, 1.0, 0.0])
-    height = 1.3 - 0.4 * (1.0 - np.cos(np.pi * smooth))
-    left = np.stack([sway, np.full_like(t, 0.4), height + beat], axis=1)
-    right = np.stack([-sway, np.full_like(t, -0.4), height - 0.5 * beat], axis=1)
-    return TipMotion(times, left, right, "spline")
+    level = swing_and_beat(DURATION, rest=0.02)
+    smooth = np.interp(level.times, [PLAY_UNTIL, 3.0, 3.5, 4.5], [0.0, 1.0, 1.0, 0.0])
+    down = np.outer(1.0 - np.cos(np.pi * smooth), [0.0, 0.0, 0.4])
+    return TipMotion(level.times, level.left - down, level.right - down, "spline")
 
 
 def start_state(parameters: Parameters, tips: TipMotion) -> State:

@@ -16,6 +16,7 @@ import time
 import needs_ros  # noqa: F401
 import numpy as np
 from diabolo import TipMotion
+from diabolo.motions import swing_and_beat
 from geometry_msgs.msg import PoseStamped
 from numpy.typing import NDArray
 from rclpy.executors import Executor
@@ -93,10 +94,8 @@ class Echo(Node):
 
 
 def swing(times: Floats) -> TipMotion:
-    """Tips that swing and beat."""
-    sway, beat = (0.05 * (1.0 - np.cos(2.0 * np.pi * rate * times)) for rate in (0.75, 1.5))
-    left = np.stack([sway, np.full_like(times, 0.4), 1.3 + beat], axis=1)
-    right = np.stack([-sway, np.full_like(times, -0.4), 1.3 - 0.5 * beat], axis=1)
+    """Tips that swing and beat, at these times."""
+    left, right, *_ = swing_and_beat(float(times[-1])).at(times)
     return TipMotion(times, left, right)
 
 

@@ -30,6 +30,17 @@ def beat(duration: float) -> TipMotion:
     return _motion(duration, lambda t: (0.0 * t, 0.08 * _fade_in(t) * np.sin(2.0 * np.pi * 1.6 * t), 0.0 * t))
 
 
+def swing_and_beat(duration: float, rest: float = 0.0) -> TipMotion:
+    """The tips, 0.8 m apart, sway against each other, 10 cm forward, 0.75 times a second. They beat
+    twice as often, the left one by 10 cm and the right one by 5 cm. Before that they rest [s]."""
+    time = _times(duration)
+    t = np.maximum(time - number("rest", rest), 0.0)
+    sway, beat = (0.05 * (1.0 - np.cos(2.0 * np.pi * rate * t)) for rate in (0.75, 1.5))
+    left = np.stack([sway, np.full_like(t, 0.4), 1.3 + beat], axis=1)
+    right = np.stack([-sway, np.full_like(t, -0.4), 1.3 - 0.5 * beat], axis=1)
+    return TipMotion(time, left, right, "spline")
+
+
 def throw(duration: float) -> TipMotion:
     """After a second the tips part, within 0.25 s, until the string is almost straight."""
 
@@ -71,6 +82,7 @@ MOTIONS: dict[str, Callable[[float], TipMotion]] = {
     "hold": hold,
     "swing": swing,
     "beat": beat,
+    "swing_and_beat": swing_and_beat,
     "throw": throw,
     "wind_up": wind_up,
     "one_turn_low": one_turn_low,
@@ -89,6 +101,11 @@ def _check(duration: float) -> None:
         raise ValueError(f"duration: {duration} s; expected more than 0, at most an hour")
 
 
+def _times(duration: float) -> NDArray[np.float64]:
+    _check(duration)
+    return np.linspace(0.0, duration, int(np.ceil(duration * _RATE)) + 1)
+
+
 def _repeated(figure: str, duration: float) -> TipMotion:
     """Whole cycles of a figure, as many as begin within the duration, and rest from then on."""
     _check(duration)
@@ -103,8 +120,7 @@ def _motion(
     ],
 ) -> TipMotion:
     """`shifts` gives, at times [s]: both tips to the left, right tip up and left tip down, both apart [m]."""
-    _check(duration)
-    time = np.linspace(0.0, duration, int(np.ceil(duration * _RATE)) + 1)
+    time = _times(duration)
     sideways, tilt, apart = shifts(time)
     forward = np.full_like(time, FORWARD)
     left = np.stack([forward, HALF_SPAN + sideways + apart, HEIGHT - tilt], axis=1)

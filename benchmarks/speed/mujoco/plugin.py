@@ -32,6 +32,7 @@ from diabolo import (
     rollout,
 )
 from diabolo.hosts import mujoco as host
+from diabolo.motions import swing_and_beat
 
 from ... import command
 
@@ -82,12 +83,7 @@ def run(given: argparse.Namespace) -> int:
 
 def tips() -> TipMotion:
     """At rest for a moment, then swinging and beating."""
-    times = np.linspace(0.0, DT * STEPS, 201)
-    t = np.maximum(times - 0.02, 0.0)
-    sway, beat = (0.05 * (1.0 - np.cos(2.0 * np.pi * rate * t)) for rate in (0.75, 1.5))
-    left = np.stack([sway, np.full_like(t, 0.4), 1.3 + beat], axis=1)
-    right = np.stack([-sway, np.full_like(t, -0.4), 1.3 - 0.5 * beat], axis=1)
-    return TipMotion(times, left, right, "spline")
+    return swing_and_beat(DT * STEPS, rest=0.02)
 
 
 def hung(text: str) -> tuple[mujoco.MjModel, mujoco.MjData, State]:
