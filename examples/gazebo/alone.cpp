@@ -98,6 +98,9 @@ int main(int argc, char** argv) {
       "Play a world whose tips move by themselves in Gazebo's engine dartsim. Prints where all was.");
   app.add_option("WORLD.sdf", world, "a world with a model that has the plugin diabolo::String")->required();
   app.add_option("SECONDS", seconds, "how long")->required()->check(CLI::Range(0.0, 600.0));
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "diabolo_gazebo_alone: " + std::string(error.what()) + "; see --help\n";
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <string>
 
 #include "play.hpp"
 
@@ -16,6 +17,9 @@ int main(int argc, char** argv) {
   app.add_option("MOTION.csv", motion, "the tips; MOTION.json beside it has the starts")->required();
   app.add_option("SIM.csv", out, "what to write, with SIM.json beside it")->required();
   app.add_flag("--once", once, "play from the first start alone; default: again from each");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "diabolo_gazebo: " + std::string(error.what()) + "; see --help\n";
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -86,7 +86,9 @@ inline void read_plugin(const sdf::Model& model, const sdf::ElementPtr& plugin, 
 /// Reads a world with one diabolo::String. Throws diabolo::RecordingError with the file and the fault.
 inline Scene load_scene(const std::filesystem::path& path) {
   const std::string file = path.string();
-  diabolo::read_file(path);  // says clearly what is wrong with the file itself
+  // Of other XML sdformat's reader of URDF would say on its own what is wrong with it as a robot.
+  if (diabolo::read_file(path).find("<sdf") == std::string::npos)
+    throw diabolo::RecordingError(file + ": no <sdf>; expected an SDF world");
   sdf::Console::Instance()->SetQuiet(true);
   Scene scene{};
   const sdf::Errors errors = scene.root.Load(file);

@@ -177,7 +177,14 @@ int main(int argc, char** argv) {
   app.add_flag("--dry-run", options.dry_run, "Plans and checks; connects to nothing");
   app.add_flag("--yes", options.yes, "Asks nothing: for tests on simulators only");
   app.add_flag("--talkative", options.arm.talkative, "Lets the client library print");
-  CLI11_PARSE(app, argc, argv);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "ur5e_diabolo: " + std::string(error.what()) + "; see --help\n";
+  });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   struct sigaction action {};
   action.sa_handler = interrupt;  // without SA_RESTART: a sleep ends, and the loop sees the flag
   sigaction(SIGINT, &action, nullptr);

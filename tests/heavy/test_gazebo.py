@@ -14,6 +14,7 @@ import diabolo
 import numpy as np
 import pytest
 from diabolo import Model, Parameters, TipMotion, rollout
+from diabolo.motions import swing_and_beat
 from numpy.typing import NDArray
 
 pytestmark = pytest.mark.gazebo
@@ -44,11 +45,9 @@ Tips = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 def swinging(seconds: float, lowered: float = 0.0) -> Tips:
     """Times, left and right tips that swing and beat; lowered by so much in the middle [m]."""
     t = np.arange(round(seconds * 1000) + 1) / 1000
-    sway, beat = (0.05 * (1.0 - np.cos(2.0 * np.pi * rate * t)) for rate in (0.75, 1.5))
-    down = 0.5 * lowered * (1.0 - np.cos(2.0 * np.pi * t / seconds))
-    left = np.stack([sway, np.full_like(t, 0.4), 1.3 + beat - down], axis=1)
-    right = np.stack([-sway, np.full_like(t, -0.4), 1.3 - 0.5 * beat - down], axis=1)
-    return t, left, right
+    left, right, *_ = swing_and_beat(seconds).at(t)
+    down = np.outer(1.0 - np.cos(2.0 * np.pi * t / seconds), [0.0, 0.0, 0.5 * lowered])
+    return t, left - down, right - down
 
 
 def with_words(words: str) -> str:
@@ -222,6 +221,18 @@ def test_a_wrong_world_is_told_in_a_sentence(player: Player, old: str, new: str,
     if old.startswith("<model>") and not new.endswith("</left>"):
         world = world.replace(new + "/model>", new + "/" + new[1:].split(">")[0] + ">")
     refuses(player, player(world, swinging(0.1), [0.0]), fault)
+
+
+@pytest.mark.parametrize("text", ['<robot name="arm"><link/></robot>', "<world/>", "plain text"])
+def test_what_is_no_sdf_is_told_in_a_sentence(player: Player, text: str) -> None:
+    """A broken robot, too, about which a reader of URDF says more."""
+    refuses(player, player(text, swinging(0.1), [0.0]), "world.sdf: no <sdf>; expected an SDF world")
+
+
+@pytest.mark.parametrize("name", ["diabolo_gazebo", "diabolo_gazebo_alone"])
+def test_wrong_use_is_told_in_a_sentence(name: str) -> None:
+    done = subprocess.run([PROGRAM.with_name(name)], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (2, f"{name}: WORLD.sdf is required; see --help\n")
 
 
 def refuses(player: Player, done: subprocess.CompletedProcess[str], fault: str) -> None:

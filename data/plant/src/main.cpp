@@ -106,6 +106,9 @@ int main(int argc, char** argv) {
   app.add_option("--truth", options.truth, "True motion to write, CSV");
   app.add_option("--key", options.key, "True parameters to write, JSON, in the names of the diagnosis");
   app.add_option("--seed", options.seed, "Seed of all random numbers, in place of the scenario's");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "diabolo-plant: " + std::string(error.what()) + "; see --help\n";
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

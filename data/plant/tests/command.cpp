@@ -110,6 +110,7 @@ TEST_CASE("bad input is refused in one sentence and with status 2") {
 TEST_CASE("wrong use is refused with status 2, a file that cannot be written with status 1") {
   prepare(kMinimal);
   CHECK(run("").status == 2);
+  CHECK(run("").errors == "diabolo-plant: scenario is required; see --help\n");
   CHECK(run("a.scenario.json").status == 2);
   CHECK(run("a.scenario.json --out a.csv --sed 3").status == 2);
   CHECK(run("a.scenario.json --out none/a.csv").status == 1);

@@ -23,7 +23,14 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--joints", joints, "Where the arm stands at first [rad]")->capture_default_str();
   app.footer(std::string("Faults, a line each on port 29998: ") + stand_in::kOrders);
-  CLI11_PARSE(app, argc, argv);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "ur5e_stand_in: " + std::string(error.what()) + "; see --help\n";
+  });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     stand_in::Server server(address, Eigen::Map<const stand_in::JointVector>(joints.data()), seconds);
     std::printf("A stand-in controller answers on %s for %g s.\n", address.c_str(), seconds);
