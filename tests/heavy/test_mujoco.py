@@ -405,7 +405,9 @@ def test_a_string_state_that_is_none_is_told(state):
     model, data = loaded(host.scene())
     mujoco.mj_step(model, data)
     data.plugin_state[6] = state
-    with pytest.raises(mujoco.FatalError, match=r"plugin_state: memory\[6\]: a string state of .*; expected 0, 1 or 2"):
+    with pytest.raises(
+        mujoco.FatalError, match=r"plugin_state: memory\[6\]: a string state of .*; expected 0, 1 or 2"
+    ):
         mujoco.mj_step(model, data)
 
 

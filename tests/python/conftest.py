@@ -64,6 +64,7 @@ def make_recording(
         RATE,
         diabolo_orientation=np.stack([-np.sin(angle / 2), zero, zero, np.cos(angle / 2)], axis=1),
         name=name,
+        properties=diabolo.DiaboloProperties.red(),
         string_length=1.45,
     )
 

@@ -286,7 +286,9 @@ def test_info_tells_of_a_body_that_is_hardly_seen(
 def test_each_warning_is_printed_once(command: Command, tidy: Path, line: str) -> None:
     pytest.importorskip("matplotlib")
     odd = Recording.load(tidy)
-    Recording(odd.time, odd.left, odd.right, odd.diabolo, odd.rate, string_length=3.0).save(tidy)
+    Recording(
+        odd.time, odd.left, odd.right, odd.diabolo, odd.rate, properties=odd.properties, string_length=3.0
+    ).save(tidy)
     done = command(*line.replace("TIDY", str(tidy)).split())
     assert done.returncode == 0 and done.stderr.count("diabolo: warning: played: ") == 1
 
@@ -375,7 +377,11 @@ def test_a_recording_that_is_odd_is_warned_of(
     command: Command, played: Recording, tmp_path: Path, arguments: tuple[str, ...]
 ) -> None:
     feet = Recording(
-        played.time, *(track / 0.3048 for track in (played.left, played.right, played.diabolo)), played.rate
+        played.time,
+        *(track / 0.3048 for track in (played.left, played.right, played.diabolo)),
+        played.rate,
+        properties=played.properties,
+        string_length=1.46,
     )
     feet.save(tmp_path / "feet.csv")
     done = command(*arguments)
@@ -424,7 +430,10 @@ def test_a_recording_that_is_odd_is_warned_of(
         (("evaluate", "played.csv", "--json", "played.json"), "played.json: this file is read; choose"),
         (("evaluate", "played.csv:0-60", "--json", "played.csv:0-60"), "played.csv:0-60: this file is read"),
         (("info", "played.csv", "--json", "played.json"), "played.json: this file is read; choose"),
-        (("evaluate", "played.csv", "played.csv"), "'played' and 'played' hold the same 481 samples"),
+        (
+            ("evaluate", "played.csv", "played.csv"),
+            "recordings: played.csv and played.csv hold the same 481 samples",
+        ),
         (("evaluate", "nowhere.csv:0-180"), "nowhere.csv: there is no such file"),
         (
             ("evaluate", "played.csv", "--seed", str(10**20)),
@@ -633,7 +642,8 @@ def test_a_body_that_is_never_seen_is_told_with_the_file(
         pytest.skip("the tips are enough")
     tracks = {name: getattr(played, name).copy() for name in ("left", "right", "diabolo")}
     tracks[body][:] = np.nan
-    Recording(played.time, rate=played.rate, **tracks).save(tmp_path / "empty.csv")
+    setup = {"properties": played.properties, "string_length": played.string_length}
+    Recording(played.time, rate=played.rate, **tracks, **setup).save(tmp_path / "empty.csv")
     done = command(*line.replace("TAKE", "empty.csv").split())
     assert done.returncode == 2
     assert done.stderr == f"diabolo: empty.csv: the {shown} is never seen; expected its positions\n"

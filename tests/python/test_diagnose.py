@@ -200,7 +200,14 @@ def lost_from(recording: Recording, row: int, *tracks: str) -> Recording:
     kept = {name: np.array(getattr(recording, name)) for name in ("left", "right", "diabolo")}
     for name in tracks:
         kept[name][row:] = np.nan
-    return Recording(recording.time, *kept.values(), recording.rate, name="lost")
+    return Recording(
+        recording.time,
+        *kept.values(),
+        recording.rate,
+        name="lost",
+        properties=recording.properties,
+        string_length=1.46,
+    )
 
 
 def test_recordings_of_other_set_ups_are_warned_of(played: Recording) -> None:
@@ -228,6 +235,7 @@ def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
         played.diabolo,
         played.rate,
         name="copy",
+        properties=played.properties,
         string_length=played.string_length,
     )
     for takes, held in (
@@ -236,7 +244,7 @@ def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
         ([played, copy.cut(100, 200)], []),
         ([played.cut(0, 240)], [copy.cut(150, 400)]),
     ):
-        with pytest.raises(ValueError, match=r"'played' and 'copy' hold the same [0-9]+ samples"):
+        with pytest.raises(ValueError, match=r'"played" and recording "copy" hold the same [0-9]+ samples'):
             diagnose(takes, holdout=held)
     assert diagnose([played.cut(0, 40), copy.cut(40, 80)]).headline == "INSUFFICIENT_DATA"
     with pytest.warns(diabolo.RecordingWarning, match="'copy' overlaps 'played' by 11 samples"):
@@ -262,7 +270,13 @@ def test_the_strands_of_a_base_stay_as_they_are_without_an_axle(plant: list[Reco
     turning = diabolo.Model(base.parameters, gyroscopic_tilt=diabolo.GyroscopicTilt(gain=3.0))
     take = plant[0]
     blind = Recording(
-        take.time, take.left, take.right, take.diabolo, take.rate, string_length=take.string_length
+        take.time,
+        take.left,
+        take.right,
+        take.diabolo,
+        take.rate,
+        properties=take.properties,
+        string_length=take.string_length,
     )
     found = diagnose(blind, turning, bank=["string_friction"])
     assert found.result.fit.axle_heldout is None
@@ -293,7 +307,7 @@ def test_the_command_holds_out_rows(short: Path, capsys: pytest.CaptureFixture[s
     assert main(["diagnose", str(short), "--holdout", f"{other}:0-8", f"{other}:10-200"]) == 0
     assert "without a start that could be compared: other" in capsys.readouterr().out
     assert main(["diagnose", str(other), "--holdout", f"{other}:0-80"]) == 2
-    assert "'other' and 'other' hold the same 81 samples" in capsys.readouterr().err
+    assert "other.csv hold the same 81 samples" in capsys.readouterr().err
 
 
 def test_bad_input_is_named(played: Recording) -> None:

@@ -119,7 +119,9 @@ def test_a_failing_progress_function_ends_the_work(played: Recording) -> None:
 
 
 def test_the_same_recording_does_not_count_twice(played: Recording) -> None:
-    with pytest.raises(ValueError, match=r"'played' and 'played' hold the same 481 samples, from 0 to 4 s; "):
+    with pytest.raises(
+        ValueError, match=r'"played" and recording "played" hold the same 481 samples, from 0 to 4 s; '
+    ):
         evaluate([played, played.cut(0, 480)], "paper")
     assert len(evaluate([played, played.cut(0, 300)], "paper").rows) == 2  # as in the paper's table
 
@@ -160,7 +162,16 @@ def test_bad_input_is_named(played: Recording) -> None:
             predict(played, row=row)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="predicted: 101 rows; expected 481"):
         position_errors(played, predict(played.cut(0, 100)))
-    unseen = Recording(played.time, played.left, played.right, played.diabolo * np.nan, 120.0, name="unseen")
+    unseen = Recording(
+        played.time,
+        played.left,
+        played.right,
+        played.diabolo * np.nan,
+        120.0,
+        name="unseen",
+        properties=played.properties,
+        string_length=played.string_length,
+    )
     with pytest.raises(ValueError, match='"unseen": no two successive rows with the diabolo'):
         evaluate(unseen)
 

@@ -160,6 +160,8 @@ def test_a_prediction_is_a_rollout_of_the_recorded_tips_and_sticks(played: Recor
         diabolo_orientation=played.diabolo_orientation,
         left_orientation=turn,
         right_orientation=turn,
+        properties=played.properties,
+        string_length=1.46,
     )
     tips = TipMotion.of_recording(recording)
     np.testing.assert_allclose(
