@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HandPlan', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LevelHorizon', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'MotiveBody', 'MotiveTake', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'Unbalance', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'foresee', 'hand_plan', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_orientation', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
+__all__: list[str] = ['AIMS', 'Action', 'Adequacy', 'Agent', 'Air', 'Arena', 'AttachedString', 'Belief', 'Calibration', 'Camera', 'CatchRule', 'ChangeInTime', 'ClaimedEffect', 'ComparedLaw', 'DIAGNOSIS_SCHEMA', 'DiaboloProperties', 'DiagnosisResult', 'DifferingEffect', 'EffectPlace', 'EffectSize', 'EpisodeStart', 'ErrorSummary', 'Estimate', 'Estimator', 'ExcerptScore', 'FiniteAxle', 'FormulaLaws', 'Freedom', 'GoalCost', 'Goals', 'GravityTilt', 'Groove', 'GyroscopicTilt', 'HandLimits', 'HandPlan', 'HeldOutErrors', 'HorizonScore', 'InputFile', 'Interval', 'LadderRow', 'LandingRestitution', 'LearntLawFound', 'LevelHands', 'LevelHorizon', 'LimitUse', 'LiveAgent', 'LocatedDirection', 'LocatedWindow', 'Location', 'MagnusLift', 'Model', 'PLANNED_ACTIONS', 'ParameterInfo', 'Parameters', 'ParametersAlone', 'Plan', 'PlannedPlay', 'Predictor', 'ProposedMotion', 'RecedingHorizon', 'Recording', 'RecordingError', 'RecordingNoise', 'ResidualAndNoise', 'ResidualFit', 'ResidualForce', 'RobotLimits', 'Seam', 'SeedGrid', 'SimulatorComparison', 'Spheroid', 'SpinLoss', 'State', 'StepStatus', 'StickArm', 'StickFlex', 'StickMap', 'StickSpline', 'StringElasticity', 'StringFriction', 'StringMass', 'StringWrench', 'Thresholds', 'TipLimits', 'TipMotion', 'TipPath', 'TrackedBody', 'TrackedTake', 'Unbalance', 'UnnamedForce', 'UnnamedPlace', 'UnnamedStructure', 'UpperLimit', 'Waypoint', 'action', 'aimed_again', 'arm_hand_limits', 'baseline', 'best_guess', 'check_plan', 'compare_simulator', 'diagnose', 'diagnosis_schema', 'fit_residual', 'follow_pointers', 'foresee', 'hand_plan', 'hang_at_rest', 'hanging_state', 'home_pose', 'keep_limits', 'largest_spin', 'lessons', 'limit_uses', 'load_recording', 'load_tip_plan', 'model_for', 'observation_infos', 'plan', 'plan_action', 'plan_cost', 'played_orientation', 'played_properties', 'played_recording', 'predict', 'read_recording', 'read_text', 'recorded_plan', 'recording_of_bodies', 'rollout', 'rollout_gradient', 'score_excerpt', 'score_excerpts', 'score_horizons', 'start_state', 'stretch_starts', 'success_rate', 'task_infos', 'taught_starts', 'trim_overlaps', 'ur5e_inverse']
 class ParameterInfo:
   """Name, unit and range of a numeric parameter."""
   @property
@@ -715,8 +715,6 @@ class State:
     """[m/s], shape (3,)."""
   @velocity.setter
   def velocity(self, arg1: _Reals) -> None: ...
-class RecordingError(ValueError):
-  """What is wrong with a recording, a calibration or one of their files."""
 class DiaboloProperties:
   """What a diabolo is like."""
   @staticmethod
@@ -766,37 +764,17 @@ class Calibration:
     """Writes it, whole or not at all."""
   def to_json(self) -> str:
     """The text of its file."""
-class MotiveBody:
-  """A rigid body of a Motive take, in the frame of the motion capture."""
-  @property
-  def name(self) -> str: ...
-  @property
-  def position(self) -> _Array:
-    """Of the body's origin [m], shape (N, 3); NaN in a dropout."""
-  @property
-  def quaternion(self) -> _Array:
-    """Body to capture frame, x, y, z, w, shape (N, 4); NaN in a dropout."""
-class MotiveTake:
-  """A take as OptiTrack Motive exports it, with nothing interpreted."""
-  @staticmethod
-  def load(path: os.PathLike | str | bytes) -> MotiveTake:
-    """Reads a Motive export (CSV)."""
-  @property
-  def bodies(self) -> list[MotiveBody]:
-    """List of MotiveBody."""
-  @property
-  def rate(self) -> float:
-    """[Hz]"""
-  @property
-  def time(self) -> _Array:
-    """[s], shape (N,)."""
+class RecordingError(ValueError):
+  """What is wrong with a recording, a calibration or one of their files."""
 class Recording:
   """
   A recorded play: stick tips and diabolo over N samples.
   
   World frame: x forward (away from the player), y left, z up. Arrays are read-only views; a dropout is NaN. To
   make one from arrays, hand over `time` [s] of the shape (N,), positions [m] of the shape (N, 3) and, if known,
-  orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or along the stick outwards.
+  orientations (x, y, z, w) of the shape (N, 4), body x being the spin axis or along the stick outwards. Without
+  `properties` they are those of the paper's red diabolo, without `string_length` it is 1.46 m, as in the paper:
+  assumed, which is warned of.
   """
   @staticmethod
   def load(path: os.PathLike | str | bytes, calibration: Calibration | None = None, *, up: str | None = None, columns: None | str | collections.abc.Mapping[str, str] = None) -> Recording:
@@ -811,7 +789,7 @@ class Recording:
     Units are s, ms, us, ns; m, cm, mm, in, ft. Columns with tidy names need no mention. Without a JSON file beside
     it, string and diabolo are the calibration's, or assumed.
     """
-  def __init__(self, time: _Reals, left: _Reals, right: _Reals, diabolo: _Reals, rate: _Real, *, diabolo_orientation: _Reals | None = None, left_orientation: _Reals | None = None, right_orientation: _Reals | None = None, name: str = 'recording', properties: DiaboloProperties = ..., string_length: _Real = 1.46) -> None: ...
+  def __init__(self, time: _Reals, left: _Reals, right: _Reals, diabolo: _Reals, rate: _Real, *, diabolo_orientation: _Reals | None = None, left_orientation: _Reals | None = None, right_orientation: _Reals | None = None, name: str = 'recording', properties: DiaboloProperties | None = None, string_length: _Real | None = None) -> None: ...
   def __len__(self) -> int: ...
   def cut(self, first: _Whole, last: _Whole) -> Recording:
     """Rows first to last, both included."""
@@ -826,7 +804,7 @@ class Recording:
   @property
   def assumed(self) -> list[str]:
     """
-    Those of "string_length" and "diabolo" (its mass and sizes) that no file told.
+    Those of "string_length" and "diabolo" (its mass and sizes) that nobody told.
     """
   @property
   def clock(self) -> float:
@@ -874,6 +852,33 @@ class Recording:
   @property
   def string_length(self) -> float:
     """[m]"""
+  @property
+  def time(self) -> _Array:
+    """[s], shape (N,)."""
+  @property
+  def title(self) -> str:
+    """What messages call it: the file that it was read from, or its name."""
+class TrackedBody:
+  """A rigid body, in the frame of the motion capture."""
+  @property
+  def name(self) -> str: ...
+  @property
+  def position(self) -> _Array:
+    """Of the body's origin [m], shape (N, 3); NaN in a dropout."""
+  @property
+  def quaternion(self) -> _Array:
+    """Body to capture frame, x, y, z, w, shape (N, 4); NaN in a dropout."""
+class TrackedTake:
+  """A take of motion capture as its file has it, with nothing interpreted."""
+  @staticmethod
+  def load(path: os.PathLike | str | bytes) -> TrackedTake:
+    """Reads a Motive export (CSV)."""
+  @property
+  def bodies(self) -> list[TrackedBody]:
+    """List of TrackedBody."""
+  @property
+  def rate(self) -> float:
+    """[Hz]"""
   @property
   def time(self) -> _Array:
     """[s], shape (N,)."""
@@ -1034,6 +1039,9 @@ class StringWrench:
   @property
   def on_right(self) -> _Array:
     """On the right tip [N]."""
+  @property
+  def overstretched(self) -> bool:
+    """Whether the tips are farther apart than the string is long; it holds the diabolo between them."""
   @property
   def right_tension(self) -> float:
     """[N]"""
@@ -2497,6 +2505,8 @@ def diagnose(recordings: collections.abc.Sequence[Recording], base: Model, holdo
 def diagnosis_schema() -> str:
   """The JSON schema of a diagnosis' file."""
 def fit_residual(recordings: collections.abc.Sequence[Recording], base: Model, threads: _Whole) -> ResidualFit: ...
+def follow_pointers(position: _Reals, velocity: _Reals, pointers: _Reals, string_length: _Real, dt: _Real) -> tuple[_Array, _Array]:
+  """Where the hands of a live play are after a step of `dt` [s], and how fast: both of the shape (2, 3), left over right [m, m/s], as they go after the pointers, shape (2, 3) [m]."""
 def foresee(model: Model, start: State, path: TipPath, dt: _Real = 0.001, flight: _Real = 0.0, down_to: _Real = ...) -> tuple:
   """What a path leads to by a model: times, states (N, 7), string states, left and right tips. A flight at its end is followed for `flight` seconds, or until it falls through the height `down_to`."""
 def hand_plan(planned: PlannedPlay, string_length: _Real, limits: HandLimits, period: _Real) -> HandPlan:
