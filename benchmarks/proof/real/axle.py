@@ -52,7 +52,7 @@ class Take:
         axle = first_axes(np.asarray(recording.diabolo_orientation))
         self._axle = axle * np.where(axle[:, :1] < 0.0, -1.0, 1.0)
         tips = np.hstack([recording.left, recording.right])
-        known: NDArray[np.bool_] = np.isfinite(np.hstack([tips, axle])).all(axis=1)
+        known = np.asarray(np.isfinite(np.hstack([tips, axle])).all(axis=1))
         self._tips = np.array(
             [np.interp(self._time, self._time[known], column[known]) for column in tips.T]
         ).T
