@@ -415,7 +415,7 @@ def test_a_string_state_that_is_none_is_told(state):
     ("break_it", "words"),
     [
         ("data.plugin_state[6] = 7.0", "diabolo.string, plugin_state: memory[6]: a string state of 7"),
-        ("model.opt.integrator = 77", "mj_step: invalid integrator"),
+        ("model.opt.integrator = 77", "invalid integrator"),
     ],
 )
 def test_an_error_in_several_threads_ends_the_process(tmp_path, break_it, words):

@@ -77,10 +77,6 @@ MASKED = np.ma.masked_greater(np.arange(7.0), 5.5)
         (lambda: State([0.0, 0.0, 0.0], spin=10**400), "State: spin: 1000000000"),
         (lambda: State([10**400, 0.0, 0.0]), "State: position: [1000000000"),
         (lambda: diabolo.plan_action("hop", spin_gain=10**400), "plan_action: spin_gain: 1000000000"),
-        (
-            lambda: diabolo.load_recording("x.csv", columns=123),
-            "load_recording: columns: 123; expected None or a str or a dict, each a str to a str",
-        ),
     ],
 )
 def test_an_argument_that_does_not_fit_is_named(call: Callable[[], Any], sentence: str) -> None:

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "catch.hpp"
+#include "diabolo/recording/formats/motive.hpp"
 #include "diabolo/recording/formats/spin_line.hpp"
 #include "diabolo/recording/spin.hpp"
 #include "recording/support.hpp"

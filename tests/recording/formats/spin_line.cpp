@@ -5,6 +5,7 @@
 
 #include "catch.hpp"
 #include "diabolo/recording/formats/calibration.hpp"
+#include "diabolo/recording/formats/motive.hpp"
 #include "recording/support.hpp"
 
 using namespace diabolo;
