@@ -2,11 +2,14 @@
 #include "diabolo/hosts/follow_pointers.hpp"
 
 #include "catch.hpp"
+#include "diabolo/plan/limits.hpp"
 
 using namespace diabolo;
 
 TEST_CASE("hands come to rest at the pointers, within a person's limits, and never tear the string") {
   constexpr double kLength = 1.45, kStep = 1e-3;
+  CHECK(kFastestHand == TipLimits().speed);
+  CHECK(kHardestHand == TipLimits().acceleration);
   Hands hands;
   hands.position = {Vector3<double>(0.0, 0.4, 1.25), Vector3<double>(0.0, -0.4, 1.25)};
   const Hands::Pair near{Vector3<double>(0.0, 0.6, 1.5), Vector3<double>(0.0, -0.2, 1.0)},
@@ -15,7 +18,7 @@ TEST_CASE("hands come to rest at the pointers, within a person's limits, and nev
     const Hands before = hands;
     follow_pointers(hands, near, kLength, kStep);
     for (std::size_t side = 0; side < 2; ++side) {
-      CHECK(hands.velocity[side].norm() <= TipLimits().speed);
+      CHECK(hands.velocity[side].norm() <= kFastestHand);
       CHECK((hands.velocity[side] - before.velocity[side]).norm() <=
             TipLimits().acceleration * kStep * 1.001);
       CHECK((hands.position[side] - before.position[side] - hands.velocity[side] * kStep).norm() < 1e-15);
