@@ -60,7 +60,7 @@ inline bool steps_at(double rate, const Eigen::VectorXd& time, double unit = 1.0
       steps.push_back(periods);
   if (4 * static_cast<Eigen::Index>(steps.size()) < time.size() - 1 || steps.empty()) return false;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
+  std::nth_element(steps.begin(), middle, steps.end());
   return std::abs(*middle - 1.0) <= 0.05;
 }
 
