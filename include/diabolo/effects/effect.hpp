@@ -21,8 +21,8 @@ struct TipShift {
   Vector3<Scalar> left = Vector3<Scalar>::Constant(Scalar(0)), right = Vector3<Scalar>::Constant(Scalar(0));
 
   void move(Tips<Scalar>& tips) const {
-    tips.left += left;
-    tips.right += right;
+    tips.left = tips.left + left;
+    tips.right = tips.right + right;
   }
 };
 
@@ -61,10 +61,8 @@ struct Contact {
 template <class Scalar>
 Vector3<Scalar> force_of_string(const Tips<Scalar>& tips, const StringStepResult<Scalar>& result,
                                 const Scalar& pull_difference) {
-  const StringPath<Scalar> path(result.position, tips);
-  const Vector3<Scalar> apart = path.from_left * Scalar(Scalar(1) / path.left_length) -
-                                path.from_right * Scalar(Scalar(1) / path.right_length);
-  return result.string_acceleration + apart * Scalar(Scalar(0.5) * pull_difference);
+  const auto [left, right] = StringPath<Scalar>(result.position, tips).directions();
+  return result.string_acceleration + (left - right) * Scalar(Scalar(0.5) * pull_difference);
 }
 
 /// What an effect changes when it changes nothing. An effect is a struct template over Scalar that derives
@@ -219,8 +217,8 @@ struct EffectSet {
   /// The string with what makes it softer wherever the diabolo is.
   StringNow<Scalar> string(const Parameters<Scalar>& parameters) const {
     StringNow<Scalar> string{parameters.string_length};
-    each([&](const auto& effect) {
-      string.add(effect.spring(), parameters.mass);
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (hides(&Effect::spring, &Neutral::spring)) string.add(effect.spring(), parameters.mass);
       string.restitution += effect.restitution();
     });
     return string;
@@ -229,7 +227,10 @@ struct EffectSet {
   StringNow<Scalar> string_at(StringNow<Scalar> string, const State<Scalar>& state, const Tips<Scalar>& tips,
                               const Parameters<Scalar>& parameters) const {
     string.length = string.length - bound_length(state, tips, parameters);
-    each([&](const auto& effect) { string.add(effect.spring_at(state, tips), parameters.mass); });
+    each([&]<class Effect>(const Effect& effect) {
+      if constexpr (hides(&Effect::spring_at, &Neutral::spring_at))
+        string.add(effect.spring_at(state, tips), parameters.mass);
+    });
     return string;
   }
   /// Adds all contact impulses to velocity and spin; returns the difference of the tensions over mass

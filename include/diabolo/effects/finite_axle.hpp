@@ -36,22 +36,16 @@ struct FiniteAxle : NeutralEffect<Scalar> {
       shifted.left = select<Scalar>(follows(), around.left, shifted.left);
       shifted.right = select<Scalar>(follows(), around.right, shifted.right);
     }
-    return {select<Scalar>(captured, shifted.left, TipShift<Scalar>().left),
-            select<Scalar>(captured, shifted.right, TipShift<Scalar>().right)};
+    const Scalar held = select(captured, Scalar(1), Scalar(0));
+    return {shifted.left * held, shifted.right * held};
   }
 
   Scalar bound_length(const State<Scalar>& state, const Tips<Scalar>& shifted,
                       const Parameters<Scalar>& parameters) const {
     if (all(is(state.string_state, StringState::kFlying))) return Scalar(0);
-    StringPath<Scalar> path(state.position, shifted);
-    if (any(follows())) {
-      path.from_left = select<Scalar>(follows(), beside(path.from_left, state.axis), path.from_left);
-      path.from_right = select<Scalar>(follows(), beside(path.from_right, state.axis), path.from_right);
-      path.left_length = norm(path.from_left);
-      path.right_length = norm(path.from_right);
-    }
-    return select(is(state.string_state, StringState::kFlying), Scalar(0),
-                  Scalar(radius * winding(state, path, parameters).angle));
+    return select(
+        is(state.string_state, StringState::kFlying), Scalar(0),
+        Scalar(radius * touched_angle(state, StringPath<Scalar>(state.position, shifted), parameters)));
   }
 
   /// Calls `visit(info, field)` for every field.
@@ -66,48 +60,59 @@ struct FiniteAxle : NeutralEffect<Scalar> {
  private:
   Mask<Scalar> follows() const { return follows_axis > Scalar(0.5); }
 
+  /// Over which the string lies around the axle [rad], with all its wraps.
+  Scalar touched_angle(const State<Scalar>& state, const StringPath<Scalar>& path,
+                       const Parameters<Scalar>& parameters) const {
+    if (parameters.follow_turns || !any(follows())) return winding(state, path, parameters).angle;
+    const Scalar around = contact_angle(path, state.axis) + wrapped_angle(parameters);
+    return all(follows()) ? around : select(follows(), around, winding(state, path, parameters).angle);
+  }
+
   TipShift<Scalar> square_to_strands(const State<Scalar>& state, const Tips<Scalar>& tips,
                                      const Parameters<Scalar>& parameters) const {
     const StringPath<Scalar> path(state.position, tips);
-    const Vector3<Scalar> to_left = path.from_left * Scalar(Scalar(-1) / path.left_length),
-                          to_right = path.from_right * Scalar(Scalar(-1) / path.right_length);
+    const auto [from_left, from_right] = path.directions();
     // Strands that cross leave the axle on the other side of each other.
     const Vector3<Scalar> around = state.axis * side_of_axle(state, parameters);
     const bool turns = parameters.follow_turns;
-    const Vector3<Scalar> left_in = turns ? cross<Scalar>(around, to_left) : across(to_left, to_right),
-                          right_in = turns ? cross<Scalar>(to_right, around) : across(to_right, to_left);
-    return {shift(to_left, left_in, path.left_length), shift(to_right, right_in, path.right_length)};
+    const Vector3<Scalar> left = turns ? cross<Scalar>(from_left, around) : across(from_left, -from_right),
+                          right = turns ? cross<Scalar>(around, from_right) : across(from_right, -from_left);
+    const auto [left_size, right_size] = norms<Scalar>(left, right);
+    return tangents(path.from_left, left * Scalar(path.left_length / (left_size + Scalar(1e-9))),
+                    path.from_right, right * Scalar(path.right_length / (right_size + Scalar(1e-9))));
   }
 
   TipShift<Scalar> around_axis(const State<Scalar>& state, const Tips<Scalar>& tips,
                                const Parameters<Scalar>& parameters) const {
-    const Vector3<Scalar> to_left = beside(tips.left - state.position, state.axis),
-                          to_right = beside(tips.right - state.position, state.axis);
-    const Vector3<Scalar> left = cross<Scalar>(state.axis, to_left),
-                          right = cross<Scalar>(state.axis, to_right);
+    const StringPath<Scalar> path(state.position, tips);
+    const Vector3<Scalar> from_left = across(state.axis, path.from_left),
+                          from_right = across(state.axis, path.from_right);
+    const Vector3<Scalar> left = cross<Scalar>(from_left, state.axis),
+                          right = cross<Scalar>(from_right, state.axis);
     const Scalar side = parameters.follow_turns
                             ? side_of_axle(state, parameters)
-                            : select(dot<Scalar>(left, to_right) < Scalar(0), Scalar(-1), Scalar(1));
-    return {shift(to_left * Scalar(Scalar(1) / norm(to_left)), left * side, norm(to_left)),
-            shift(to_right * Scalar(Scalar(1) / norm(to_right)), right * Scalar(-side), norm(to_right))};
+                            : select(dot<Scalar>(left, from_right) > Scalar(0), Scalar(-1), Scalar(1));
+    return tangents(from_left, left * side, from_right, right * Scalar(-side));
   }
 
-  /// Without its part along the axle; never nothing.
-  static Vector3<Scalar> beside(const Vector3<Scalar>& v, const Vector3<Scalar>& axis) {
-    return v - axis * Scalar(dot<Scalar>(v, axis) * Scalar(1.0 - 1e-9));
+  /// Without its part along a unit vector.
+  static Vector3<Scalar> across(const Vector3<Scalar>& along, const Vector3<Scalar>& v) {
+    return v - along * dot<Scalar>(v, along);
   }
 
-  /// The part of the unit vector `other` that is square to `own`.
-  static Vector3<Scalar> across(const Vector3<Scalar>& own, const Vector3<Scalar>& other) {
-    return other - own * dot<Scalar>(other, own);
-  }
-
-  /// Of the tip that the unit vector `own` points to, `length` away; `in` is square to it.
-  Vector3<Scalar> shift(const Vector3<Scalar>& own, const Vector3<Scalar>& in, const Scalar& length) const {
-    const Vector3<Scalar> inward = in * Scalar(Scalar(1) / (norm(in) + Scalar(1e-9)));
-    const Scalar sine = minimum(Scalar(radius / length), Scalar(1));  // a tip within the axle is on it
-    const Scalar cosine = positive_sqrt<Scalar>(Scalar(1) - sine * sine);
-    return inward * Scalar(radius * cosine) - own * Scalar(radius * sine);
+  /// Of tips from which the axle is `left` and `right`; a strand leaves it on the side of its `in`, which is
+  /// square to that and as long.
+  TipShift<Scalar> tangents(const Vector3<Scalar>& left, const Vector3<Scalar>& left_in,
+                            const Vector3<Scalar>& right, const Vector3<Scalar>& right_in) const {
+    const Scalar square = radius * radius;
+    // A tip within the axle is on it.
+    const Scalar left_square = maximum(squared_norm<Scalar>(left), square + tiny<Scalar>()),
+                 right_square = maximum(squared_norm<Scalar>(right), square + tiny<Scalar>());
+    const auto [left_strand, right_strand] =
+        square_roots(Scalar(left_square - square), Scalar(right_square - square));
+    const auto [by_left, by_right] = quotients(radius, radius, left_square, right_square);
+    return {(left_in * left_strand + left * radius) * by_left,
+            (right_in * right_strand + right * radius) * by_right};
   }
 };
 

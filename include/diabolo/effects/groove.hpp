@@ -39,9 +39,8 @@ struct Groove : NeutralEffect<Scalar> {
                              const Parameters<Scalar>&) const {
     const Mask<Scalar> captured = !is(state.string_state, StringState::kFlying);
     if (!any(captured)) return {};
-    const Scalar z =
-        select(captured, climb(state.axis, bisector(StringPath<Scalar>(state.position, tips))), Scalar(0));
-    const Vector3<Scalar> shift = state.axis * Scalar(-z);
+    const Scalar away = climb(state.axis, StringPath<Scalar>(state.position, tips).gradient());
+    const Vector3<Scalar> shift = state.axis * select(captured, away, Scalar(0));
     return {shift, shift};
   }
 
@@ -79,13 +78,6 @@ struct Groove : NeutralEffect<Scalar> {
     visit(ParameterInfo{"flank_brake", "1/m", 0.0, 1e3,
                         "friction on the flank times its radius times mass over axial moment of inertia"},
           self.flank_brake);
-  }
-
- private:
-  /// Sum of the strands' directions, towards the tips.
-  static Vector3<Scalar> bisector(const StringPath<Scalar>& path) {
-    return path.from_left * Scalar(Scalar(-1) / path.left_length) +
-           path.from_right * Scalar(Scalar(-1) / path.right_length);
   }
 };
 

@@ -38,20 +38,20 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
   Vector3<Scalar> axle_torque(const State<Scalar>& state, const Tips<Scalar>& tips,
                               const StringStepResult<Scalar>& result, const Scalar& pull_difference,
                               const Parameters<Scalar>& parameters) const {
-    const StringPath<Scalar> path(result.position, tips);
-    const Vector3<Scalar> left = path.from_left * Scalar(Scalar(-1) / path.left_length),
-                          right = path.from_right * Scalar(Scalar(-1) / path.right_length);
-    const Vector3<Scalar> both = left + right;
-    // Mean tension over mass.
+    const auto [left, right] = StringPath<Scalar>(result.position, tips).directions();
+    // Mean tension over mass; the sum of both directions has the square 2 + 2 left.right.
+    const Scalar both = maximum(Scalar(2) + Scalar(2) * dot<Scalar>(left, right), Scalar(4e-4));
     const Scalar pull = select(
-        result.taut, Scalar(norm(result.string_acceleration) / maximum(norm(both), Scalar(0.02))), Scalar(0));
-    const Vector3<Scalar> torque = lever(state.axis, left) * Scalar(pull - Scalar(0.5) * pull_difference) -
-                                   lever(state.axis, right) * Scalar(pull + Scalar(0.5) * pull_difference);
+        result.taut, positive_sqrt<Scalar>(squared_norm(result.string_acceleration) / both), Scalar(0));
+    const auto [left_lever, right_lever] =
+        levers(Scalar(dot<Scalar>(state.axis, left)), Scalar(dot<Scalar>(state.axis, right)));
+    const Vector3<Scalar> torque =
+        across(state.axis, left * Scalar(left_lever * (pull - Scalar(0.5) * pull_difference)) -
+                               right * Scalar(right_lever * (pull + Scalar(0.5) * pull_difference)));
     // The left strand leaves the axle on the side of the left tip, but where the string's turns are followed:
     // strands that cross leave it on the other side of each other.
-    const Scalar side = parameters.follow_turns
-                            ? Scalar(-side_of_axle(state, parameters))
-                            : dot<Scalar>(cross<Scalar>(state.axis, both), tips.left - tips.right);
+    const Scalar side = parameters.follow_turns ? Scalar(-side_of_axle(state, parameters))
+                                                : dot<Scalar>(state.axis, cross<Scalar>(right, left));
     return select<Scalar>(side > Scalar(0), torque, Vector3<Scalar>(-torque));
   }
 
@@ -59,15 +59,14 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
     const Mask<Scalar> rigid = inertia_ratio > Scalar(0);
     const Vector3<Scalar> followed = all(rigid) ? state.axis : after_slow_turn(state, torque, dt);
     if (any(rigid)) {
-      const Scalar ratio = select(rigid, inertia_ratio, Scalar(1));
+      const Scalar lightness = Scalar(1) / select(rigid, inertia_ratio, Scalar(1)), half = Scalar(0.5) * dt;
       // Half of the torque's kick before the axle turns about the momentum, half after: second order.
-      const Vector3<Scalar> kick = torque * Scalar(Scalar(0.5) * dt * gain / ratio);
-      const Vector3<Scalar> momentum = state.tumble - state.axis * Scalar(state.spin / ratio) + kick;
-      state.axis = select<Scalar>(rigid, turned_about(momentum * dt, state.axis), followed);
-      const Vector3<Scalar> kicked = momentum + kick;
-      const Vector3<Scalar> across = kicked - state.axis * dot<Scalar>(kicked, state.axis);
-      state.tumble =
-          select<Scalar>(rigid, across * Scalar(Scalar(1) / (Scalar(1) + decay * dt)), state.tumble);
+      const Vector3<Scalar> kick = torque * Scalar(half * gain * lightness);
+      const Vector3<Scalar> momentum = state.tumble - state.axis * Scalar(state.spin * lightness) + kick;
+      state.axis = select<Scalar>(rigid, turned_about(momentum * half, state.axis), followed);
+      const Vector3<Scalar> tumble =
+          across(state.axis, momentum + kick) * Scalar(Scalar(1) / (Scalar(1) + decay * dt));
+      state.tumble = select<Scalar>(rigid, tumble, state.tumble);
     } else {
       state.axis = followed;
     }
@@ -90,17 +89,22 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
   }
 
  private:
-  /// (s.e) u.
-  static Vector3<Scalar> lever(const Vector3<Scalar>& axis, const Vector3<Scalar>& strand) {
-    const Scalar along = dot<Scalar>(axis, strand);
-    const Vector3<Scalar> across = strand - axis * along;
-    return across * Scalar(along / maximum(norm(across), Scalar(0.02)));
+  /// Without its part along the axle.
+  static Vector3<Scalar> across(const Vector3<Scalar>& axle, const Vector3<Scalar>& v) {
+    return v - axle * dot<Scalar>(axle, v);
   }
 
-  /// The vector turned about `angle` [rad], by Cayley's map: a rotation whatever its size, right to second
-  /// order.
-  static Vector3<Scalar> turned_about(const Vector3<Scalar>& angle, const Vector3<Scalar>& v) {
-    const Vector3<Scalar> half = angle * Scalar(0.5);
+  /// What (s.e) u is to the part of e across s, for two strands of such s.e.
+  static std::array<Scalar, 2> levers(const Scalar& left, const Scalar& right) {
+    const Scalar least = Scalar(4e-4);
+    const auto [left_size, right_size] = square_roots(maximum(Scalar(Scalar(1) - left * left), least),
+                                                      maximum(Scalar(Scalar(1) - right * right), least));
+    return quotients(left, right, left_size, right_size);
+  }
+
+  /// The vector turned about twice the angle `half` [rad], by Cayley's map: a rotation whatever its size,
+  /// right to second order.
+  static Vector3<Scalar> turned_about(const Vector3<Scalar>& half, const Vector3<Scalar>& v) {
     const Vector3<Scalar> once = cross<Scalar>(half, v), twice = cross<Scalar>(half, once);
     return v + (once + twice) * Scalar(Scalar(2) / (Scalar(1) + squared_norm<Scalar>(half)));
   }

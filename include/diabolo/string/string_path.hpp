@@ -38,9 +38,14 @@ struct StringPath {
   /// are one straight line.
   friend Scalar contact_angle(const StringPath& path) {
     using std::atan2;
-    const Vector3<Scalar> left = path.from_left * Scalar(Scalar(1) / path.left_length),
-                          right = path.from_right * Scalar(Scalar(1) / path.right_length);
+    const auto [left, right] = path.directions();
     return Scalar(2) * atan2(norm<Scalar>(left + right), Scalar(norm<Scalar>(left - right) + tiny<Scalar>()));
+  }
+
+  /// Unit vectors from the left and the right tip to the diabolo.
+  [[gnu::always_inline]] inline std::array<Vector3<Scalar>, 2> directions() const {
+    const std::array<Scalar, 2> inverse = inverses(left_length, right_length);
+    return {from_left * inverse[0], from_right * inverse[1]};
   }
 
   /// Derivative of the length with respect to the diabolo's position.

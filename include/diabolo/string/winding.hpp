@@ -27,6 +27,14 @@ std::array<Scalar, 2> turn_at_axle(const StringPath<Scalar>& path, const Vector3
               dot<Scalar>(path.from_left, path.from_right)};
 }
 
+/// Angle over which the string lies around a thin axle, seen along it; its sense does not count.
+template <class Scalar>
+Scalar contact_angle(const StringPath<Scalar>& path, const Vector3<Scalar>& axis) {
+  using std::atan2;
+  const auto [sine, cosine] = turn_at_axle(path, axis);
+  return atan2(absolute(sine), Scalar(cosine + Scalar(1e-18)));
+}
+
 /// 1 or -1: the sense in which the string of Parameters::follow_turns runs around the axle, as last counted.
 template <class Scalar>
 Scalar side_of_axle(const State<Scalar>& state, const Parameters<Scalar>& parameters) {
