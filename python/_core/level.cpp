@@ -25,7 +25,7 @@ Hands make_hands(const Model& model, const Array& left, const Array& right, doub
   home.left = to_vector3(left, "left");
   home.right = to_vector3(right, "right");
   const LevelHandLimits limits{lead, turn, quickness};
-  return {FullPredictor<double>(model.parameters, model.effects), home, spin, {}, limits};
+  return {FullPredictor<double>(model.parameters, model.effects), home, spin, Hands::kWeights, limits};
 }
 
 void see(LevelHands& hands, const Array& axis, double spin, const py::object& string) {

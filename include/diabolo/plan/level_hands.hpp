@@ -14,10 +14,12 @@ namespace diabolo {
 /// lead from a throw to its catch.
 class LevelHands {
  public:
+  static constexpr LevelWeights kWeights{};  ///< where nothing is said
+
   /// `home` are the hands of the play at rest; the play turns about the vertical through their middle. Throws
   /// as axle_response() does.
   LevelHands(const FullPredictor<double>& model, const Tips<double>& home, double spin,
-             const LevelWeights& weights = {}, const LevelHandLimits& limits = {})
+             const LevelWeights& weights = kWeights, const LevelHandLimits& limits = {})
       : regulator_(model, home, spin, weights), limits_(limits) {
     limits.validate();
     hands_.turned.pivot = 0.5 * (home.left + home.right);

@@ -21,10 +21,13 @@ namespace diabolo {
 class LevelHorizon {
  public:
   static constexpr double kAgain = 0.1;  ///< from a plan to the next one [s]
+  /// As those of LevelHands, but that a lead may be twice as large: pulls to come are known, so that less of
+  /// it is in vain.
+  static constexpr LevelWeights kWeights{.lead = 0.6};
 
-  /// As LevelHands, but that a lead costs half: pulls to come are known, so that less of it is in vain.
+  /// As LevelHands.
   LevelHorizon(const FullPredictor<double>& model, const Tips<double>& home, double spin,
-               const LevelWeights& weights = {.lead = 0.6}, const LevelHandLimits& limits = {})
+               const LevelWeights& weights = kWeights, const LevelHandLimits& limits = {})
       : regulator_(model, home, spin, weights),
         model_(without_nutation(model)),
         limits_(limits),
