@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What one step costs: each model with each kind of number, on a beat, a hop and a flight.
 
+#include <concepts>
 #include <stdexcept>
 
 #include <diabolo/effects/all.hpp>
@@ -100,6 +101,21 @@ void add(std::vector<NamedJob>& jobs, const std::string& model, const std::strin
                   }});
 }
 
+/// `consistent()` with a residual whose every term is at work.
+Predictor<double, ResidualForce> learnt() {
+  ResidualLaw law;
+  for (ResidualPart* part : {&law.on_string, &law.off_string}) {
+    part->weights.fill(0.01);
+    part->low.fill(-20.0);
+    part->high.fill(20.0);
+  }
+  EffectSet<double, ResidualForce> effects;
+  effects.get<ResidualForce>() = ResidualForce<double>(law);
+  Parameters<double> parameters = Parameters<double>::consistent();
+  parameters.string_length = Play::kStringLength;
+  return Predictor<double, ResidualForce>(parameters, effects);
+}
+
 template <class Scalar>
 void add_models(std::vector<NamedJob>& jobs, const std::string& scalar) {
   const auto with_length = [](Parameters<Scalar> parameters) {
@@ -132,6 +148,8 @@ void add_models(std::vector<NamedJob>& jobs, const std::string& scalar) {
   add<false>(jobs, "elastic", scalar, beat(), elastic);
   add<false>(jobs, "published", scalar, beat(), published);
   add<false>(jobs, "paper", scalar, beat(), paper);
+  if constexpr (std::same_as<Scalar, double>)
+    for (const Play& play : {beat(), hop(), flight()}) add<true>(jobs, "residual", scalar, play, learnt());
   if (scalar == "double")
     for (const double seconds : {2.0, 4.0}) add<false>(jobs, "consistent", scalar, beat(seconds), consistent);
 }

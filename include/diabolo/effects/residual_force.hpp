@@ -64,14 +64,19 @@ struct ResidualForce : NeutralEffect<Scalar> {
 
  private:
   static Vector3<Scalar> push_of(const ResidualPart& part, const ResidualScene<Scalar>& scene) {
-    Vector3<Scalar> push = Vector3<Scalar>::Constant(Scalar(0));
-    for (std::size_t k = 0; k < scene.axes.size(); ++k) {
-      std::array<Scalar, 2> sums{Scalar(0), Scalar(0)};  // two, since each sum waits for the one before
-      for (std::size_t i = residual_begin(k); i < residual_begin(k + 1); ++i)
-        sums[i % 2] += scene.terms[i] * Scalar(part.weights[i]);
-      push = push + scene.axes[k] * Scalar(sums[0] + sums[1]);
-    }
+    const Vector3<Scalar> push = scene.axes[0] * along<0>(part, scene) +
+                                 scene.axes[1] * along<1>(part, scene) +
+                                 scene.axes[2] * along<2>(part, scene);
     return push * fade(part, scene);
+  }
+
+  /// The push in one direction. Two sums, since each waits for the one before.
+  template <std::size_t kAxis>
+  static Scalar along(const ResidualPart& part, const ResidualScene<Scalar>& scene) {
+    std::array<Scalar, 2> sums{Scalar(0), Scalar(0)};
+    for (std::size_t i = residual_begin(kAxis); i < residual_begin(kAxis + 1); ++i)
+      sums[i % 2] += scene.terms[i] * Scalar(part.weights[i]);
+    return sums[0] + sums[1];
   }
 
   /// 1 in the ranges, and smoothly to 0 where one is left by half its width.
@@ -96,7 +101,7 @@ struct ResidualForce : NeutralEffect<Scalar> {
     Vector3<Scalar> held = push;
     if (any(squared_norm(push) > largest * largest))
       held = held * Scalar(largest / maximum(norm(push), largest));
-    const Scalar too_much = held.dot(velocity) - Scalar(law->power);
+    const Scalar too_much = dot<Scalar>(held, velocity) - Scalar(law->power);
     if (any(too_much > Scalar(0)))
       held =
           held - velocity * Scalar(maximum(too_much, Scalar(0)) / (squared_norm(velocity) + tiny<Scalar>()));

@@ -15,7 +15,7 @@ namespace diabolo {
 
 /// Where the terms of direction `k` of a residual law begin: right, forward, up; and, for 3, where the last
 /// end. A function, since the kernels of several instruction sets must not share a symbol.
-constexpr std::size_t residual_begin(std::size_t k) { return std::array<std::size_t, 4>{0, 10, 18, 25}[k]; }
+constexpr std::size_t residual_begin(std::size_t k) { return k == 0 ? 0 : k == 1 ? 10 : k == 2 ? 18 : 25; }
 inline constexpr std::size_t kResidualTerms = residual_begin(3);
 inline constexpr std::size_t kResidualInputs = 8;
 

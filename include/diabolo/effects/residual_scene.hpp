@@ -32,12 +32,6 @@ inline constexpr double kSlow = 0.05;                      ///< below it a direc
 inline constexpr double kHardPull = 30.0, kUsual = 10.0;   ///< of the string [m/s^2]
 inline constexpr double kUsualSpin = 200.0, kAside = 0.5;  ///< [rad/s], [m]
 
-/// x / (|x| + small): its sign, smoothly.
-template <class Scalar>
-Scalar soft_sign(const Scalar& x, double small) {
-  return x / (absolute(x) + Scalar(small));
-}
-
 /// Towards the right tip, forward and level, up.
 template <class Scalar>
 std::array<Vector3<Scalar>, 3> string_frame(const Tips<Scalar>& tips) {
@@ -58,7 +52,7 @@ Scalar slip(const State<Scalar>& state, const Tips<Scalar>& tips, const Paramete
   const Vector3<Scalar> from_left = state.velocity - tips.left_velocity,
                         from_right = tips.right_velocity - state.velocity;
   const std::array<Scalar, 2> passing =
-      quotients<Scalar>(to_left.dot(from_left), to_right.dot(from_right), lengths[0], lengths[1]);
+      quotients<Scalar>(dot(to_left, from_left), dot(to_right, from_right), lengths[0], lengths[1]);
   return state.spin * parameters.axle_radius - (passing[0] + passing[1]) * Scalar(0.5);
 }
 
@@ -69,22 +63,25 @@ template <class Scalar>
                                                                    const Tips<Scalar>& tips,
                                                                    const Parameters<Scalar>& parameters) {
   using effects_detail::kAside, effects_detail::kHardPull, effects_detail::kSlow, effects_detail::kUsual,
-      effects_detail::kUsualSpin, effects_detail::slip, effects_detail::soft_sign,
-      effects_detail::string_frame, std::sqrt;
+      effects_detail::kUsualSpin, effects_detail::slip, effects_detail::string_frame;
   ResidualScene<Scalar> scene;
   scene.axes = string_frame(tips);
   const auto in_frame = [&](const Vector3<Scalar>& v) {
-    return std::array<Scalar, 3>{scene.axes[0].dot(v), scene.axes[1].dot(v), scene.axes[2].dot(v)};
+    return std::array<Scalar, 3>{dot(scene.axes[0], v),
+                                 scene.axes[1].x() * v.x() + scene.axes[1].y() * v.y(),  // level
+                                 dot(scene.axes[2], v)};
   };
   const Vector3<Scalar> middle = (tips.left + tips.right) * Scalar(0.5),
                         hands = (tips.left_velocity + tips.right_velocity) * Scalar(0.5);
   const std::array<Scalar, 3> v = in_frame(state.velocity), aside = in_frame(state.position - middle),
                               carried = in_frame(hands);
-  const Scalar square = squared_norm(state.velocity),
-               over_speed = Scalar(1) / sqrt(square + Scalar(kSlow * kSlow)), speed = square * over_speed,
-               pull = minimum(norm(state.string_acceleration), Scalar(kHardPull)) * Scalar(1.0 / kUsual),
-               spin = state.spin * Scalar(1.0 / kUsualSpin),
-               slipping = soft_sign(slip(state, tips, parameters), kSlow);
+  const Scalar square = squared_norm(state.velocity), slips = slip(state, tips, parameters),
+               spin = state.spin * Scalar(1.0 / kUsualSpin);
+  const auto [soft_speed, pulled] = square_roots<Scalar>(
+      square + Scalar(kSlow * kSlow), squared_norm(state.string_acceleration) + tiny<Scalar>());
+  const auto [over_speed, slipping] =  // the sign of the slip, smoothly
+      quotients<Scalar>(Scalar(1), slips, soft_speed, absolute(slips) + Scalar(kSlow));
+  const Scalar speed = square * over_speed, pull = minimum(pulled, Scalar(kHardPull)) * Scalar(1.0 / kUsual);
   for (std::size_t k = 0; k < 3; ++k) {
     Scalar* const terms = &scene.terms[residual_begin(k)];
     terms[0] = Scalar(1);
