@@ -552,7 +552,8 @@ class FormulaLaws:
            "numbers": [{"name": "rate", "unit": "m/s", "usual": 0.001, "value": 0.002}]}])
   
   What a formula gives [m/s^2] acts forward, left, up, against (the velocity), along (the string), across (its plane) or
-  lift (along omega x v); or it is the rate of the spin (spin, [rad/s^2]) or a length added to the string (string, [m]).
+  lift (along omega x v); or it is the rate of the spin (spin, [rad/s^2]), a length added to the string (string, [m]) or
+  to the coefficient of its friction (friction).
   It is made of its numbers, of `variables()`, of pi, + - * / ^ and of abs cos exp log max min sign sin sqrt tanh. The
   first number is the amplitude: where it is zero there is nothing. A diagnosis needs `usual`, the usual size of a
   number, and of the others `expected`, where it begins; `minimum` 0 says that a negative amplitude is against it.

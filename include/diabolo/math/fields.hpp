@@ -31,7 +31,9 @@ struct ParameterInfo {
 };
 
 /// A unit behind a number; nothing for the unit "1".
-inline std::string unit_behind(std::string_view unit) { return unit == "1" ? "" : std::string(" ").append(unit); }
+inline std::string unit_behind(std::string_view unit) {
+  return unit == "1" ? "" : std::string(" ").append(unit);
+}
 
 /// Throws std::invalid_argument naming the first field of `Fields::for_each` that is out of its range, its
 /// value and the range.
