@@ -427,8 +427,10 @@ def test_an_error_in_several_threads_ends_the_process(tmp_path, break_it, words)
         cwd=tmp_path,
         stdin=subprocess.DEVNULL,
     )
-    assert done.returncode == 1 and done.stdout.splitlines()[0] == "caught"
-    assert words in done.stderr + done.stdout and "Traceback" not in done.stderr
+    assert done.stdout == "caught\n"
+    assert done.returncode != 0  # 1, or of a signal where both threads end it at once
+    said = done.stderr + (tmp_path / "MUJOCO_LOG.TXT").read_text()
+    assert words in said and "Traceback" not in said
 
 
 THREADED = """
