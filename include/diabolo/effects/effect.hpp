@@ -253,7 +253,6 @@ struct EffectSet {
     std::apply([&](const auto&... effect) { (touch_one(effect), ...); }, members);
     return pull_difference;
   }
-  /// Whether the axle turns where no string pulls, too.
   bool tumbles() const {
     return std::apply([](const auto&... effect) { return ((!effect.neutral() && effect.tumbles()) || ...); },
                       members);
