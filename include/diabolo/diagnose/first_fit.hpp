@@ -10,7 +10,6 @@
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/first_spring.hpp"
 #include "diabolo/diagnose/refine.hpp"
-#include "diabolo/diagnose/thin.hpp"
 
 namespace diabolo {
 
@@ -19,9 +18,6 @@ inline constexpr double kUnseenSpin = 80.0;
 
 /// The give of a soft string to begin with [m/N].
 inline constexpr double kSoftStart = 3e-3;
-
-/// So many windows show where to begin: as many as a short recording has. All settle what is found there.
-inline constexpr std::size_t kRoughWindows = 48;
 
 namespace diagnose_detail {
 
@@ -69,36 +65,18 @@ std::optional<Fit> softly_begun(Fit fit, const ActiveSet& set, const Model& phys
   return fit;
 }
 
-/// The windows that decide, by what all of them said last.
-inline Fit roughly(Fit fit) {
-  std::vector<UnknownVector> information;
-  for (const WindowScore& score : fit.scores) information.emplace_back(score.information.diagonal());
-  keep_windows(fit.fit_takes, windows_that_decide(information, kRoughWindows));
-  return fit;
-}
-
-/// Brings what a few windows found to all of them. Those that found it begin where they ended.
-inline void take_along(Fit& rough, std::vector<FitTake> all) {
-  for (std::size_t s = 0; s < all.size(); ++s)
-    for (const FitWindow& fitted : rough.fit_takes[s].windows)
-      *std::ranges::find(all[s].windows, fitted.first, &FitWindow::first) = fitted;
-  rough.fit_takes = std::move(all);
-}
-
 /// From starts alone, with all of `set` free, stiff and soft: what costs less is gone on with. A string that
 /// rings leaves valleys far from each other: where another spring than a stiff one promises much, it is gone
-/// on with, too. So far with a part of the windows, then with all. At the end the fit has been looked at with
-/// `set`. Returns whether there was time for the first one.
+/// on with, too. At the end the fit has been looked at with `set`. Returns whether there was time for the
+/// first one.
 template <class D>
 bool fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                     const FitWatch& watch) {
-  const std::vector<FitTake> all = fit.fit_takes;
   const auto settle = [&](Fit& rough) {
-    take_along(rough, all);
     rough.far_window = kFarWindow;
-    approach<D>(rough, physics, set, kMostIterations, threads, watch);
+    reweight(rough, threads);
+    descend<D>(rough, physics, set, kMostIterations, threads, watch);
   };
-  fit = roughly(std::move(fit));
   fit.far_window = kFarWindowAtFirst;
   const Fit begun = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
