@@ -56,8 +56,8 @@ struct Brake : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "brake";
   Scalar rate{0};  ///< [1/s]
   Contact<Scalar> contact(const State<Scalar>& state, const Tips<Scalar>&,
-                          const StringStepResult<Scalar>& result, const Scalar& dt,
-                          const Parameters<Scalar>&) const {
+                          const StringStepResult<Scalar>& result, const Scalar& dt, const Parameters<Scalar>&,
+                          const Scalar&) const {
     return {state.velocity * select(result.taut, Scalar(-rate * dt), Scalar(0)), Scalar(0)};
   }
   template <class Self, class Visitor>

@@ -7,12 +7,11 @@ raise   a minute that gains 60 rad/s or more; the axle shall stay within 5 degre
 back    a tilt of 20 degrees shall be below 5 within 3 s, and stay there
 throw   twenty throws and catches in a row, with cycles of acceleration between, shall lose nothing
 catch   a throw whose axle is tilted by 20 degrees shall be caught, and be level 3 s after that; also told
-        without the nutation that the catch leaves
+        without the nutation that the catch leaves, which nothing on the plant damps
 
 `--by` says who plays: `model`, the linear-quadratic regulator of LevelHands, and `horizon`, LevelHorizon,
 both on the plant's numbers; `diagnosis`, LevelHands on what a diagnosis makes of a filmed play; `linear`, a
-linear map that is learnt in play; `calm`, LevelHands that shake the nutation out of the axle; `none`, hands
-that do not level. Each plant has its own numbers, friction
+linear map that is learnt in play; `none`, hands that do not level. Each plant has its own numbers, friction
 and groove among them; the hands see its axle three frames late, with half a degree of noise, its true
 spin, and whether the string is taut.
 """
@@ -37,7 +36,7 @@ from numpy.typing import NDArray
 
 from ... import command
 from .. import plant as driver
-from .level_peers import LEARNS, CalmingHands, LinearHands, Shaking, StillHands, diagnosed
+from .level_peers import LEARNS, LinearHands, Shaking, StillHands, diagnosed
 from .plant import STICKS, Plant
 from .session import GAINS, LIMITS, REACTION, draw
 
@@ -56,7 +55,7 @@ RAISED = 60.0
 """How much spin a play of `raise` shall gain [rad/s]."""
 PLAYS = {"raise": 60.0, "back": 6.0, "throw": 300.0, "catch": 8.0}
 """How long a play lasts at most [s]."""
-BY = ("model", "horizon", "diagnosis", "linear", "calm", "none")
+BY = ("model", "horizon", "diagnosis", "linear", "none")
 """What the hands go by; see above."""
 THROWS = 20
 HEIGHT = 0.5  # of a throw above the tips [m]
@@ -219,7 +218,7 @@ def groove_of(axle: FreeAxle) -> dict[str, float]:
     }
 
 
-Levelling: TypeAlias = diabolo.LevelHands | diabolo.LevelHorizon | CalmingHands | LinearHands
+Levelling: TypeAlias = diabolo.LevelHands | diabolo.LevelHorizon | LinearHands
 
 
 def hands_that_level(plant: Plant, axle: FreeAxle, by: str) -> Levelling:
@@ -234,8 +233,6 @@ def hands_that_level(plant: Plant, axle: FreeAxle, by: str) -> Levelling:
     model = model_of(plant, axle)
     if by == "diagnosis":
         model = diagnosed(plant.program, filmed(plant, axle, home))
-    if by == "calm":
-        return CalmingHands(model, home, axle.spin)
     kind = diabolo.LevelHorizon if by == "horizon" else diabolo.LevelHands
     return kind(model, home[:3], home[3:], axle.spin)
 
@@ -316,7 +313,7 @@ def see(
     mode = StringState[moment.mode]
     if isinstance(level, diabolo.LevelHorizon):
         level.see(time, State(moment.position, moment.velocity, moment.spin, mode, axis=axis), path)
-    elif isinstance(level, diabolo.LevelHands | CalmingHands):
+    elif isinstance(level, diabolo.LevelHands):
         level.see(axis, moment.spin, mode)
     else:
         level.see(axis, moment.spin)

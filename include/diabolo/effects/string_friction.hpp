@@ -41,7 +41,8 @@ struct StringFriction : NeutralEffect<Scalar> {
                           const Parameters<Scalar>& parameters, const Scalar& more) const {
     using std::atan2;
     using std::tanh;
-    const Scalar rubbing = maximum(Scalar(coefficient + more), Scalar(0));
+    const Scalar rubbing =
+        is_constant_zero(more) ? coefficient : maximum(Scalar(coefficient + more), Scalar(0));
     if (parameters.follow_turns)
       return wound_contact(rubbing, spin_gain, state, tips, result, dt, parameters);
     // Everything at the middle of the step: the strands, the slip and the normal force.

@@ -28,7 +28,7 @@ void for_each_attribute(Model& model, Visit&& visit) {
   const auto visit_effect = [&]<class Effect>(Effect& effect) {
     if constexpr (!Effect::kHasText)
       Effect::for_each(effect, [&](const ParameterInfo& info, double& value) {
-        visit(std::string(Effect::kName) + "." + std::string(info.name), value);
+        visit(std::string(Effect::kName).append(".").append(info.name), value);
       });
   };
   std::apply([&](auto&... effect) { (visit_effect(effect), ...); }, model.effects.members);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/recording/formats/up_axis.hpp"
 
+#include <numbers>
+
 #include "catch.hpp"
 #include "recording/shipped.hpp"
 #include "recording/support.hpp"
@@ -16,7 +18,8 @@ Recording written_with(const Recording& r, const UpAxis& up) {
 }
 
 Recording turned_by(const Recording& r, double degrees) {
-  return turned(r, Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  return turned(
+      r, Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix());
 }
 
 }  // namespace
