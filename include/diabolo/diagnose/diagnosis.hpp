@@ -47,8 +47,11 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
       const Swaps swaps = unswap(recording);
       mask_odd_orientations(recording);
       const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
+      const std::optional<int> off = quarters_off(recording);
       std::optional<bool> exchanged = sticks_are_exchanged(recording);
-      if (!exchanged && quarters_off(recording) == 2) exchanged = true, seen_by_tips = true;
+      if (off == 2 && !exchanged.value_or(false)) exchanged = true, seen_by_tips = true;
+      if (off == 0 && exchanged.value_or(false))
+        exchanged.reset();  // the sticks' axes point backwards, maybe
       if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
       sticks_are_known = sticks_are_known && exchanged.has_value();

@@ -85,15 +85,12 @@ inline Recording turned_to_z_up(Recording r, const UpAxis& up) {
 }
 
 /// The recording with y to the player's left, of one whose frame is turned about the vertical by quarters, as
-/// the tips show; a note tells. (By a half only where the sticks' directions tell which one is the left one:
-/// exchanged sticks look the same.)
+/// the tips show; a note tells. (By a half only where the sticks' directions say the same: exchanged sticks
+/// look alike.)
 inline Recording turned_to_face_forward(Recording r) {
-  const std::optional<bool> exchanged = sticks_are_exchanged(r);
-  const std::optional<int> seen = quarters_off(r);
-  if (!seen) return r;
-  const int off = (*seen + (exchanged.value_or(false) ? 2 : 0)) % 4;
-  if (off == 0 || (off == 2 && !exchanged)) return r;
-  const int degrees = off == 3 ? 90 : -90 * off;
+  const int off = quarters_off(r).value_or(0);
+  if (off == 0 || (off == 2 && sticks_are_exchanged(r) != false)) return r;
+  const int degrees = -90 * off;
   r.notes.push_back("the player faces another way than along x: the frame is turned by " +
                     std::to_string(degrees) + " degrees about the vertical");
   const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
