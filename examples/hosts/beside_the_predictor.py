@@ -28,10 +28,18 @@ class Both(NamedTuple):
         return distances
 
 
+def play() -> TipMotion:
+    """Tips that swing and beat, for longer than is played. Their poses lie on all steps, so that a host which
+    reads the poses at its steps makes the same spline of them."""
+    t = np.linspace(0.0, DURATION + 0.1, 211)
+    left, right = swing_and_beat(DURATION + 0.1).at(t)[:2]
+    return TipMotion(t, left, right, "spline")
+
+
 def compare(simulate: Callable[[Model, State, TipMotion, float, int], NDArray[np.float64]]) -> list[Both]:
     """By two steps, see play_motion.Simulate; prints how far they part."""
     model = Model(Parameters(), name="rubbing", string_friction=StringFriction(coefficient=0.2))
-    tips, drop = swing_and_beat(DURATION + 0.1), 0.5 * np.sqrt(model.parameters.string_length**2 - 0.8**2)
+    tips, drop = play(), 0.5 * np.sqrt(model.parameters.string_length**2 - 0.8**2)
     start = State([0.0, 0.0, 1.3 - drop], [0.3, 0.2, 0.0], 60.0, "loose")
     found = []
     for dt in (2e-3, 1e-3):

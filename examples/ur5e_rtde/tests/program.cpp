@@ -253,7 +253,7 @@ TEST_CASE("a dry run connects to nothing, and what cannot be is said in a senten
   says({"--dry-run", "--seconds", "2"}, 0, "A dry run: nothing was connected to.");
   says({"--help"}, 0, "--left");
   says({"--seconds", "2"}, 2, "--left and --right: expected a controller each");
-  says({"--speed", "2"}, 2, "not in range 0.01 to 1; see --help\n");
+  says({"--speed", "2"}, 2, "ur5e_diabolo: --speed: Value 2 not in range");
   const std::filesystem::path folder = Program::make_folder();
   std::ofstream(folder / "far.csv")
       << "time,left_x,left_y,left_z,right_x,right_y,right_z\n0,9,1,1,9,-1,1\n1,9,1,1,9,-1,1\n";
