@@ -39,9 +39,9 @@ TEST_CASE("A cut beyond the recording is refused") {
   Recording recording = test::random_recording(1);
   recording.name = "take";
   const Eigen::Index size = recording.size();
-  CHECK(complaint([&] { cut(recording, 0, size); }) == "cut of take: rows 0 to " + std::to_string(size) +
-                                                           "; expected 0 <= first <= last < " +
-                                                           std::to_string(size));
+  CHECK(complaint([&] { cut(recording, 0, size); }) ==
+        "cut of recording \"take\": rows 0 to " + std::to_string(size) + "; expected 0 <= first <= last < " +
+            std::to_string(size));
   CHECK(complaint([&] { cut(recording, -1, 0); }) != "(no complaint)");
   CHECK(complaint([&] { cut(recording, 1, 0); }) != "(no complaint)");
 }

@@ -129,12 +129,13 @@ TEST_CASE("Whatever times are asked for, the result keeps a recording's promises
 TEST_CASE("Times that do not increase are refused") {
   const Recording recording = uniform_motion(5);
   CHECK(complaint([&] { resample(recording, Eigen::Vector2d(0.01, 0.01)); }) ==
-        "resampling of \"uniform\": time 0.01 s at index 1; expected increasing times");
+        "resampling of recording \"uniform\": time 0.01 s at index 1; expected increasing times");
   CHECK(complaint([&] { resample(recording, Eigen::Vector2d(kNaN, 0.01)); }) ==
-        "resampling of \"uniform\": time nan s at index 0; expected increasing times");
+        "resampling of recording \"uniform\": time nan s at index 0; expected increasing times");
   CHECK(complaint([&] { resample(recording, -1.0); }) ==
-        "resampling of \"uniform\": rate -1 Hz; expected more than 0, at most 1e6");
+        "resampling of recording \"uniform\": rate -1 Hz; expected more than 0, at most 1e6");
   Recording empty;
   empty.rate = 120.0;
-  CHECK(complaint([&] { resample(empty, 60.0); }) == "resampling of \"\": the recording has no samples");
+  CHECK(complaint([&] { resample(empty, 60.0); }) ==
+        "resampling of recording \"\": the recording has no samples");
 }
