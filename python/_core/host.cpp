@@ -15,6 +15,7 @@
 #include "diabolo/hosts/attach.hpp"
 #include "diabolo/hosts/follow_pointers.hpp"
 #include "diabolo/model.hpp"
+#include "diabolo/text/shown.hpp"
 
 #include "state.hpp"
 #include "step_tips.hpp"
@@ -88,8 +89,12 @@ std::pair<Array, Array> follow(const Array& position, const Array& velocity, con
                                double string_length, double dt) {
   const auto both = [](const Array& rows, const char* name) {
     const std::vector<Vector3<double>> read = to_rows(rows, name, 2);
+    python::expect_finite(rows, name);
     return Hands::Pair{read[0], read[1]};
   };
+  for (const auto& [name, value] : {std::pair{"string_length", string_length}, {"dt", dt}})
+    if (!(value > 0.0 && std::isfinite(value)))
+      throw std::invalid_argument(std::string(name) + ": " + shown(value) + "; expected more than 0");
   Hands hands{both(position, "position"), both(velocity, "velocity")};
   follow_pointers(hands, both(pointers, "pointers"), string_length, dt);
   const auto rows_of = [](const Hands::Pair& pair) {

@@ -33,8 +33,15 @@ _QUANTITIES = {
     "spin_on_string": ("spin", (ON_STRING,)),
     "spin_off_string": ("spin", (FLYING, LOOSE)),
     "string_length": ("string", (ON_STRING,)),
+    "string_friction": ("friction", (ON_STRING,)),
+    "time_offset": ("", ANY_MODE),
 }
-_IN_WORLD = {"along": "left", "across": "forward", "string": "up"}  # of a player who faces forward
+_IN_WORLD = {
+    "along": "left",
+    "across": "forward",
+    "string": "up",
+    "friction": "left",
+}  # of a player who faces forward
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@
 
 #include "diabolo/diagnose/adequacy.hpp"
 #include "diabolo/diagnose/answer.hpp"
+#include "diabolo/math/fields.hpp"
 #include "diabolo/parameters.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -20,9 +21,8 @@ inline std::string size_in_words(double value, const std::string& unit) {
   const bool length = unit == "m";
   const double shown_value = length ? 1e3 * value : value;
   const double step = std::pow(10.0, std::floor(std::log10(std::max(shown_value, 1e-3))) - 1.0);
-  return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) + (length        ? " mm"
-                                                                                 : unit == "1" ? ""
-                                                                                               : " " + unit);
+  return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) +
+         (length ? " mm" : unit_behind(unit));
 }
 
 /// Where most is left over, after a comma.

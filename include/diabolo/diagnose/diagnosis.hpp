@@ -48,15 +48,24 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
       mask_odd_orientations(recording);
       const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
       const std::optional<int> off = quarters_off(recording);
+      const std::optional<bool> seen = sticks_are_exchanged(recording);
+      // (Where the tips lie as they should, directions that say otherwise may be those of sticks' other
+      // ends.)
+      const bool by_tips = off == 2 && !seen.value_or(false),
+                 exchanged = by_tips || (off != 0 && seen.value_or(false)),
+                 known = by_tips || seen.value_or(!exchanged) == exchanged;
+      const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
+      const std::optional<int> off = quarters_off(recording);
       std::optional<bool> exchanged = sticks_are_exchanged(recording);
-      if (off == 2 && !exchanged.value_or(false)) exchanged = true, seen_by_tips = true;
-      if (off == 0 && exchanged.value_or(false))
-        exchanged.reset();  // the sticks' axes point backwards, maybe
-      if (exchanged.value_or(false)) recording = with_sticks_exchanged(std::move(recording));
+      const bool by_tips = off == 2 && !exchanged;
+      if (by_tips) exchanged = true;
+      if (off == 0 && exchanged) exchanged.reset();  // the sticks' axes point backwards, maybe
+      if (exchanged) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
-      sticks_are_known = sticks_are_known && exchanged.has_value();
-      sides_are_wrong = sides_are_wrong || exchanged.value_or(false);
-      swapped += exchanged.value_or(false) ? rows - jumped : jumped;
+      seen_by_tips = seen_by_tips || by_tips;
+      sticks_are_known = sticks_are_known && known;
+      sides_are_wrong = sides_are_wrong || exchanged;
+      swapped += exchanged ? rows - jumped : jumped;
       frames += rows;
       if (swaps.count > 0) places += "; in " + recording.name + " from " + times_of(swaps, recording.time);
     }

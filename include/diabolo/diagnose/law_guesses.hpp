@@ -190,6 +190,7 @@ inline void guess_rubbing(Guesses& guesses, const Fit& fit, const UsualSizes& us
   guesses.fixed(Acts::kFriction, "tanh(slip / 0.05)", ", more where the axle turns towards the right tip");
 }
 
+static_assert(kMayChange.back().unknown == Unknown::kTimeOffset);
 /// What may drive a change in time, as kMayChange has it, and by which factor it acts there; nothing drives a
 /// delay.
 struct Swinging {

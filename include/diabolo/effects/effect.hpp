@@ -98,7 +98,7 @@ struct NeutralEffect {
   Spring<Scalar> spring_at(const State<Scalar>&, const Tips<Scalar>&) const { return {}; }
   /// Share of the path's rate that a catch gives back, from 0 to 1.
   Scalar restitution() const { return Scalar(0); }
-  /// Whether it changes the coefficient of the string's friction, and by how much.
+  /// Whether it changes the coefficient of the string's friction; then by how much [1].
   bool rubs() const { return false; }
   Scalar friction(const State<Scalar>&, const Tips<Scalar>&, const Parameters<Scalar>&) const {
     return Scalar(0);

@@ -103,3 +103,16 @@ TEST_CASE("Jitter of a seventh of the period is put right") {
   REQUIRE(regularise_times(r));
   CHECK((r.time - given.time).cwiseAbs().maxCoeff() < 4e-4);
 }
+
+TEST_CASE("Rows that arrive together after a stall find their places") {
+  const Recording given = test::shipped("throw");
+  for (const Eigen::Index at : {8, 15, 500})
+    for (const Eigen::Index late : {1, 2, 3, 5, 8}) {
+      CAPTURE(at, late);
+      Recording r = with_jitter(given, 0.2e-3, 5);
+      for (Eigen::Index k = 0; k < late; ++k)
+        r.time[at + k] = r.time[at + late] - 1e-5 * static_cast<double>(late - k);
+      REQUIRE(regularise_times(r));
+      CHECK((r.time - given.time).cwiseAbs().maxCoeff() < 1e-3);
+    }
+}

@@ -47,18 +47,23 @@ inline constexpr double kLongestCounted = 10.0;
 namespace recording_plausibility_detail {
 
 /// Places of the rows [first, end) on a grid of that period [s], from 0 on. Rows may be left out; the grid
-/// follows the stamps slowly. Of two that come to lie on one place, the first was late where the place before
-/// it is free, else the second is early.
+/// follows the stamps slowly. Of two that come to lie on one place, the first was late where a place before
+/// it is free, and so were the rows between, as after a stall; else the second is early.
 inline std::vector<double> places_of(const Eigen::VectorXd& time, Eigen::Index first, Eigen::Index end,
                                      double period) {
   constexpr double kFollows = 0.1;
+  constexpr std::size_t kLongestRun = 10;
   std::vector<double> places{0.0};
   double last = time[first];
   for (Eigen::Index i = first + 1; i < end; ++i) {
     double steps = std::round((time[i] - last) / period);
     if (steps < 1.0) {
-      const std::size_t n = places.size();
-      if (n > 1 && places[n - 1] - places[n - 2] > 1.0) places[n - 1] -= 1.0, last -= period;
+      std::size_t late = places.size() - 1;  // the first of those that were
+      while (late > 0 && places.size() - late < kLongestRun && places[late] - places[late - 1] <= 1.0) --late;
+      if (late > 0 && places[late] - places[late - 1] > 1.0) {
+        for (std::size_t k = late; k < places.size(); ++k) places[k] -= 1.0;
+        last -= period;
+      }
       steps = 1.0;
     }
     places.push_back(places.back() + steps);
@@ -80,7 +85,8 @@ inline bool regularise_times(Recording& r) {
   bool uneven = false;
   for (Eigen::Index i = 0; i < size && !uneven; ++i) uneven = steps_unevenly(r, i);
   if (!uneven) return false;
-  const double usual = 1.0 / rate_of(r.time);
+  const double measured = rate_of(r.time),  // unless most rows are left out
+      usual = 1.0 / (std::abs(measured / r.rate - 1.0) <= 0.05 ? measured : r.rate);
   Eigen::VectorXd places(size), means(size);  // less the mean of the stretch; the mean time of the stretch
   double covariance = 0.0, variance = 0.0;    // of times and places, within the stretches
   for (Eigen::Index first = 0, end = 0; first < size; first = end) {
