@@ -49,17 +49,10 @@ Diagnosis diagnose(std::vector<Recording> recordings, DiagnosisOptions options, 
       const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
       const std::optional<int> off = quarters_off(recording);
       const std::optional<bool> seen = sticks_are_exchanged(recording);
-      // (Where the tips lie as they should, directions that say otherwise may be those of sticks' other
-      // ends.)
+      // (Where the tips lie as they should, directions that say otherwise may be of the sticks' other ends.)
       const bool by_tips = off == 2 && !seen.value_or(false),
                  exchanged = by_tips || (off != 0 && seen.value_or(false)),
                  known = by_tips || seen.value_or(!exchanged) == exchanged;
-      const long jumped = static_cast<long>(swaps.count), rows = static_cast<long>(recording.size());
-      const std::optional<int> off = quarters_off(recording);
-      std::optional<bool> exchanged = sticks_are_exchanged(recording);
-      const bool by_tips = off == 2 && !exchanged;
-      if (by_tips) exchanged = true;
-      if (off == 0 && exchanged) exchanged.reset();  // the sticks' axes point backwards, maybe
       if (exchanged) recording = with_sticks_exchanged(std::move(recording));
       if (list != &recordings) continue;
       seen_by_tips = seen_by_tips || by_tips;
