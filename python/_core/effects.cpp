@@ -125,8 +125,12 @@ void bind_effect(py::module_& module, const Effect& nominal) {
 }  // namespace
 
 void assign_effects(AllEffects<double>& effects, const py::kwargs& given) {
-  for (const auto& [key, value] : given) {
+  for (const auto& [key, told] : given) {
     const std::string name = py::str(key);
+    // (A list is made laws by their class, whose sentence says what is wrong with one.)
+    const bool listed = name == FormulaLaws<double>::kName && py::isinstance<py::list>(told);
+    const py::object value =
+        listed ? py::type::of<FormulaLaws<double>>()(told) : py::reinterpret_borrow<py::object>(told);
     std::string names;
     bool found = false;
     const auto assign = [&]<class Effect>(Effect& effect, const char* expected) {

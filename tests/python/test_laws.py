@@ -48,6 +48,35 @@ def test_a_law_by_a_formula_acts_as_that_of_the_library_in_rollouts_of_one_and_o
     assert np.array_equal(a[3].reshape(-1), c.reshape(-1))
 
 
+def test_what_is_wrong_with_a_law_of_a_model_is_said() -> None:
+    model = Model(formula_laws=[DRAG])
+    assert model.formula_laws.to_list()[0]["name"] == "own_drag"
+    with pytest.raises(ValueError, match="wind"):
+        Model(formula_laws=[{**DRAG, "formula": "k * wind^2"}])
+    with pytest.raises(TypeError, match="formula_laws: 5; expected FormulaLaws, a list of laws or None"):
+        Model(formula_laws=cast(Any, 5))
+
+
+def test_a_constant_law_of_the_friction_does_what_the_coefficient_does() -> None:
+    law = {
+        "name": "rough",
+        "acts": "friction",
+        "formula": "k",
+        "numbers": [{"name": "k", "unit": "1", "value": 0.1}],
+    }
+    tips = diabolo.motions.swing_and_beat(1.0)
+    start = diabolo.State([0.0, 0.0, 0.7], spin=80.0)
+
+    def end(coefficient: float, **laws: Any) -> np.ndarray[Any, Any]:
+        friction = diabolo.StringFriction(coefficient=coefficient, spin_gain=3.0)
+        model = Model(string_friction=friction, **laws)
+        return np.asarray(diabolo.rollout(model, start, tips, dt=1e-3, steps=900).states[-1])
+
+    none = FormulaLaws([{**law, "numbers": [{"name": "k", "unit": "1", "value": 1e-12}]}])
+    np.testing.assert_allclose(end(0.1, formula_laws=[law]), end(0.2, formula_laws=none), atol=1e-7)
+    assert np.abs(end(0.1, formula_laws=[law]) - end(0.1))[6] > 0.1
+
+
 def test_a_law_of_time_goes_by_the_clock_of_a_part_in_rollouts_and_in_gradients(
     played: diabolo.Recording,
 ) -> None:

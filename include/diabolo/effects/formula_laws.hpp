@@ -63,7 +63,7 @@ struct FormulaLaws : NeutralEffect<Scalar> {
                                const Parameters<Scalar>& parameters) const {
     Vector3<Scalar> sum = Vector3<Scalar>::Constant(Scalar(0));
     each([&](const Law& law, std::size_t first) {
-      if (law.acts >= Acts::kSpin) return;  // no acceleration
+      if (!is_acceleration(law.acts)) return;
       const Scalar size = value(law, first, state, tips, parameters);
       // No step takes more than all of the velocity.
       const Scalar most = law.acts == Acts::kAgainst ? norm(state.velocity) / dt : Scalar(kHardest);

@@ -16,7 +16,7 @@
 
 namespace diabolo {
 
-/// What a law's formula is the size of.
+/// What a law's formula is the size of. Accelerations come first.
 enum class Acts {
   kForward,   ///< acceleration along the world's x [m/s^2]
   kLeft,      ///< along y [m/s^2]
@@ -34,6 +34,8 @@ enum class Acts {
 inline constexpr std::array<std::string_view, 10> names_of(Acts) {
   return {"forward", "left", "up", "against", "along", "across", "lift", "spin", "string", "friction"};
 }
+
+inline bool is_acceleration(Acts acts) { return acts < Acts::kSpin; }
 
 inline std::string_view unit_of(Acts acts) {
   switch (acts) {

@@ -101,11 +101,19 @@ inline void check_up(const Recording& recording, double yaw, const std::string& 
   for (Eigen::Index i = 0; i < recording.size(); ++i)
     if (recording.left.valid[i] && recording.right.valid[i])
       to_left += turn * (recording.left.position.col(i) - recording.right.position.col(i));
-  up.mirrored = to_left.y() < -0.5 * to_left.norm();
-  throw RecordingError(file_name + ": the motion says that " + text_of({up.axis, false}) +
-                       " points up, not z (gravity in flight and on the string)" +
-                       (up.mirrored ? ", and that left and right are mirrored" : "") +
-                       "; read it with --up=" + text_of(up) + ", or with --up=z as it stands");
+  // (It is not where the frame is mirrored, the sticks are exchanged, or the player faces the other way; the
+  // sticks' directions tell the last.)
+  up.mirrored =
+      to_left.y() < -0.5 * to_left.norm() && sticks_are_exchanged(turned(recording, turn)).value_or(true);
+  const std::string plain = text_of({up.axis, false});
+  throw RecordingError(
+      file_name + ": the motion says that " + plain +
+      " points up, not z (gravity in flight and on the string)" +
+      (up.mirrored ? ", and left and right change sides; read it with --up=" + plain +
+                         " where the player is turned or the sticks are exchanged, with --up=" + text_of(up) +
+                         " where the frame is mirrored"
+                   : "; read it with --up=" + plain) +
+      ", or with --up=z as it stands");
 }
 
 /// What every recording goes through once it is read: stamps that jitter, and a frame that is turned by a

@@ -56,7 +56,9 @@ TEST_CASE("Another axis up is refused with the way to read it, and read so it is
     const std::string said = complaint([&] { load_recording(folder / "hop.csv"); });
     CHECK(said.find("hop.csv: the motion says that " + text_of({up.axis, false}) + " points up, not z") !=
           std::string::npos);
-    CHECK(said.ends_with("read it with --up=" + text_of(up) + ", or with --up=z as it stands"));
+    CHECK(said.find("read it with --up=" + text_of({up.axis, false})) != std::string::npos);
+    CHECK((said.find("with --up=" + text_of({up.axis, true})) != std::string::npos) == up.mirrored);
+    CHECK(said.ends_with(", or with --up=z as it stands"));
     const Recording turned = load_recording(folder / "hop.csv", published_calibration(), {up, {}});
     CHECK(test::same(turned.diabolo, given.diabolo));
     CHECK(test::same(turned.left, given.left));
@@ -110,7 +112,7 @@ TEST_CASE("A player who faces along another axis is turned to face along x") {
     const Recording r = turned_to_face_forward(turned_by(given, degrees));
     CHECK(is_as_given(r));
     REQUIRE(r.notes.size() == 1);
-    CHECK(r.notes.front().starts_with("the player faces another way than along x: the frame is turned by "));
+    CHECK(r.notes.front().starts_with("the left tip does not lie to the left, along y: all is turned by "));
   }
   CHECK(turned_to_face_forward(turned_by(given, 30.0)).notes.empty());
   // By half a turn, or exchanged: without the sticks' directions nobody knows.
@@ -129,4 +131,17 @@ TEST_CASE("A quarter turn about the vertical takes the spin's sign from no reade
   CHECK(before.valid.count() == after.valid.count());
   for (Eigen::Index i = 0; i < given.size(); ++i)
     if (before.valid[i]) CHECK(after.value[i] == Approx(before.value[i]).margin(1e-3));
+}
+
+TEST_CASE("Another axis up beside a player who is turned is no mirrored frame, if the sticks tell") {
+  const test::TemporaryFolder folder;
+  save_tidy(written_with(turned_by(test::shipped("swing"), 180.0), {2, false}), folder / "swing.csv");
+  const std::string said = complaint([&] { load_recording(folder / "swing.csv"); });
+  CHECK(said.ends_with("; read it with --up=y, or with --up=z as it stands"));
+  Recording plain = turned_by(test::shipped("swing"), 180.0);
+  plain.left_orientation = plain.right_orientation = OrientationTrack::missing(plain.size());
+  save_tidy(written_with(plain, {2, false}), folder / "plain.csv");
+  const std::string both = complaint([&] { load_recording(folder / "plain.csv"); });
+  CHECK(both.find("with --up=y where the player is turned or the sticks are exchanged, with --up=y-mirrored "
+                  "where the frame is mirrored") != std::string::npos);
 }

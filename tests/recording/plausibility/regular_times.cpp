@@ -116,3 +116,24 @@ TEST_CASE("Rows that arrive together after a stall find their places") {
       CHECK((r.time - given.time).cwiseAbs().maxCoeff() < 1e-3);
     }
 }
+
+TEST_CASE("The rate is found where most rows are left out") {
+  const Recording given = test::shipped("throw");
+  const std::uint32_t seed = test::fresh_seed();
+  for (const double out : {0.3, 0.5, 0.6}) {
+    CAPTURE(seed, out);
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < given.size(); ++i)
+      if (share(generator) > out) kept.push_back(i);
+    CHECK(rate_of(given.time(kept)) == 120.0);
+  }
+}
+
+TEST_CASE("A rate that is a little off is put right with the times") {
+  Recording r = with_jitter(test::shipped("throw"), 0.4e-3, 11);
+  r.rate = 118.0;
+  REQUIRE(regularise_times(r));
+  CHECK(r.rate == 120.0);
+}

@@ -91,8 +91,12 @@ inline Recording turned_to_face_forward(Recording r) {
   const int off = quarters_off(r).value_or(0);
   if (off == 0 || (off == 2 && sticks_are_exchanged(r) != false)) return r;
   const int degrees = -90 * off;
-  r.notes.push_back("the player faces another way than along x: the frame is turned by " +
-                    std::to_string(degrees) + " degrees about the vertical");
+  r.notes.push_back("the left tip does not lie to the left, along y: all is turned by " +
+                    std::to_string(degrees) + " degrees about the vertical" +
+                    (off != 2 && !sticks_are_exchanged(r)
+                         ? ", and the spin's sign is right unless the sticks "
+                           "are exchanged"
+                         : ""));
   const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
   return turned(std::move(r), turn.toRotationMatrix());
 }

@@ -18,18 +18,37 @@ namespace diabolo {
 /// place may belong to the row beside.
 inline constexpr double kGapInPeriods = 1.5, kFarthestStamp = 0.4;
 
-/// The rate of times that step evenly but for jitter and gaps [Hz]; there must be two at least. Whole where
-/// it is within half a thousandth of a whole number.
+/// A rate [Hz], whole where it is within half a thousandth of a whole number.
+inline double nearly_whole(double rate) {
+  const double whole = std::round(rate);
+  return whole > 0.0 && std::abs(rate - whole) < 5e-4 * whole ? whole : rate;
+}
+
+/// The step that leaves out no row [s]: the median, or a half or a third of it where a quarter of the steps
+/// are near that.
+inline double shortest_usual_step(const Eigen::VectorXd& time) {
+  const double median = median_step(time);
+  for (const double parts : {3.0, 2.0}) {
+    const double step = median / parts;
+    Eigen::Index near = 0;
+    for (Eigen::Index i = 0; i + 1 < time.size(); ++i)
+      near += std::abs(time[i + 1] - time[i] - step) < 0.25 * step;
+    if (4 * near >= time.size() - 1) return step;
+  }
+  return median;
+}
+
+/// The rate of times that step evenly but for jitter and gaps [Hz]; there must be two at least. As
+/// nearly_whole() has it.
 inline double rate_of(const Eigen::VectorXd& time) {
-  const double usual = median_step(time);
+  const double usual = shortest_usual_step(time);
   double sum = 0.0;
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i + 1 < time.size(); ++i) {
     const double step = time[i + 1] - time[i];
     if (std::abs(step - usual) < 0.5 * usual) sum += step, ++count;
   }
-  const double rate = static_cast<double>(count) / sum, whole = std::round(rate);
-  return whole > 0.0 && std::abs(rate - whole) < 5e-4 * whole ? whole : rate;
+  return nearly_whole(static_cast<double>(count) / sum);
 }
 
 /// Whether sample i + 1 follows too early or too late to count as the next (Recording::steps_evenly), though
@@ -78,7 +97,8 @@ inline std::vector<double> places_of(const Eigen::VectorXd& time, Eigen::Index f
 /// Moves jittering stamps to even times: those of a camera that looks evenly and a clock that stamps late.
 /// Between long gaps the times keep their mean; all have the same period, that of least squares, and rows
 /// that are left out leave their place free. Nothing changes where every step is even, or where too many
-/// stamps are too far from their places for the rate to be clear. Returns whether times were moved; a note
+/// stamps are too far from their places for the rate to be clear. A rate that is
+/// off by more than half a percent is put right. Returns whether times were moved; a note
 /// says by how much.
 inline bool regularise_times(Recording& r) {
   const Eigen::Index size = r.size();
@@ -109,6 +129,8 @@ inline bool regularise_times(Recording& r) {
   r.notes.push_back("the times jitter by " + shown_rounded(1e3 * jitter) + " ms about " +
                     shown_rounded(1.0 / period) + " Hz: each row is moved to its even time");
   r.time = even;
+  if (constexpr double kAnotherRate = 5e-3; std::abs(period * r.rate - 1.0) > kAnotherRate)
+    r.rate = nearly_whole(1.0 / period);
   return true;
 }
 
