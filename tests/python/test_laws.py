@@ -65,7 +65,7 @@ def test_a_constant_law_of_the_friction_does_what_the_coefficient_does() -> None
         "numbers": [{"name": "k", "unit": "1", "value": 0.1}],
     }
     tips = diabolo.motions.swing_and_beat(1.0)
-    start = diabolo.State([0.0, 0.0, 0.7], spin=80.0)
+    start = [0.0, 0.0, 0.7, 0.0, 0.0, 0.0, 80.0]
 
     def end(coefficient: float, **laws: Any) -> np.ndarray[Any, Any]:
         friction = diabolo.StringFriction(coefficient=coefficient, spin_gain=3.0)
