@@ -74,12 +74,15 @@ inline std::optional<int> quarters_off(const Recording& r) {
   constexpr double kLeastAside = 0.4;  // share of what lies between the tips that is along y
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double length = 0.0;
+  Eigen::Index known = 0;
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     if (!r.left.valid[i] || !r.right.valid[i]) continue;
+    ++known;
     const Eigen::Vector2d across = (r.left.position.col(i) - r.right.position.col(i)).head<2>();
     sum += across;
     length += across.norm();
   }
+  if (static_cast<double>(known) < kFewestSeconds * r.rate || known < 20) return {};
   if (!(sum.norm() > 0.5 * length)) return {};
   if (std::abs(sum.y()) <= kLeastAside * sum.norm()) return sum.x() > 0.0 ? -1 : 1;
   return sum.y() < 0.0 ? 2 : 0;
