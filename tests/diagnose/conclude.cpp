@@ -133,6 +133,17 @@ TEST_CASE("a fault that would have to be larger than any is told where something
   CHECK(d.sentence.find("as if") == std::string::npos);
 }
 
+TEST_CASE("a rate that is off comes with the force that would look the same") {
+  Diagnosis d;
+  d.findings = {claim("frame_rate", 20.0, {})};
+  d.findings.front().estimate[index_of(Unknown::kGravity)] = -0.3;
+  conclude(d);
+  CHECK(d.sentence.ends_with(" A constant force up of 0.3 m/s^2 would look the same."));
+  d.findings.front().claimed = false;
+  conclude(d);
+  CHECK(d.sentence.find("force") == std::string::npos);
+}
+
 TEST_CASE("what was not done ends the sentence") {
   Diagnosis d;
   d.not_done = {"this"};

@@ -64,6 +64,24 @@ TEST_CASE("what lives on from frame to frame is told from what does not") {
   CHECK(deviation.mean() == Approx(1e-3).epsilon(0.1));
 }
 
+TEST_CASE("a track that was smoothed or interpolated hides its noise, one that was not does not") {
+  const std::uint32_t seed = test::fresh_seed();
+  for (const double correlation : {0.0, 0.5, 0.9}) {
+    Track track = swung(3000);
+    shake(track, 1e-3, correlation, seed);
+    CAPTURE(correlation);
+    CHECK_FALSE(track_noise(track).is_hidden());
+    if (correlation > 0.5) continue;  // little of it is in neighbouring rows as it is
+    Track averaged = track, straight = track;
+    for (Eigen::Index i = 2; i + 2 < 3000; ++i)
+      averaged.position.col(i) = track.position.middleCols(i - 2, 5).rowwise().mean();
+    for (Eigen::Index i = 1; i + 1 < 3000; i += 2)
+      straight.position.col(i) = 0.5 * (track.position.col(i - 1) + track.position.col(i + 1));
+    CHECK(track_noise(averaged).is_hidden());
+    CHECK(track_noise(straight).is_hidden());
+  }
+}
+
 TEST_CASE("dropouts take nothing but their own rows") {
   const std::uint32_t seed = test::fresh_seed();
   Track track = swung(3000);

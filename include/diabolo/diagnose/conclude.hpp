@@ -179,6 +179,17 @@ inline std::string too_far_in_words(const Diagnosis& d) {
   return {};
 }
 
+/// A rate of the frames that is off acts as a constant force along gravity does: the end of the sentence.
+inline std::string force_like_rate_in_words(const Diagnosis& d) {
+  for (const Finding& f : d.findings) {
+    const double down = f.estimate[index_of(Unknown::kGravity)];
+    if (f.claimed && f.candidate->name == "frame_rate")
+      return std::string(" A constant force ") + (down > 0.0 ? "down" : "up") + " of " +
+             size_in_words(std::abs(down), "m/s^2") + " would look the same.";
+  }
+  return {};
+}
+
 /// Claims that the string is wrapped around the axle: at work wherever friction is.
 inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
   const auto friction = std::ranges::find_if(
@@ -265,7 +276,7 @@ inline void conclude(Diagnosis& d) {
   const bool of_motion = leading.size() + d.learnt.size() > 0 || d.headline == Headline::kUnnamedStructure;
   if (d.reason.empty() && of_motion && d.headline != Headline::kNumerical)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
-  if (d.reason.empty()) d.sentence += too_far_in_words(d);
+  if (d.reason.empty()) d.sentence += force_like_rate_in_words(d) + too_far_in_words(d);
   if (!axle_leads) d.sentence += axle_claims_behind(axle);
   d.sentence += axle_ahead_in_words(d.heldout.axle, !axle.empty());
   d.sentence += catch_in_words(d.catch_rule);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/diagnose/hidden_noise.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
 #include "diabolo/diagnose/refine.hpp"
 
@@ -53,6 +54,8 @@ inline std::shared_ptr<const Take> imagined(const Take& given, const std::vector
   const auto made = std::make_shared<Take>(given);
   Take& take = *made;
   const double rate = take.recording.rate;
+  if (take.diabolo_noise.is_hidden())
+    take.diabolo_noise = noise_beside_motion(take.diabolo_noise, systems, windows.size(), rate);
   put_predicted(take, windows, systems);
   add_noise(take.recording.diabolo, take.diabolo_noise, generator);
   add_smoothed_noise(take.recording.left, take.left_noise, rate, generator);

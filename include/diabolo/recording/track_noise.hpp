@@ -17,6 +17,13 @@ namespace diabolo {
 /// (the correlation of an AR(1) process).
 struct TrackNoise {
   Eigen::Array3d deviation = Eigen::Array3d::Zero(), correlation = Eigen::Array3d::Zero();
+  /// Sixth differences over four frames by those over one, of the middle axis. In AR(1) noise of any
+  /// correlation they are at most 2. Beyond that the track was smoothed or interpolated, or moves without
+  /// noise.
+  double growth = 1.0;
+
+  /// Whether neighbouring rows hide the noise, of which `deviation` is a part.
+  bool is_hidden() const { return growth > 2.2; }
 };
 
 namespace recording_detail {
@@ -73,6 +80,7 @@ inline double correlation_of(double ratio) {
 /// wanders over many frames does not show in them. Zero where the track is too short to tell.
 inline TrackNoise track_noise(const Track& track) {
   TrackNoise noise;
+  std::array<double, 3> growth{1.0, 1.0, 1.0};
   for (int axis = 0; axis < 3; ++axis) {
     const auto value = [&](Eigen::Index i) { return track.position(axis, i); };
     const double near = recording_detail::difference_size(track.valid, 1, value),
@@ -81,7 +89,10 @@ inline TrackNoise track_noise(const Track& track) {
     noise.correlation[axis] = far > 0.0 ? recording_detail::correlation_of(far / near) : 0.0;
     noise.deviation[axis] =
         near / std::sqrt(recording_detail::difference_variance(noise.correlation[axis], 1));
+    growth[static_cast<std::size_t>(axis)] = recording_detail::difference_size(track.valid, 4, value) / near;
   }
+  std::ranges::sort(growth);
+  noise.growth = growth[1];
   return noise;
 }
 
