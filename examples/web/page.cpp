@@ -9,8 +9,8 @@
 #include <string>
 
 #include "diabolo/full_predictor.hpp"
-#include "diabolo/hosts/follow_pointers.hpp"
 #include "diabolo/json/agent_file.hpp"
+#include "diabolo/learn/follow_pointers.hpp"
 #include "diabolo/learn/live_agent.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/strand_tensions.hpp"

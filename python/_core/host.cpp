@@ -13,7 +13,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "diabolo/hosts/attach.hpp"
-#include "diabolo/hosts/follow_pointers.hpp"
 #include "diabolo/model.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -80,30 +79,8 @@ StringMemory memory_of(const Array& numbers) {
   expect_shape(numbers, "memory", {n.size()});
   python::expect_finite(numbers, "memory");
   std::copy_n(numbers.data(), n.size(), n.begin());
-  to_turns(n.back());
+  n.back() = to_turns(n.back());
   return StringMemory::of(n);
-}
-
-/// Both hands, left over right, a step later: their places and velocities, shape (2, 3) each.
-std::pair<Array, Array> follow(const Array& position, const Array& velocity, const Array& pointers,
-                               double string_length, double dt) {
-  const auto both = [](const Array& rows, const char* name) {
-    const std::vector<Vector3<double>> read = to_rows(rows, name, 2);
-    python::expect_finite(rows, name);
-    return Hands::Pair{read[0], read[1]};
-  };
-  for (const auto& [name, value] : {std::pair{"string_length", string_length}, {"dt", dt}})
-    if (!(value > 0.0 && std::isfinite(value)))
-      throw std::invalid_argument(std::string(name) + ": " + shown(value) + "; expected more than 0");
-  Hands hands{both(position, "position"), both(velocity, "velocity")};
-  follow_pointers(hands, both(pointers, "pointers"), string_length, dt);
-  const auto rows_of = [](const Hands::Pair& pair) {
-    Array rows({2, 3});
-    for (py::ssize_t side = 0; side < 2; ++side)
-      std::copy_n(pair[static_cast<std::size_t>(side)].data(), 3, rows.mutable_data(side, 0));
-    return rows;
-  };
-  return {rows_of(hands.position), rows_of(hands.velocity)};
 }
 
 }  // namespace
@@ -163,10 +140,6 @@ the string's state, 0 on the string, 1 loose (a new one's), 2 in flight, and Sta
 The body's centre [m], its velocity [m/s], its axle forward, a unit vector, and its angular velocity about
 that [rad/s] (the spin is -axle_rate). The rest is as for Predictor.step. Raises FloatingPointError, and leaves
 the memory as it was, where the result is not finite.)");
-  module.def(
-      "follow_pointers", &follow, "position"_a, "velocity"_a, "pointers"_a, "string_length"_a, "dt"_a,
-      "Where the hands of a live play are after a step of `dt` [s], and how fast: both of the shape (2, 3), "
-      "left over right [m, m/s], as they go after the pointers, shape (2, 3) [m].");
 }
 
 }  // namespace diabolo::python

@@ -15,6 +15,7 @@
 #include "diabolo/batch/kernels.hpp"
 #include "diabolo/json/agent_file.hpp"
 #include "diabolo/learn/arena.hpp"
+#include "diabolo/learn/follow_pointers.hpp"
 #include "diabolo/learn/live_agent.hpp"
 
 #include "arrays.hpp"
@@ -263,6 +264,28 @@ void bind_hand_plan(py::module_& module) {
           }));
 }
 
+/// Both hands, left over right, a step later: their places and velocities, shape (2, 3) each.
+std::pair<Array, Array> follow(const Array& position, const Array& velocity, const Array& pointers,
+                               double string_length, double dt) {
+  const auto both = [](const Array& rows, const char* name) {
+    const std::vector<Vector3<double>> read = to_rows(rows, name, 2);
+    python::expect_finite(rows, name);
+    return Hands::Pair{read[0], read[1]};
+  };
+  for (const auto& [name, value] : {std::pair{"string_length", string_length}, {"dt", dt}})
+    if (!(value > 0.0 && std::isfinite(value)))
+      throw std::invalid_argument(std::string(name) + ": " + shown(value) + "; expected more than 0");
+  Hands hands{both(position, "position"), both(velocity, "velocity")};
+  follow_pointers(hands, both(pointers, "pointers"), string_length, dt);
+  const auto rows_of = [](const Hands::Pair& pair) {
+    Array rows({2, 3});
+    for (py::ssize_t side = 0; side < 2; ++side)
+      std::copy_n(pair[static_cast<std::size_t>(side)].data(), 3, rows.mutable_data(side, 0));
+    return rows;
+  };
+  return {rows_of(hands.position), rows_of(hands.velocity)};
+}
+
 }  // namespace
 
 void bind_learn(py::module_& module) {
@@ -440,6 +463,10 @@ tips are not within the limits.)")
           "Shows it the diabolo, once a period: left tip, right tip and their velocities at the period's "
           "end. "
           "Until then their accelerations are constant.");
+  module.def(
+      "follow_pointers", &follow, "position"_a, "velocity"_a, "pointers"_a, "string_length"_a, "dt"_a,
+      "Where the hands of a live play are after a step of `dt` [s], and how fast: both of the shape (2, 3), "
+      "left over right [m, m/s], as they go after the pointers, shape (2, 3) [m].");
   module.def("task_infos", &task_infos,
              "What can be played: name, meaning, reward, seconds, goal and first spin of each.");
   module.def("observation_infos", &observation_infos, "task"_a = std::vector<std::string>(),

@@ -48,10 +48,10 @@ struct Groove : NeutralEffect<Scalar> {
                            const Scalar& dt, const Parameters<Scalar>&) const {
     if (is_constant_zero(flank_brake)) return Scalar(0);
     const Scalar along = absolute<Scalar>(dot<Scalar>(state.axis, state.string_acceleration));
-    const Mask<Scalar> rubs =
+    const Mask<Scalar> at_edge =
         (half_width > Scalar(0)) && (profile_radius * along > half_width * norm(state.string_acceleration));
     const Scalar rest = absolute<Scalar>(spin) / dt;  // what stops it
-    const Scalar braked = select(rubs, minimum(Scalar(flank_brake * along), rest), Scalar(0));
+    const Scalar braked = select(at_edge, minimum(Scalar(flank_brake * along), rest), Scalar(0));
     return select(spin > Scalar(0), Scalar(-braked), braked);
   }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "diabolo/effects/effect.hpp"
+#include "diabolo/math/pairs.hpp"
 #include "diabolo/string/string_path.hpp"
 #include "diabolo/string/winding.hpp"
 

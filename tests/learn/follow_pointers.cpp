@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diabolo/hosts/follow_pointers.hpp"
+#include "diabolo/learn/follow_pointers.hpp"
 
 #include "catch.hpp"
 #include "diabolo/plan/limits.hpp"
