@@ -13,7 +13,17 @@
 #include <vector>
 
 #include "diabolo/json/recording_file.hpp"
+#include "diabolo/recording/check.hpp"
+#include "diabolo/recording/formats/calibration.hpp"
+#include "diabolo/recording/formats/motive.hpp"
+#include "diabolo/recording/formats/up_axis.hpp"
+#include "diabolo/recording/plausibility/regular_times.hpp"
+#include "diabolo/recording/recording.hpp"
+#include "diabolo/text/error.hpp"
+#include "diabolo/text/file.hpp"
+#include "diabolo/text/shown.hpp"
 
+#include "arrays.hpp"
 #include "bindings.hpp"
 #include "tracks.hpp"
 
@@ -39,6 +49,7 @@ TrackedTake take_of(const std::string& file, const Array& time, const std::vecto
                            " s; expected finite times that increase");
   if (size < 2) throw RecordingError(file + ": " + std::to_string(size) + " samples; expected two at least");
   take.rate = rate_of(take.time);
+  check_rate(take.rate, take.time, file);
   for (const double t : take.time) take.frame.push_back(std::lround(t * take.rate));
   for (const auto& [name, position, quaternion] : bodies) {
     const std::string where = file + ", " + name;

@@ -44,6 +44,24 @@ TEST_CASE("A rate that the times contradict is refused") {
     CHECK(complaint([&] { check_rate(rate, time, "f"); }) != "(no complaint)");
 }
 
+TEST_CASE("Several rows an instant are refused, with or without a rate that would fit") {
+  Eigen::VectorXd time(120);
+  for (Eigen::Index i = 0; i < 120; ++i)
+    time[i] = static_cast<double>(i / 2) / 120.0 + 1e-6 * static_cast<double>(i % 2);
+  for (const double rate : {120.0, 1e6, 240.0})
+    CHECK(complaint([&] { check_rate(rate, time, "f"); }) ==
+          "f: 60 of 120 rows come within 0.083 ms of the row before, as if an instant had several; expected "
+          "one row an instant");
+  for (Eigen::Index i = 0; i < 120; ++i) time[i] = static_cast<double>(i) / 120.0 + (i > 60 ? 900.0 : 0.0);
+  CHECK_NOTHROW(check_rate(120.0, time, "f"));  // one long gap
+}
+
+TEST_CASE("Rates in sentences are rounded") {
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(7, 0.0, 0.1);
+  CHECK(complaint([&] { check_rate(119.99999881, time, "f"); }) ==
+        "f: rate 120 Hz, but the times step by 0.016667 s (60 Hz)");
+}
+
 TEST_CASE("An axle as thick as the cups is refused") {
   DiaboloProperties thick = kRedDiabolo;
   thick.axle_radius = 0.065;

@@ -11,6 +11,7 @@
 
 #include "diabolo/parameters.hpp"
 #include "diabolo/recording/recording.hpp"
+#include "diabolo/recording/usual_step.hpp"
 #include "diabolo/text/error.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -43,26 +44,27 @@ inline bool normalize_quaternion(Eigen::Ref<Eigen::Vector4d> quaternion) {
   return true;
 }
 
-/// The median step between times [s]; there must be two at least.
-inline double median_step(const Eigen::VectorXd& time) {
-  Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
-  double* const middle = step.data() + step.size() / 2;
-  std::nth_element(step.data(), middle, step.data() + step.size());
-  return *middle;
+/// Whether times, in a unit [s], step at that rate [Hz]: to 5 % in the median, or in the step that leaves no
+/// row out.
+inline bool steps_at(double rate, const Eigen::VectorXd& time, double unit = 1.0) {
+  const auto fits = [&](double step) { return std::abs(step * unit * rate - 1.0) <= 0.05; };
+  return fits(median_step(time)) || fits(usual_step(time));
 }
 
-/// Whether times, in a unit [s], step at that rate [Hz]: to 5 % in the median, or in that of the steps that
-/// leave no row out, a quarter of all at least.
-inline bool steps_at(double rate, const Eigen::VectorXd& time, double unit = 1.0) {
-  if (std::abs(median_step(time) * unit * rate - 1.0) <= 0.05) return true;
-  std::vector<double> steps;
-  for (Eigen::Index i = 0; i + 1 < time.size(); ++i)
-    if (const double periods = (time[i + 1] - time[i]) * unit * rate; periods > 0.5 && periods < 1.5)
-      steps.push_back(periods);
-  if (4 * static_cast<Eigen::Index>(steps.size()) < time.size() - 1 || steps.empty()) return false;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return std::abs(*middle - 1.0) <= 0.05;
+/// Throws RecordingError where many rows come at once with the one before, such as two rows for each instant:
+/// a quarter of the steps are shorter than a hundredth of the longer ones.
+inline void check_instants(const Eigen::VectorXd& time, const std::string& where) {
+  constexpr double kAtOnce = 0.01;
+  if (time.size() < 3) return;
+  const Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  Eigen::VectorXd sorted = step;
+  double* const longer = sorted.data() + 4 * sorted.size() / 5;
+  std::nth_element(sorted.data(), longer, sorted.data() + sorted.size());
+  const Eigen::Index count = (step.array() < kAtOnce * *longer).count();
+  if (4 * count < step.size()) return;
+  throw RecordingError(where + ": " + std::to_string(count) + " of " + std::to_string(time.size()) +
+                       " rows come within " + shown_rounded(1e3 * kAtOnce * *longer) +
+                       " ms of the row before, as if an instant had several; expected one row an instant");
 }
 
 /// Throws RecordingError unless the sampling rate [Hz] is believable and fits the times, see steps_at(); says
@@ -71,13 +73,14 @@ inline void check_rate(double rate, const Eigen::VectorXd& time, const std::stri
   if (!(rate > 0.0 && rate <= 1e6))
     throw RecordingError(where + ": rate " + shown(rate) + " Hz; expected more than 0, at most 1e6");
   if (time.size() < 2) return;
+  check_instants(time, where);
   if (steps_at(rate, time)) return;
   std::string unit;
   for (const auto& [name, seconds] : {std::pair{"ns", 1e-9}, std::pair{"us", 1e-6}, std::pair{"ms", 1e-3}})
     if (steps_at(rate, time, seconds)) unit = name;
   throw RecordingError(
-      where + ": rate " + shown(rate) + " Hz, but the times step by " +
-      shown(std::round(1e6 * median_step(time)) / 1e6) + " s (" + shown_rounded(1.0 / median_step(time)) +
+      where + ": rate " + shown_rounded(rate) + " Hz, but the times step by " +
+      shown(std::round(1e6 * usual_step(time)) / 1e6) + " s (" + shown_rounded(1.0 / usual_step(time)) +
       " Hz)" + (unit.empty() ? "" : ", as if they were in " + unit + ": --columns time=NAME[" + unit + "]"));
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/recording/plausibility/regular_times.hpp"
 
+#include <algorithm>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "catch.hpp"
 #include "recording/shipped.hpp"
@@ -16,6 +19,29 @@ Recording with_jitter(Recording r, double seconds, std::uint32_t seed) {
   std::normal_distribution<double> jitter(0.0, seconds);
   for (double& time : r.time) time += jitter(generator);
   return r;
+}
+
+/// Times of ten seconds at 120 Hz, rows left out at random, put right, with what they were without jitter. A
+/// rate of 0 is not stated.
+std::pair<Recording, Eigen::VectorXd> thinned(double out, double jitter, double rate,
+                                              std::mt19937& generator) {
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  std::vector<double> even, stamps;
+  for (int i = 0; i < 1200; ++i) {
+    if (share(generator) < out) continue;
+    even.push_back(i / 120.0);
+    stamps.push_back(even.back() + jitter * normal(generator));
+  }
+  std::ranges::sort(stamps);
+  const Eigen::Index size = std::ssize(stamps);
+  Recording r;
+  r.time = Eigen::Map<const Eigen::VectorXd>(stamps.data(), size);
+  r.left = r.right = r.diabolo = Track::missing(size);
+  r.rate = rate > 0.0 ? rate : rate_of(r.time);
+  check_rate(r.rate, r.time, "thinned");
+  regularise_times(r);
+  return {r, Eigen::Map<const Eigen::VectorXd>(even.data(), size)};
 }
 
 }  // namespace
@@ -129,6 +155,50 @@ TEST_CASE("The rate is found where most rows are left out") {
       if (share(generator) > out) kept.push_back(i);
     CHECK(rate_of(given.time(kept)) == 120.0);
   }
+}
+
+TEST_CASE("Where many rows are left out and stamps jitter, the rate is right, or it is told that it is not") {
+  const std::uint32_t seed = test::fresh_seed();
+  std::mt19937 generator(seed);
+  for (const double out : {0.3, 0.5, 0.7})
+    for (const double jitter : {0.0, 0.3e-3, 0.6e-3, 1.0e-3, 1.5e-3})
+      for (const bool is_stated : {true, false}) {
+        CAPTURE(seed, out, jitter, is_stated);
+        const auto [r, even] = thinned(out, jitter, is_stated ? 120.0 : 0.0, generator);
+        const bool is_right = std::abs(r.rate / 120.0 - 1.0) < 5e-3, is_told = !odd_times(r).empty();
+        CHECK((is_right || is_told));
+        if (jitter <= 1.0e-3) CHECK(is_right);
+        if (jitter <= 0.6e-3) CHECK(!is_told);
+        if (is_told) continue;
+        const Eigen::ArrayXd off = r.time - even;
+        CHECK(50 * ((off - off.mean()).abs() > 4e-3).count() <= r.size());
+      }
+}
+
+TEST_CASE("Jitter between rows of which most are left out is put right, or told") {
+  std::mt19937 generator(4);
+  Recording steady = thinned(0.8, 0.0, 120.0, generator).first;
+  std::normal_distribution<double> normal;
+  Recording slight = steady, hopeless = steady;
+  for (double& time : slight.time) time += 0.3e-3 * normal(generator);
+  CHECK(share_between_places(slight) > kMostUneven);
+  CHECK(regularise_times(slight));
+  CHECK(odd_times(slight).empty());
+  for (double& time : hopeless.time) time += 3e-3 * normal(generator);
+  std::ranges::sort(hopeless.time);
+  CHECK(!regularise_times(hopeless));
+  CHECK(odd_times(hopeless).starts_with("the times step unevenly in "));
+}
+
+TEST_CASE("Rows that are moved so far that they may belong beside are counted") {
+  Recording r = with_jitter(test::shipped("throw"), 0.2e-3, 5);
+  r.time[300] += 3.8e-3;
+  r.time[500] -= 3.8e-3;
+  REQUIRE(regularise_times(r));
+  REQUIRE(r.notes.size() == 1);
+  CHECK(
+      r.notes.front().ends_with("each row is moved to its even time, 2 of them by more than 0.4 of a period: "
+                                "they may belong beside it"));
 }
 
 TEST_CASE("A rate that is a little off is put right with the times") {

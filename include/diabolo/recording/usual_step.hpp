@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace diabolo {
+
+/// The median step between times [s]; there must be two at least.
+inline double median_step(const Eigen::VectorXd& time) {
+  Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  double* const middle = step.data() + step.size() / 2;
+  std::nth_element(step.data(), middle, step.data() + step.size());
+  return *middle;
+}
+
+/// The step of which the others are multiples, but for jitter [s]: rows may be left out, most of them, too.
+/// There must be two times at least. Schuster's periodogram of the steps: the mean cosine of their phases, of
+/// which the lowest of the highest peaks tells the longest period that fits.
+inline double usual_step(const Eigen::VectorXd& time) {
+  constexpr double kLongest = 1.3;         // medians
+  constexpr double kShortest = 1.0 / 8.0;  // a median leaves no more rows out than that
+  constexpr double kLongestCounted = 6.0;  // medians; a longer step is a gap, of no whole periods
+  constexpr double kAsHigh = 0.8;          // share of the highest peak
+  constexpr double kPhase = 0.02;          // of a median from frequency to frequency [turns]
+  constexpr std::size_t kMostSteps = 1000;
+  const double median = median_step(time);
+  std::vector<double> steps;  // medians
+  const Eigen::Index every = 1 + (time.size() - 2) / static_cast<Eigen::Index>(kMostSteps);
+  for (Eigen::Index i = 0; i + 1 < time.size(); i += every)
+    if (const double step = (time[i + 1] - time[i]) / median; step < kLongestCounted) steps.push_back(step);
+  const auto height = [&steps](double frequency) {
+    double sum = 0.0;
+    for (const double step : steps) sum += std::cos(2.0 * std::numbers::pi * frequency * step);
+    return sum;
+  };
+  std::vector<double> heights;
+  for (double frequency = 1.0 / kLongest; frequency < 1.0 / kShortest + 2.0 * kPhase; frequency += kPhase)
+    heights.push_back(height(frequency));
+  const double highest = *std::ranges::max_element(heights);
+  for (std::size_t k = 1; k + 1 < heights.size(); ++k) {
+    const double before = heights[k - 1], here = heights[k], after = heights[k + 1];
+    if (here < kAsHigh * highest || here < before || here < after) continue;
+    const double bend = before - 2.0 * here + after;  // the top of the parabola through the three
+    const double top = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
+    return median / (1.0 / kLongest + (static_cast<double>(k) + top) * kPhase);
+  }
+  return median;
+}
+
+}  // namespace diabolo
