@@ -20,6 +20,13 @@ void hold_still(Recording& r, Track& tip, Eigen::Index from = 0) {
   for (Eigen::Index i = from; i < r.size(); ++i) tip.position.col(i) = place, tip.valid[i] = true;
 }
 
+Recording tips_turned_by(Recording r, double degrees) {
+  const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
+  for (Track* track : {&r.left, &r.right, &r.diabolo})
+    track->position = turn.toRotationMatrix() * track->position;
+  return r;
+}
+
 /// The diabolo of the row that many samples later.
 Recording shifted(const Recording& r, Eigen::Index by) {
   Recording result = r;
@@ -99,12 +106,39 @@ TEST_CASE(
     const Recording given = test::shipped(name);
     CAPTURE(name);
     CHECK(odd_heading(given).empty());
-    for (const auto& [degrees, odd] : {std::pair{90.0, true}, {-90.0, true}, {180.0, true}, {30.0, false}}) {
-      Recording r = given;
-      const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
-      for (Track* track : {&r.left, &r.right, &r.diabolo})
-        track->position = turn.toRotationMatrix() * track->position;
-      CHECK(odd_heading(r).empty() != odd);
-    }
+    for (const auto& [degrees, odd] : {std::pair{90.0, true}, {-90.0, true}, {180.0, true}, {30.0, false}})
+      CHECK(odd_heading(tips_turned_by(given, degrees)).empty() != odd);
   }
+}
+
+TEST_CASE("A frame that is turned by half a right angle or more is told with the angle") {
+  const Recording given = test::shipped("swing");
+  for (const double degrees : {50.0, 60.0, -55.0, 65.0, 120.0}) {
+    CAPTURE(degrees);
+    const std::string told = odd_heading(tips_turned_by(given, degrees));
+    CHECK(told.find("the frame is turned by some ") != std::string::npos);
+    CHECK(std::abs(std::stod(told.substr(told.find("some ") + 5)) - std::abs(degrees)) < 5.0);
+  }
+}
+
+TEST_CASE("What is said of exchanged sticks is one sentence, which a diagnosis does not contradict") {
+  const Recording given = test::shipped("swing"), exchanged = with_sticks_exchanged(given);
+  const auto told = [](const Recording& r) {
+    std::vector<std::string> found;
+    for (const std::string& one : warnings(r))
+      if (one.find("the left ") != std::string::npos) found.push_back(one);
+    REQUIRE(found.size() == 1);
+    return found.front();
+  };
+  CHECK(told(exchanged) ==
+        "seen along the sticks, the left one is on the right: they are under each other's names");
+  // Directions inwards: a diagnosis leaves such sticks as they are.
+  Recording inwards = given;
+  for (OrientationTrack* track : {&inwards.left_orientation, &inwards.right_orientation})
+    for (Eigen::Index i = 0; i < track->quaternion.cols(); ++i) {
+      const Eigen::Quaterniond turn(Eigen::Vector4d(track->quaternion.col(i)));
+      track->quaternion.col(i) =
+          (turn * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ())).coeffs();
+    }
+  CHECK(told(inwards).starts_with("the left tip lies on the left, but not as seen along the sticks"));
 }

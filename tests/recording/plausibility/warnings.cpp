@@ -82,6 +82,12 @@ TEST_CASE("a tip that is never seen is named") {
   CHECK(only_warning(none) == "the left tip is never seen; nothing can be predicted");
 }
 
+TEST_CASE("a diabolo that is never seen is named") {
+  Recording none = swing();
+  none.diabolo = Track::missing(none.size());
+  CHECK(only_warning(none) == "the diabolo is never seen; nothing can be compared");
+}
+
 TEST_CASE("rows that are missing are named, with how often") {
   Recording jumps = swing();
   jumps.time.tail(jumps.size() - 100).array() += 0.5;

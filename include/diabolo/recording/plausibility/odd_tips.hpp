@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "diabolo/recording/plausibility/fall.hpp"
+#include "diabolo/recording/plausibility/swapped_bodies.hpp"
 #include "diabolo/recording/plausibility/usual_path.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/shown.hpp"
@@ -68,10 +70,9 @@ inline std::string odd_distance(const Recording& r) {
          std::to_string(std::lround(100.0 * share)) + " % of the rows: wrong units, or another string";
 }
 
-/// Quarter turns about the vertical by which the left tip lies off the left of the right one, which is along
-/// y: 1 behind it, -1 before it, 2 on its right; nothing where it is not clear.
-inline std::optional<int> quarters_off(const Recording& r) {
-  constexpr double kLeastAside = 0.4;  // share of what lies between the tips that is along y
+/// Which way the left tip lies from the right one, a unit vector along x and y; nothing where it is not
+/// clear.
+inline std::optional<Eigen::Vector2d> across_tips(const Recording& r) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double length = 0.0;
   Eigen::Index known = 0;
@@ -84,22 +85,43 @@ inline std::optional<int> quarters_off(const Recording& r) {
   }
   if (static_cast<double>(known) < kFewestSeconds * r.rate || known < 20) return {};
   if (!(sum.norm() > 0.5 * length)) return {};
-  if (std::abs(sum.y()) <= kLeastAside * sum.norm()) return sum.x() > 0.0 ? -1 : 1;
-  return sum.y() < 0.0 ? 2 : 0;
+  return sum / sum.norm();
 }
 
-/// A clause about tips of which the left one does not lie on the left, where it is not clear which way an
-/// axle points; else empty.
+/// Quarter turns about the vertical by which the left tip lies off the left of the right one, which is along
+/// y: 1 behind it, -1 before it, 2 on its right; nothing where it is not clear.
+inline std::optional<int> quarters_off(const Recording& r) {
+  constexpr double kLeastAside = 0.4;  // share of what lies between the tips that is along y
+  const std::optional<Eigen::Vector2d> across = across_tips(r);
+  if (!across) return {};
+  if (std::abs(across->y()) <= kLeastAside) return across->x() > 0.0 ? -1 : 1;
+  return across->y() < 0.0 ? 2 : 0;
+}
+
+/// A clause about a left tip that does not lie on the left, or sticks whose directions say otherwise than
+/// their tips; else empty.
 inline std::string odd_heading(const Recording& r) {
+  constexpr double kFarthestOff = 45.0;  // degrees
+  const std::optional<Eigen::Vector2d> across = across_tips(r);
   const int quarters = quarters_off(r).value_or(0);
-  if (quarters == 0) return {};
+  const bool exchanged = sticks_are_exchanged(r).value_or(false);
+  if (exchanged && across && quarters == 0)
+    return "the left tip lies on the left, but not as seen along the sticks: their body x seems to point "
+           "inwards, or the sticks are exchanged in a frame that is turned; expected body x outwards";
+  if (exchanged && quarters != 1 && quarters != -1)
+    return "seen along the sticks, the left one is on the right: they are under each other's names";
+  if (!across) return {};
+  const double off = std::abs(std::atan2(across->x(), across->y())) * 180.0 / std::numbers::pi;
+  if (off <= kFarthestOff) return {};
+  const std::string turned =
+      "the frame is turned by some " + std::to_string(std::lround(off)) + " degrees about the vertical";
   if (quarters == 2)
-    return "the left tip lies to the right of the right one: the frame is turned by some 180 degrees about "
-           "the "
-           "vertical, or the sticks are exchanged; expected y to the left";
-  return std::string("the left tip lies ") + (quarters < 0 ? "before" : "behind") +
-         " the right one, along x: the frame is turned by some 90 degrees about the vertical, and the spin's "
-         "sign is not sure; expected y to the left";
+    return "the left tip lies to the right of the right one: " + turned +
+           ", or the sticks are exchanged; expected y to the left";
+  return std::string("the left tip lies ") + (across->x() > 0.0 ? "before" : "behind") +
+         " the right one: " + turned + ", and the spin's sign is not sure" +
+         (exchanged ? "; seen along the sticks, they are under each other's names" : "") +
+         "; expected y to the left";
 }
 
 /// Longest shift that is looked for [s], the least that is told, and how much oftener the string has its

@@ -37,10 +37,8 @@ inline std::string times_of(const Swaps& swaps, const Eigen::VectorXd& time) {
          (more > 0 ? " and " + std::to_string(more) + (more > 1 ? " times more" : " time more") : "");
 }
 
-/// A clause about bodies under each other's names; else empty.
+/// A clause about bodies that are under each other's names in some rows; else empty.
 inline std::string odd_names(const Recording& r) {
-  if (sticks_are_exchanged(r).value_or(false))
-    return "seen along the sticks, the left one is on the right: they are under each other's names";
   Recording given = r;
   if (const Swaps swaps = unswap(given); swaps.count > 0)
     return "bodies jump to each other's places, from " + times_of(swaps, r.time);

@@ -70,6 +70,8 @@ inline std::vector<std::string> warnings(const Recording& recording) {
     else if (const Stretches gap = unseen(*tip, recording.time, kLongestUnseen); gap.count > 0)
       result.push_back(std::string("the ") + side + " tip is not seen for " + gap.text() +
                        "; a prediction across it goes by a guess");
+  if (recording.size() > 0 && !recording.diabolo.valid.any())
+    result.emplace_back("the diabolo is never seen; nothing can be compared");
   if (const MissingRows missing(recording);
       missing.stretches.length > kLongestWithoutRows + 1.0 / recording.rate ||
       missing.share > kMostMissingRows)
