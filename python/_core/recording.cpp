@@ -66,12 +66,12 @@ py::tuple to_tuple(const Recording& r) {
                         numbers(r.diabolo.position), r.rate, known(r.diabolo_orientation),
                         known(r.left_orientation), known(r.right_orientation), r.name, r.properties.mass,
                         r.properties.diameter, r.properties.length, r.properties.axle_radius, r.string_length,
-                        r.frame, r.notes, r.clock, r.assumed, r.file);
+                        r.frame, r.notes, r.clock, r.assumed, r.file, r.has_own_rows);
 }
 
 Recording from_tuple(const py::tuple& t) {
-  if (t.size() != 19)
-    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 19");
+  if (t.size() != 20)
+    throw RecordingError("recording: a state of " + std::to_string(t.size()) + " items; expected 20");
   const auto orientation = [&](std::size_t i) { return t[i].cast<std::optional<Array>>(); };
   const Array time = t[0].cast<Array>().attr("ravel")().cast<Array>();
   Recording recording =
@@ -85,6 +85,7 @@ Recording from_tuple(const py::tuple& t) {
   recording.clock = t[16].cast<double>();
   recording.assumed = t[17].cast<std::vector<std::string>>();
   recording.file = t[18].cast<std::string>();
+  recording.has_own_rows = t[19].cast<bool>();
   check_recording(recording);
   return recording;
 }
@@ -157,8 +158,10 @@ assumed, which is warned of.)");
           "Spin between each sample and the next [rad/s], shape (N,), NaN where it is unknown. Unsigned: the "
           "published rule, which counts turning of the axle too.");
   cls.def_readonly("name", &Recording::name);
-  cls.def_property_readonly("title", &Recording::title,
-                            "What messages call it: the file that it was read from, or its name.");
+  cls.def_property_readonly(
+      "title", &Recording::title,
+      "What messages call it: the file that it was read from, or its name; of a part or one "
+      "that is resampled, both.");
   cls.def_readonly("rate", &Recording::rate, "Nominal sampling rate [Hz].");
   cls.def_readonly("string_length", &Recording::string_length, "[m]");
   cls.def_readonly("assumed", &Recording::assumed,

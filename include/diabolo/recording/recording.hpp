@@ -76,9 +76,13 @@ struct Recording {
   double clock = 0.0;              ///< of laws in time, at sample 0 [s]: a part keeps that of the whole
   std::vector<std::string> notes;  ///< what its reader changed or took for granted, a clause each
   std::string file;                ///< that it was read from; empty where it is of none
+  bool has_own_rows = false;       ///< its samples are others than the file's rows: a part, or resampled
 
-  /// What messages call it.
-  std::string title() const { return file.empty() ? "recording " + shown(name) : file; }
+  /// What messages call it; of one with its own rows they name none of the file's.
+  std::string title() const {
+    if (file.empty()) return "recording " + shown(name);
+    return has_own_rows ? "recording " + shown(name) + " (from " + file + ")" : file;
+  }
 
   Eigen::Index size() const { return time.size(); }
 
@@ -104,6 +108,7 @@ inline Recording cut(const Recording& recording, Eigen::Index first, Eigen::Inde
     return OrientationTrack{track.quaternion.middleCols(first, n), track.valid.segment(first, n)};
   };
   Recording result = recording;
+  result.has_own_rows = result.has_own_rows || n < recording.size();
   result.frame.assign(recording.frame.begin() + first, recording.frame.begin() + last + 1);
   result.time = recording.time.segment(first, n);
   result.clock += recording.time[first] - recording.time[0];

@@ -31,6 +31,7 @@ inline Recording resample(const Recording& recording, const Eigen::VectorXd& tim
   const std::string where = "resampling of " + recording.title();
   if (last < 0) throw RecordingError(where + ": the recording has no samples");
   Recording result = recording;
+  result.has_own_rows = true;
   result.time = times;
   if (size > 0) result.clock += times[0] - recording.time[0];
   result.frame.assign(static_cast<std::size_t>(size), 0);
