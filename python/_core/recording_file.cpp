@@ -22,24 +22,28 @@ using namespace py::literals;
 
 using GivenColumns = std::variant<std::monostate, std::string, std::map<std::string, std::string>>;
 
-ReadOptions read_options(const std::optional<std::string>& up, const GivenColumns& columns) {
+/// Throws RecordingError with the file that they are to be used for.
+ReadOptions read_options(const std::filesystem::path& path, const std::optional<std::string>& up,
+                         const GivenColumns& columns) try {
   ReadOptions options;
   if (up) options.up = up_axis_of(*up);
   if (const auto* text = std::get_if<std::string>(&columns)) options.columns = columns_of(*text);
   if (const auto* map = std::get_if<std::map<std::string, std::string>>(&columns))
     for (const auto& [tidy, given] : *map) options.columns.push_back(column_of(tidy, given));
   return options;
+} catch (const RecordingError& error) {
+  throw RecordingError(path.string() + ": " + error.what());
 }
 
 Recording load(const std::filesystem::path& path, const std::optional<Calibration>& calibration,
                const std::optional<std::string>& up, const GivenColumns& columns) {
-  return load_recording(path, calibration, read_options(up, columns));
+  return load_recording(path, calibration, read_options(path, up, columns));
 }
 
 Recording read(const std::string& text, const std::filesystem::path& path,
                const std::optional<Calibration>& calibration, const std::optional<std::string>& up,
                const GivenColumns& columns) {
-  return read_recording(text, path, calibration, read_options(up, columns));
+  return read_recording(text, path, calibration, read_options(path, up, columns));
 }
 
 constexpr const char* kLoadDoc =

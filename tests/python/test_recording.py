@@ -225,7 +225,9 @@ def test_sentences_name_the_file_of_a_recording(played: Recording, tmp_path: Pat
     played.save(path)
     read = load_recording(path)
     assert (read.title, played.title) == (str(path), 'recording "played"')
-    assert pickle.loads(pickle.dumps(read)).title == read.resample(100.0).title == str(path)
+    assert pickle.loads(pickle.dumps(read)).title == read.cut(0, len(read) - 1).title == str(path)
+    for own in (read.cut(12, 99), read.resample(100.0), pickle.loads(pickle.dumps(read.cut(12, 99)))):
+        assert own.title == f'recording "{read.name}" (from {path})'  # whose rows are others than the file's
     with pytest.raises(RecordingError, match=rf"cut of {re.escape(str(path))}: rows 0 to 999; expected"):
         read.cut(0, 999)
     with pytest.raises(ValueError, match=rf"recordings: {re.escape(str(path))} and .* hold the same 481"):
@@ -237,6 +239,49 @@ def test_columns_that_are_no_names_are_refused(given: object, played: Recording,
     played.save(tmp_path / "take.csv")
     with pytest.raises(ValueError, match=r"^columns: .*; expected time=NAME\[UNIT\],... or a dict of such"):
         load_recording(tmp_path / "take.csv", columns=given)  # type: ignore[arg-type]
+
+
+def test_sentences_about_columns_name_the_file(played: Recording, tmp_path: Path) -> None:
+    path = tmp_path / "own.csv"
+    played.save(path)
+    for columns, text in (
+        ("left_w=a", 'columns: "left_w"; expected time, left_x, diabolo_qw and the like'),
+        ({"time": "t[mm]"}, 'columns: time=t[mm]: unit "mm"; expected s, ms, us or ns'),
+        ("left_x=left_x,left_x=left_y", 'line 1: columns: left_x is mapped to "left_x" and to "left_y"'),
+        (
+            {"left_x": "left_y", "left_y": "left_y"},
+            'line 1: columns: "left_y" is mapped to left_x and to left_y',
+        ),
+    ):
+        with pytest.raises(RecordingError, match=rf"^{re.escape(str(path))}[:,] {re.escape(text)}"):
+            load_recording(path, columns=columns)
+        with pytest.raises(RecordingError, match=re.escape(text)):
+            Recording.load(path, columns=columns)
+    with pytest.raises(TypeError, match=r"^Recording\.load: columns: 5; expected None or a str or a dict"):
+        Recording.load(path, columns=5)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("rate", [120.0, None])
+def test_two_rows_an_instant_are_refused(rate: float | None, played: Recording, tmp_path: Path) -> None:
+    path = tmp_path / "pairs.csv"
+    played.save(path)
+    head, *rows = path.read_text().splitlines()
+    twice = [f"{float(row.split(',')[0]) + 1e-6!r},{row.split(',', 1)[1]}" for row in rows]
+    path.write_text(
+        "\n".join([head, *(row for pair in zip(rows, twice, strict=True) for row in pair)]) + "\n"
+    )
+    if rate is None:
+        path.with_suffix(".json").unlink()
+    with pytest.raises(
+        RecordingError, match=r"pairs\.csv: 481 of 962 rows come within 0\.08\d ms of the row"
+    ):
+        load_recording(path, columns=None if rate else {"time": "time"})
+
+
+def test_a_diabolo_that_is_never_seen_is_told(played: Recording) -> None:
+    unseen = np.full_like(played.diabolo, np.nan)
+    none = Recording(played.time, played.left, played.right, unseen, played.rate)
+    assert "the diabolo is never seen; nothing can be compared" in none.warnings()
 
 
 def test_bad_files_are_named(played: Recording, tmp_path: Path) -> None:

@@ -54,9 +54,12 @@ TEST_CASE("What cannot be mapped is named") {
   CHECK(complaint([] {
           read("time=zeit[ms]");
         }).starts_with("own.csv, line 1: no column \"zeit\" for time; the file has \"note\", \"t [ms]\""));
-  CHECK(complaint([] { read("time=t [ms],time=LX"); }) == "own.csv, line 1: column \"time\" is there twice");
+  CHECK(complaint([] { read("time=t [ms],time=LX"); }) ==
+        "own.csv, line 1: columns: time is mapped to \"t [ms]\" and to \"LX\"; expected one of them");
+  CHECK(complaint([] { read("left_x=LX[mm],right_x=LX[mm]"); }) ==
+        "own.csv, line 1: columns: \"LX\" is mapped to left_x and to right_x; expected a column for each");
   CHECK(complaint([] { read("time=t [ms]"); }) == "own.csv, line 1: column \"left_x\" is missing");
-  CHECK(complaint([] { read(std::string(kMap) + ",right_qx=LX"); }) ==
+  CHECK(complaint([] { read(std::string(kMap) + ",right_qx=note"); }) ==
         "own.csv, line 1: column \"right_qy\" is missing");
 }
 

@@ -116,8 +116,23 @@ class TidyReader {
     at = cell;
   }
 
+  /// One column may stand for several numbers of an orientation, such as zeros, but for one of a position.
+  void check_mapped_once() const {
+    const auto turns = [](const MappedColumn& column) { return column.tidy.find("_q") != std::string::npos; };
+    for (auto one = columns_.begin(); one != columns_.end(); ++one)
+      for (auto other = columns_.begin(); other != one; ++other) {
+        if (one->tidy == other->tidy)
+          csv_.fail("columns: " + one->tidy + " is mapped to " + shown(other->bare) + " and to " +
+                    shown(one->bare) + "; expected one of them");
+        if (one->bare == other->bare && !(turns(*one) && turns(*other)))
+          csv_.fail("columns: " + shown(one->bare) + " is mapped to " + other->tidy + " and to " + one->tidy +
+                    "; expected a column for each");
+      }
+  }
+
   /// Finds the columns that are mapped, then tidy ones that are not, and lets the others be.
   void map_columns(const std::vector<std::string_view>& cells) {
+    check_mapped_once();
     for (const MappedColumn& column : columns_) {
       const std::ptrdiff_t tidy = std::ranges::find(kTidyColumns, column.tidy) - kTidyColumns.begin();
       bool found = false;
