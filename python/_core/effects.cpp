@@ -124,30 +124,31 @@ void bind_effect(py::module_& module, const Effect& nominal) {
 
 }  // namespace
 
+void assign_effect(AllEffects<double>& effects, const std::string& name, const py::object& given) {
+  // (A list is made laws by their class, whose sentence says what is wrong with one.)
+  const bool listed = name == FormulaLaws<double>::kName && py::isinstance<py::list>(given);
+  const py::object value = listed ? py::type::of<FormulaLaws<double>>()(given) : given;
+  std::string names;
+  bool found = false;
+  const auto assign = [&]<class Effect>(Effect& effect, const char* expected) {
+    if (name != Effect::kName) return;
+    effect = value.is_none() ? Effect{} : cast_to<Effect>(value, name, expected);
+    found = true;
+  };
+  assign(effects.get<FormulaLaws>(), "FormulaLaws, a list of laws or None");
+  assign(effects.get<ResidualForce>(), "ResidualForce or None");
+  for_each_effect(effects, [&](auto& effect) {
+    names.append(effect.kName).append(", ");
+    assign(effect, (class_name(effect.kName) + " or None").c_str());
+  });
+  if (!found)
+    throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names +
+                         "formula_laws, residual_force");
+}
+
 void assign_effects(AllEffects<double>& effects, const py::kwargs& given) {
-  for (const auto& [key, told] : given) {
-    const std::string name = py::str(key);
-    // (A list is made laws by their class, whose sentence says what is wrong with one.)
-    const bool listed = name == FormulaLaws<double>::kName && py::isinstance<py::list>(told);
-    const py::object value =
-        listed ? py::type::of<FormulaLaws<double>>()(told) : py::reinterpret_borrow<py::object>(told);
-    std::string names;
-    bool found = false;
-    const auto assign = [&]<class Effect>(Effect& effect, const char* expected) {
-      if (name != Effect::kName) return;
-      effect = value.is_none() ? Effect{} : cast_to<Effect>(value, name, expected);
-      found = true;
-    };
-    assign(effects.get<FormulaLaws>(), "FormulaLaws, a list of laws or None");
-    assign(effects.get<ResidualForce>(), "ResidualForce or None");
-    for_each_effect(effects, [&](auto& effect) {
-      names.append(effect.kName).append(", ");
-      assign(effect, (class_name(effect.kName) + " or None").c_str());
-    });
-    if (!found)
-      throw py::type_error("unexpected keyword '" + name + "'; the effects are: " + names +
-                           "formula_laws, residual_force");
-  }
+  for (const auto& [name, value] : given)
+    assign_effect(effects, py::str(name), py::reinterpret_borrow<py::object>(value));
 }
 
 void bind_effects(py::module_& module) {

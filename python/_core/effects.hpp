@@ -56,8 +56,11 @@ void for_each_effect(Set& set, Visitor&& visit) {
   std::apply([&](auto&... effect) { (one(effect), ...); }, set.members);
 }
 
-/// Takes over effects given by keyword; None has the amplitude zero. Throws py::type_error about anything
-/// else.
+/// Takes over an effect by its name; None has the amplitude zero, and a list makes FormulaLaws. Throws
+/// py::type_error about anything else.
+void assign_effect(AllEffects<double>& effects, const std::string& name, const py::object& given);
+
+/// The same of all that are given by keyword.
 void assign_effects(AllEffects<double>& effects, const py::kwargs& given);
 
 }  // namespace diabolo::python

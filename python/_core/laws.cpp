@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "fields.hpp"
 
 namespace diabolo::python {
 
@@ -16,11 +17,27 @@ namespace {
 using namespace py::literals;
 using Laws = FormulaLaws<double>;
 
-/// By the text that their file would hold, so that both say the same of what is wrong.
+/// The text that their file would hold. Throws py::type_error where it could hold none.
+std::string text_of(const py::object& laws) {
+  const bool one = laws.is_none() || py::isinstance<py::str>(laws) || py::isinstance<py::dict>(laws);
+  try {
+    if (!one && py::isinstance<py::iterable>(laws))
+      return py::module_::import("json")
+          .attr("dumps")(py::list(laws), "allow_nan"_a = false)
+          .cast<std::string>();
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError) &&
+        !error.matches(PyExc_RecursionError))
+      throw;
+  }
+  throw py::type_error("laws: " + shown_value(laws) +
+                       "; expected FormulaLaws, or a list of laws that are made of texts and finite numbers");
+}
+
+/// By their text, so that both say the same of what is wrong.
 Laws laws_from(const py::object& laws) {
   if (py::isinstance<Laws>(laws)) return laws.cast<Laws>();
-  const py::object text = py::module_::import("json").attr("dumps")(py::list(laws));
-  return read_laws(text.cast<std::string>(), "laws");
+  return read_laws(text_of(laws), "laws");
 }
 
 py::object list_of(const Laws& laws) {
@@ -68,7 +85,6 @@ number, and of the others `expected`, where it begins; `minimum` 0 says that a n
       "__deepcopy__", [](const Laws& laws, const py::dict&) { return laws; }, "memo"_a);
   cls.def(py::pickle([](const Laws& laws) { return write_laws(laws); },
                      [](const std::string& text) { return read_laws(text, "pickle"); }));
-  py::implicitly_convertible<py::list, Laws>();
 }
 
 }  // namespace diabolo::python

@@ -3,6 +3,8 @@
 
 #include <pybind11/stl/filesystem.h>
 
+#include <string>
+
 #include "diabolo/json/model_file.hpp"
 
 #include "bindings.hpp"
@@ -90,15 +92,17 @@ says that its own count.)");
     cls.def_property(
         std::string(Effect::kName).c_str(),
         [](Model& m) -> Effect& { return std::get<Effect>(m.effects.members); },
-        [](Model& m, const Effect& effect) { std::get<Effect>(m.effects.members) = effect; });
+        [](Model& m, const py::object& effect) {
+          assign_effect(m.effects, std::string(Effect::kName), effect);
+        });
   });
   cls.def_property(
       "formula_laws", [](const Model& m) { return m.effects.get<FormulaLaws>(); },
-      [](Model& m, const FormulaLaws<double>& laws) { m.effects.get<FormulaLaws>() = laws; },
+      [](Model& m, const py::object& laws) { assign_effect(m.effects, "formula_laws", laws); },
       "Laws by formulas (FormulaLaws): a copy; set them anew to change them.");
   cls.def_property(
       "residual_force", [](const Model& m) { return m.effects.get<ResidualForce>(); },
-      [](Model& m, const ResidualForce<double>& force) { m.effects.get<ResidualForce>() = force; },
+      [](Model& m, const py::object& force) { assign_effect(m.effects, "residual_force", force); },
       "What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it.");
   cls.def("to_dict", &model_dict, "The keyword arguments that make the model again.");
   cls.def("__repr__",

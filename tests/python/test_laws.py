@@ -57,6 +57,37 @@ def test_what_is_wrong_with_a_law_of_a_model_is_said() -> None:
         Model(formula_laws=cast(Any, 5))
 
 
+def test_effects_of_a_model_are_set_as_they_are_given() -> None:
+    model = Model()
+    model.formula_laws = cast(Any, [DRAG])
+    assert model.formula_laws == Model(formula_laws=[DRAG]).formula_laws
+    with pytest.raises(ValueError, match="wind"):
+        model.formula_laws = cast(Any, [{**DRAG, "formula": "k * wind^2"}])
+    for name, kind in (
+        ("formula_laws", "FormulaLaws, a list of laws or None"),
+        ("residual_force", "ResidualForce or None"),
+        ("magnus_lift", "MagnusLift or None"),
+    ):
+        with pytest.raises(TypeError, match=f"^{name}: 5; expected {kind}$"):
+            setattr(model, name, 5)
+        setattr(model, name, None)
+    assert model == Model()
+
+
+@pytest.mark.parametrize("given", [None, 5, "laws.json", {"name": "k"}, [object()], [b"law"], [float("nan")]])
+def test_what_is_no_list_of_laws_is_refused(given: Any) -> None:
+    expected = "expected FormulaLaws, or a list of laws that are made of texts and finite numbers"
+    with pytest.raises(TypeError, match=f"^laws: .*; {expected}$"):
+        FormulaLaws(given)
+
+
+def test_a_list_of_laws_that_holds_itself_is_refused() -> None:
+    endless: list[Any] = []
+    endless.append(endless)
+    with pytest.raises(TypeError, match=r"^laws: \[\[\.\.\.\]\]; expected FormulaLaws, or a list of laws"):
+        FormulaLaws(endless)
+
+
 def test_a_constant_law_of_the_friction_does_what_the_coefficient_does() -> None:
     law = {
         "name": "rough",
