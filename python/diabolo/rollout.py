@@ -106,24 +106,25 @@ def rollout(
     forces: bool = False,
     axle: bool = False,
 ) -> Rollout:
-    """Predict the diabolo from each of N initial states while the tips move.
+    """Predict the diabolo from each of N initial states while the tips move (world frame: x forward, away
+    from the player, y left, z up).
 
     model: Parameters or a Model, one for all or a sequence of N.
     initial: position [m], velocity [m/s] and spin [rad/s], shape (N, 7) or (7,).
     tips: a TipMotion, one for all or a sequence of N.
-    dt: time step [s].
+    dt: time step [s], 1e-9 to 1e3.
     steps: how many; by default as many as the (shortest) tip motion lasts.
     begin: time of the initial state within the tip motions [s]; by default where the first one begins.
     string_state: of the initial state; one for all or an array of the shape (N,).
-    axis, tumble: the axle's direction, which matters to MagnusLift and GyroscopicTilt, and its angular
-    velocity, square to it [rad/s], shape (3,) or (N, 3), as in State.
+    axis, tumble: the axle's direction, a unit vector that matters to MagnusLift and GyroscopicTilt, and its
+    angular velocity, square to it [rad/s], shape (3,) or (N, 3), as in State.
     turns: of the string around the axle, as in State; one for all or an array of the shape (N,).
     record_every: a frame after each so many steps; `steps` must be a multiple of it.
     threads: 0 takes all cores. The result does not depend on it.
     forces, axle: whether the string's forces on the tips, or axis, tumble and turns, are wanted, too.
 
-    Ctrl-C ends it at once. Raises ValueError about bad input, and FloatingPointError where a state does not
-    stay finite. Warns (RolloutWarning) of input that is odd, such as in other units.
+    Ctrl-C ends it at once. Raises ValueError where an argument is out of range, or of another type or shape,
+    and FloatingPointError where a state does not stay finite. Warns (RolloutWarning) of odd units and such.
 
         tips = TipMotion([0.0], [[0.0, 0.3, 0.0]], [[0.0, -0.3, 0.0]])
         fall = rollout(Parameters(), [0, 0, -0.4, 0, 0, 0, 100], tips, steps=1000)
@@ -195,7 +196,7 @@ def rollout_gradient(
 
     The derivative holds for the sequence of string states that the rollout goes through: instants at which
     the string comes taut are located within a step, so they move with the inputs. `initial` has the shape
-    (7,); all else is as for `rollout`.
+    (7,); all else, frame, units and errors, is as for `rollout`.
 
         g = rollout_gradient(Parameters(), initial, tips, ["string_length"], steps=500)
         g.derivatives["string_length"][2]  # height at the end per string length

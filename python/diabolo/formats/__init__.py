@@ -49,7 +49,7 @@ def load_recording(
     arms: the left and the right one, of whose joints a bag may tell instead of the tips (default: the
     paper's). Their sticks are TOPIC:left and TOPIC:right.
     Raises RecordingError with the file, what was found and what was expected, and ValueError where a library
-    is not installed.
+    is not installed. Does not warn: Recording.warnings() lists what is odd, and what computes from it warns.
     """
     path, names, used = file_name("path", path), topics_of(topics), two_arms(arms)
     if calibration is not None:
