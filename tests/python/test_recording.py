@@ -401,8 +401,8 @@ def test_recordings_that_overlap_by_a_few_samples_are_trimmed() -> None:
 def test_an_inconsistent_state_is_refused(played: Recording) -> None:
     rebuild, arguments, state = played.__reduce_ex__(2)[:3]
     for broken, text in (
-        (state[:-1], "a state of 18 items; expected 19"),
-        ((*state[:-5], [0, 1], [], 0.0, [], ""), "2 frame numbers and 481 times"),
+        (state[:-1], "a state of 19 items; expected 20"),
+        ((*state[:-6], [0, 1], [], 0.0, [], "", False), "2 frame numbers and 481 times"),
         ((state[0].ravel()[:-1], *state[1:]), r"left: shape \(481, 3\); expected \(480, 3\)"),
     ):
         with pytest.raises(ValueError, match=text):
