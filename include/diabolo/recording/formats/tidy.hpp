@@ -122,8 +122,8 @@ class TidyReader {
     for (auto one = columns_.begin(); one != columns_.end(); ++one)
       for (auto other = columns_.begin(); other != one; ++other) {
         if (one->tidy == other->tidy)
-          csv_.fail("columns: " + one->tidy + " is mapped to " + shown(other->bare) + " and to " +
-                    shown(one->bare) + "; expected one of them");
+          csv_.fail("columns: " + one->tidy + " is mapped to " + shown(other->given) + " and to " +
+                    shown(one->given) + "; expected one of them");
         if (one->bare == other->bare && !(turns(*one) && turns(*other)))
           csv_.fail("columns: " + shown(one->bare) + " is mapped to " + other->tidy + " and to " + one->tidy +
                     "; expected a column for each");
