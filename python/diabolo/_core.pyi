@@ -646,7 +646,7 @@ class Model:
   def formula_laws(self) -> FormulaLaws:
     """Laws by formulas (FormulaLaws): a copy; set them anew to change them."""
   @formula_laws.setter
-  def formula_laws(self, arg1: FormulaLaws) -> None: ...
+  def formula_laws(self, arg1: typing.Any) -> None: ...
   @property
   def interpolation(self) -> str:
     """How the tips of a recording are read between its samples, as in diabolo.Interpolation."""
@@ -661,7 +661,7 @@ class Model:
   def residual_force(self) -> ResidualForce:
     """What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it."""
   @residual_force.setter
-  def residual_force(self, arg1: ResidualForce) -> None: ...
+  def residual_force(self, arg1: typing.Any) -> None: ...
 class State:
   """
   State of the diabolo, a point mass that spins.
@@ -858,7 +858,7 @@ class Recording:
     """[s], shape (N,)."""
   @property
   def title(self) -> str:
-    """What messages call it: the file that it was read from, or its name."""
+    """What messages call it: the file that it was read from, or its name; of a part or one that is resampled, both."""
 class TrackedBody:
   """A rigid body, in the frame of the motion capture."""
   @property
