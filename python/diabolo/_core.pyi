@@ -601,24 +601,10 @@ class Model:
   says that its own count.
   """
   __hash__: typing.ClassVar[None] = None
-  air: Air
-  finite_axle: FiniteAxle
-  gravity_tilt: GravityTilt
-  groove: Groove
-  gyroscopic_tilt: GyroscopicTilt
-  landing_restitution: LandingRestitution
-  magnus_lift: MagnusLift
   name: str
   own_axle_radius: bool
   own_mass: bool
   parameters: Parameters
-  spin_loss: SpinLoss
-  stick_flex: StickFlex
-  string_elasticity: StringElasticity
-  string_friction: StringFriction
-  string_mass: StringMass
-  unbalance: Unbalance
-  unnamed_force: UnnamedForce
   @staticmethod
   def consistent() -> Model:
     """Ours: an inextensible string of the recording's length, tips on a smooth path."""
@@ -643,15 +629,43 @@ class Model:
   def to_json(self) -> str:
     """The text of its file."""
   @property
+  def air(self) -> Air: ...
+  @air.setter
+  def air(self, arg1: typing.Any) -> None: ...
+  @property
+  def finite_axle(self) -> FiniteAxle: ...
+  @finite_axle.setter
+  def finite_axle(self, arg1: typing.Any) -> None: ...
+  @property
   def formula_laws(self) -> FormulaLaws:
     """Laws by formulas (FormulaLaws): a copy; set them anew to change them."""
   @formula_laws.setter
   def formula_laws(self, arg1: typing.Any) -> None: ...
   @property
+  def gravity_tilt(self) -> GravityTilt: ...
+  @gravity_tilt.setter
+  def gravity_tilt(self, arg1: typing.Any) -> None: ...
+  @property
+  def groove(self) -> Groove: ...
+  @groove.setter
+  def groove(self, arg1: typing.Any) -> None: ...
+  @property
+  def gyroscopic_tilt(self) -> GyroscopicTilt: ...
+  @gyroscopic_tilt.setter
+  def gyroscopic_tilt(self, arg1: typing.Any) -> None: ...
+  @property
   def interpolation(self) -> str:
     """How the tips of a recording are read between its samples, as in diabolo.Interpolation."""
   @interpolation.setter
   def interpolation(self, arg1: str) -> None: ...
+  @property
+  def landing_restitution(self) -> LandingRestitution: ...
+  @landing_restitution.setter
+  def landing_restitution(self, arg1: typing.Any) -> None: ...
+  @property
+  def magnus_lift(self) -> MagnusLift: ...
+  @magnus_lift.setter
+  def magnus_lift(self, arg1: typing.Any) -> None: ...
   @property
   def own_string_length(self) -> bool:
     """Whether parameters.string_length counts, whatever a recording says."""
@@ -662,6 +676,34 @@ class Model:
     """What `fit_residual` learnt (ResidualForce), if anything: a copy; set it anew to change it."""
   @residual_force.setter
   def residual_force(self, arg1: typing.Any) -> None: ...
+  @property
+  def spin_loss(self) -> SpinLoss: ...
+  @spin_loss.setter
+  def spin_loss(self, arg1: typing.Any) -> None: ...
+  @property
+  def stick_flex(self) -> StickFlex: ...
+  @stick_flex.setter
+  def stick_flex(self, arg1: typing.Any) -> None: ...
+  @property
+  def string_elasticity(self) -> StringElasticity: ...
+  @string_elasticity.setter
+  def string_elasticity(self, arg1: typing.Any) -> None: ...
+  @property
+  def string_friction(self) -> StringFriction: ...
+  @string_friction.setter
+  def string_friction(self, arg1: typing.Any) -> None: ...
+  @property
+  def string_mass(self) -> StringMass: ...
+  @string_mass.setter
+  def string_mass(self, arg1: typing.Any) -> None: ...
+  @property
+  def unbalance(self) -> Unbalance: ...
+  @unbalance.setter
+  def unbalance(self, arg1: typing.Any) -> None: ...
+  @property
+  def unnamed_force(self) -> UnnamedForce: ...
+  @unnamed_force.setter
+  def unnamed_force(self, arg1: typing.Any) -> None: ...
 class State:
   """
   State of the diabolo, a point mass that spins.
