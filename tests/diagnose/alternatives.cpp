@@ -130,3 +130,15 @@ TEST_CASE("wraps are worth a trial where the string rubs") {
   fit.at[index_of(Unknown::kWraps)] = 1.0;
   CHECK(alternatives_to("string_friction", fit, nuisances()).empty());
 }
+
+TEST_CASE("a string that is taken off the axle is as it was before it was wrapped") {
+  Fit fit;
+  fit.at[index_of(Unknown::kFriction)] = 0.15;
+  fit.at[index_of(Unknown::kAxleRadius)] = 0.007;
+  Fit on = fit;
+  on.at = wrapped("string_wrap", fit, nuisances(), 1.0).at;
+  CHECK(on.at[index_of(Unknown::kWraps)] == 1.0);
+  CHECK(on.at[index_of(Unknown::kStringLength)] == Approx(2.0 * M_PI * 0.007));
+  const Alternative off = wrapped("string_friction", on, nuisances(), 0.0);
+  CHECK((off.at - fit.at).norm() < 1e-12);
+}

@@ -228,7 +228,7 @@ TEST_CASE("a force that grows is learnt where a constant one, or a tilt, would s
   CHECK(learnt.law.formula.text().find("abs(spin)") != std::string::npos);
 }
 
-TEST_CASE("friction that changes is learnt as that: with use, and with the slip") {
+TEST_CASE("friction that changes is learnt as that: with use, as it fades, and with the slip") {
   const auto asked = [](const char* formula, double size) {
     AllEffects<double> effects;
     effects.get<StringFriction>().coefficient = 0.12;
@@ -251,11 +251,33 @@ TEST_CASE("friction that changes is learnt as that: with use, and with the slip"
     CHECK(learnt.value.front() == Approx(expected).epsilon(0.1));
   };
   check(asked("k * t", 0.006), "rate * t", 0.006);
+  check(asked("k * exp(-t / 5)", 0.12), "size * exp(-t / decay)", 0.12);
   const Diagnosis slips = asked("k * exp(-abs(slip) / 0.5)", 0.12);
   CAPTURE(slips.sentence);
   REQUIRE_FALSE(slips.learnt.empty());
   CHECK(slips.learnt.front().law.acts == Acts::kFriction);
   CHECK(slips.learnt.front().law.formula.text().find("slip") != std::string::npos);
+}
+
+TEST_CASE("a force near a place is learnt with its place, and beside it no turn of the string is claimed") {
+  AllEffects<double> effects;
+  effects.get<StringFriction>().coefficient = 0.25;
+  effects.get<StringFriction>().spin_gain = 3.3;
+  effects.get<FormulaLaws>() =
+      FormulaLaws<double>({Law("fan", "", Acts::kLeft, "k * exp(-((y - 0.01) / 0.06)^2)", {{"k", "m/s^2"}})});
+  effects.get<FormulaLaws>().numbers[0] = 0.6;
+  const Diagnosis d = diagnose({played(effects, 24.0, 41)});
+  CAPTURE(d.sentence);
+  CHECK(claimed(d, "string_friction") != nullptr);
+  CHECK(claimed(d, "string_wrap") == nullptr);
+  REQUIRE(d.learnt.size() == 1);
+  const Learnt& learnt = d.learnt.front();
+  CHECK(learnt.law.acts == Acts::kLeft);
+  const std::vector<double> expected{0.6, 0.01, 0.06};
+  REQUIRE(learnt.value.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    CHECK(std::abs(learnt.value[i] - expected[i]) < 4.0 * learnt.deviation[i]);
+  CHECK(learnt.deviation[1] < 0.01);
 }
 
 TEST_CASE("a law of one's own is named where it is at work, with its size, and not where it is not") {

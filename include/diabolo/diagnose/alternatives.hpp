@@ -63,6 +63,18 @@ inline bool may_be_wrapped(const Fit& fit) {
          fit.at[index_of(Unknown::kFriction)] > 0.1;
 }
 
+/// The string so often around the axle: longer by its circumference for each turn, and rubbing less.
+inline Alternative wrapped(std::string_view name, const Fit& fit, const ActiveSet& set, double turns) {
+  constexpr double kTurn = 2.0 * std::numbers::pi, kUsualContact = 2.6;  // [rad]
+  Alternative result{name, fit.delay, set, fit.at};
+  double& now = result.at[index_of(Unknown::kWraps)];
+  result.at[index_of(Unknown::kFriction)] *= (kUsualContact + kTurn * now) / (kUsualContact + kTurn * turns);
+  result.at[index_of(Unknown::kStringLength)] +=
+      kTurn * (turns - now) * fit.at[index_of(Unknown::kAxleRadius)];
+  now = turns;
+  return result;
+}
+
 /// A drag by the square of the speed relative to a wind, in place of a drag and a tilt. To a diabolo that is
 /// slower than the wind it is a linear drag of k w and a push of k w^2, as a tilt gives.
 inline Alternative drag_in_wind(const Fit& fit, const ActiveSet& set, std::string_view from) {
@@ -100,7 +112,7 @@ inline Alternative rate_for_scale(const Fit& fit, const ActiveSet& set) {
 /// the axle's circumference and rubs more; the give of string and sticks by the sticks' directions; the laws
 /// of drag by the speeds; friction slows the spin as a bearing does.
 inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit& fit, const ActiveSet& set) {
-  constexpr double kUsualSpeed = 2.0, kUsualContact = 2.6;  // [m/s], [rad]
+  constexpr double kUsualSpeed = 2.0;  // [m/s]
   std::vector<Alternative> others;
   const auto absent = [&](std::string_view other) { return !is_in(set, candidate_of(other)); };
   if (name == "time_offset" && fit.delay == Delay::kClock && fit.at[index_of(Unknown::kTimeOffset)] < 0.0) {
@@ -120,12 +132,7 @@ inline std::vector<Alternative> alternatives_to(std::string_view name, const Fit
   } else if (name == "wind") {
     others.push_back({"gravity_tilt", fit.delay, with(set, candidate_of(name), false), fit.at});
   } else if (name == "string_friction" && may_be_wrapped(fit)) {
-    const double circumference = 2.0 * std::numbers::pi * fit.at[index_of(Unknown::kAxleRadius)];
-    Alternative wrap{"string_wrap", fit.delay, set, fit.at};
-    wrap.at[index_of(Unknown::kWraps)] = 1.0;
-    wrap.at[index_of(Unknown::kFriction)] *= kUsualContact / (kUsualContact + 2.0 * std::numbers::pi);
-    wrap.at[index_of(Unknown::kStringLength)] += circumference;
-    others.push_back(wrap);
+    others.push_back(wrapped("string_wrap", fit, set, 1.0));
   } else if ((name == "axle_drag" || name == "spin_drag") && absent("string_friction")) {
     others.push_back(exchanged(fit, set, name, "string_friction", 0.0));
     others.back().at[index_of(Unknown::kFriction)] = 0.1;
@@ -224,7 +231,7 @@ inline void keep_the_good(std::vector<Explanation>& options, std::string_view cl
     if (option.sure) least = std::min(least, option.fit.cost);
   // What the model does not describe is the same whether the string is wrapped or not.
   const double imprecision = claim == "string_friction" ? 0.0 : kSameResidual;
-  const double worse = 9.0 * fit.dispersion + imprecision * least;
+  const double worse = kAsGood * fit.dispersion + imprecision * least;
   std::erase_if(options, [&](const Explanation& option) { return option.fit.cost - least >= worse; });
 }
 

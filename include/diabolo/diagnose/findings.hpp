@@ -82,14 +82,16 @@ inline double confidence_of(double z) {
   return 0.65 + 0.28 * (1.0 - std::exp(-(std::max(z, kSignificance) - kSignificance) / 6.0));
 }
 
-/// Whether another explanation does as well: exchanging one candidate for another costs no more than three
-/// standard deviations' worth, and the other is as sure.
+/// An explanation does as well that costs no more than three standard deviations' worth [dispersions].
+inline constexpr double kAsGood = 9.0;
+
+/// Whether another explanation does as well, and is as sure.
 inline bool is_tied(const Evidence& evidence, const ActiveSet& set, const Candidate& one,
                     const Candidate& other) {
   if (is_in(set, other)) return false;
   const ActiveSet exchanged = with(with(set, one, false), other);
   if (!speaks_for(other, significance(other, estimates_of(evidence, exchanged)))) return false;
-  return evidence.cost(exchanged) - evidence.cost(set) < 9.0 * evidence.dispersion();
+  return evidence.cost(exchanged) - evidence.cost(set) < kAsGood * evidence.dispersion();
 }
 
 /// Windows that leave so many times more than the middle one are not explained; from this share on, that is

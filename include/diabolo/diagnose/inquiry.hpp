@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/ask_wraps_again.hpp"
 #include "diabolo/diagnose/axle_laws.hpp"
 #include "diabolo/diagnose/claim_search.hpp"
 #include "diabolo/diagnose/conclude.hpp"
@@ -163,6 +164,7 @@ class Inquiry : public ClaimSearch<D> {
       fit_.noise_is_known = false;  // what was not known was taken for noise
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, looking);
       fit_.noise_is_known = true;
+      ask_wraps_again<D>(fit_, set_, exchanged_, physics_, options_.threads, looking);
       result_.learnt.push_back({.law = std::move(law->law),
                                 .gain = law->gain,
                                 .worsening_ci95 = std::move(law->worsening_ci95),

@@ -5,28 +5,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/change_in_time.hpp"
 #include "diabolo/diagnose/fit.hpp"
+#include "diabolo/diagnose/guess_shapes.hpp"
 #include "diabolo/diagnose/open_law.hpp"
 #include "diabolo/effects/law.hpp"
 
 namespace diabolo {
-
-/// A law that may be what is left over, and what is asked of windows to see whether it is: laws of one number
-/// each, together as good as the law with its shape as it is begun with.
-struct LawGuess {
-  Law law;
-  std::vector<Law> probes;
-  std::vector<double> named_powers{};  ///< with which it is a law that has a name
-};
 
 namespace diagnose_detail {
 
@@ -34,13 +24,6 @@ namespace diagnose_detail {
 struct UsualSizes {
   double speed = 1.0, spin = 100.0, tips = 1.0;
 };
-
-inline double one_digit(double x) {
-  if (!(x > 0.0)) return 1.0;
-  const double power = std::floor(std::log10(x));
-  return power < 0.0 ? std::round(x * std::pow(10.0, -power)) / std::pow(10.0, -power)
-                     : std::round(x / std::pow(10.0, power)) * std::pow(10.0, power);
-}
 
 inline UsualSizes usual_sizes(const Fit& fit) {
   std::vector<double> speeds, spins, tips;
@@ -58,131 +41,10 @@ inline UsualSizes usual_sizes(const Fit& fit) {
   return {middle(speeds), middle(spins), middle(tips)};
 }
 
-/// In words, as the end of "a force that has no name".
-inline std::string direction_in_words(Acts acts) {
-  switch (acts) {
-    case Acts::kForward:
-      return "forwards";
-    case Acts::kLeft:
-      return "to the left";
-    case Acts::kUp:
-      return "upwards";
-    case Acts::kAgainst:
-      return "against the velocity";
-    case Acts::kAlong:
-      return "along the string";
-    case Acts::kAcross:
-      return "across the string's plane";
-    case Acts::kLift:
-      return "square to axle and velocity";
-    case Acts::kSpin:
-      return "on the spin";
-    case Acts::kFriction:
-      return "on the string's friction";
-    default:
-      return "on the string's length";
-  }
-}
-
-/// Makes guesses one by one.
-class Guesses {
- public:
-  std::vector<LawGuess> list;
-
-  /// amplitude * factor, as it is.
-  void fixed(Acts acts, const std::string& factor, const std::string& words) {
-    const Law law = made(acts, product(factor), words, {amplitude(acts)});
-    list.push_back({law, {law}});
-  }
-
-  /// rate * factor * t.
-  void trending(Acts acts, const std::string& factor) {
-    LawNumber rate = amplitude(acts);
-    rate.name = "rate";
-    rate.unit = per_second(acts);
-    rate.usual *= 0.1;
-    const Law law = made(acts, joined("rate", joined(factor, "t")), ", growing in time", {rate});
-    list.push_back({law, {law}});
-  }
-
-  /// amplitude * factor * base^power, begun with `power`.
-  void growing(Acts acts, const std::string& factor, const std::string& base, double power,
-               const std::string& words, const std::vector<double>& named = {}) {
-    const std::string begun = product(joined(factor, "(" + base + ")^" + shown(power)));
-    const LawNumber free{"power", "1", 0.5, power, -4.0, 4.0};
-    list.push_back(
-        {made(acts, product(joined(factor, "(" + base + ")^power")), words, {amplitude(acts), free}),
-         {made(acts, begun, words, {amplitude(acts)})},
-         named});
-  }
-
-  /// amplitude * factor * sin(2 pi frequency t + phase).
-  void swinging(Acts acts, const std::string& factor, double frequency, double span,
-                const std::string& words) {
-    const std::vector<LawNumber> numbers{amplitude(acts),
-                                         {"frequency", "Hz", 0.1 / span, frequency,
-                                          std::max(0.0, frequency - 1.0 / span), frequency + 1.0 / span},
-                                         {"phase", "rad", 0.3, 0.0, -10.0, 10.0}};
-    list.push_back(
-        {made(acts, product(joined(factor, "sin(2 * pi * frequency * t + phase)")), words, numbers),
-         quadratures(acts, factor, frequency, words)});
-  }
-
-  /// amplitude * factor from the time `onset` on, between `first` and `last` of the law's clock; within a
-  /// second, which is what windows see.
-  void starting(Acts acts, const std::string& factor, double onset, double first, double last) {
-    const auto step = [&](const std::string& begin) {
-      return product(joined(factor, "(1 + tanh((t - " + begin + ") / 0.5)) / 2"));
-    };
-    const std::string words = ", from a moment on";
-    list.push_back(
-        {made(acts, step("onset"), words, {amplitude(acts), {"onset", "s", 0.2, onset, first, last}}),
-         {made(acts, step(shown(onset)), words, {amplitude(acts)})}});
-  }
-
-  /// amplitude * factor * sin(2 pi frequency t), and the same of the cosine.
-  static std::vector<Law> quadratures(Acts acts, const std::string& factor, double frequency,
-                                      const std::string& words) {
-    const std::string angle = "(2 * pi * " + shown(frequency) + " * t)";
-    return {made(acts, product(joined(factor, "sin" + angle)), words, {amplitude(acts)}),
-            made(acts, product(joined(factor, "cos" + angle)), words, {amplitude(acts)})};
-  }
-
- private:
-  static LawNumber amplitude(Acts acts) {
-    const double usual = acts == Acts::kSpin       ? 5.0
-                         : acts == Acts::kString   ? 2e-3
-                         : acts == Acts::kFriction ? 0.03
-                                                   : 0.3;
-    return {"size", std::string(unit_of(acts)), usual, 0.0, -1e3, 1e3};
-  }
-  static const char* per_second(Acts acts) {
-    switch (acts) {
-      case Acts::kSpin:
-        return "rad/s^3";
-      case Acts::kString:
-        return "m/s";
-      case Acts::kFriction:
-        return "1/s";
-      default:
-        return "m/s^3";
-    }
-  }
-  static std::string joined(const std::string& a, const std::string& b) {
-    return a.empty() ? b : b.empty() ? a : a + " * " + b;
-  }
-  static std::string product(const std::string& factor) { return joined("size", factor); }
-  static Law made(Acts acts, const std::string& formula, const std::string& words,
-                  std::vector<LawNumber> numbers) {
-    return {"learnt", direction_in_words(acts) + words, acts, formula, std::move(numbers)};
-  }
-};
-
 /// What the coefficient of the string's friction may depend on: the slip, with which it grows or falls
 /// (Stribeck's curve), the string's pull (Howell, "The general case of friction of a string round a
 /// cylinder", 1953), and the slip's sense. (A power of its own nobody tells from the coefficient itself.)
-inline void guess_rubbing(Guesses& guesses, const Fit& fit, const UsualSizes& usual) {
-  const std::string slip = shown(one_digit(usual.spin * fit.at[index_of(Unknown::kAxleRadius)]));
+inline void guess_rubbing(Guesses& guesses, const std::string& slip) {
   guesses.fixed(Acts::kFriction, "abs(slip) / " + slip, ", growing with the slip (at " + slip + " m/s)");
   guesses.fixed(Acts::kFriction, "exp(-abs(slip) / " + slip + ")", ", more where the string slips slowly");
   guesses.fixed(Acts::kFriction, "log(max(pull, 1) / 10)",
@@ -224,6 +86,22 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
     if (const std::optional<double> onset = best_onset(series))
       guesses.starting(acts, factor, std::round(100.0 * (clock + *onset)) / 100.0,
                        clock + series.time.front(), clock + series.time.back());
+    if (acts == Acts::kString || acts == Acts::kFriction) guesses.fading(acts, clock, span);
+  }
+}
+
+/// Forces near a place: at the middle of where the diabolo is, and to both sides of it.
+inline void guess_in_places(Guesses& guesses, const Fit& fit) {
+  for (const int axis : {1, 2}) {
+    std::vector<double> places;
+    for (const FitTake& fit_take : fit.fit_takes)
+      for (const FitWindow& window : fit_take.windows) places.push_back(window.start.position[axis]);
+    std::ranges::sort(places);
+    const double width = one_digit((quantile(places, 0.9) - quantile(places, 0.1)) / 3.0);
+    for (const double part : {0.1, 0.5, 0.9})
+      for (const Acts acts : {Acts::kForward, Acts::kLeft, Acts::kUp})
+        guesses.close_to(acts, axis == 1 ? "y" : "z", std::round(100.0 * quantile(places, part)) / 100.0,
+                         width);
   }
 }
 
@@ -239,6 +117,8 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   const std::string at_speed = " (at " + shown(usual.speed) + " m/s)",
                     at_spin = " (at " + shown(usual.spin) + " rad/s)",
                     at_tips = " (at " + shown(usual.tips) + " m/s)";
+  const std::string slip =
+      shown(diagnose_detail::one_digit(usual.spin * fit.at[index_of(Unknown::kAxleRadius)]));
   diagnose_detail::Guesses guesses;
   const auto in_all = [&](Acts acts, const std::string& factor) {
     for (const double power : {1.0, 3.0})
@@ -255,6 +135,7 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   for (const Acts acts : {kAlong, kAcross}) {
     guesses.fixed(acts, "taut", ", of constant size");
     guesses.fixed(acts, "taut * pull / 10", ", growing with the string's pull (at 10 m/s^2)");
+    guesses.fixed(acts, "taut * slip / " + slip, ", growing with the slip (at " + slip + " m/s)");
     in_all(acts, "taut");
   }
   guesses.fixed(kUp, "(1 - taut)", " while off the string, of constant size");
@@ -268,7 +149,8 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
     guesses.growing(acts, "", spin, 1.0, ", growing with the spin" + at_spin);
     guesses.growing(acts, "", tips, 1.0, ", growing with the speed of the tips" + at_tips);
   }
-  if (fit.at[index_of(Unknown::kFriction)] > 0.0) diagnose_detail::guess_rubbing(guesses, fit, usual);
+  diagnose_detail::guess_in_places(guesses, fit);
+  if (fit.at[index_of(Unknown::kFriction)] > 0.0) diagnose_detail::guess_rubbing(guesses, slip);
   const std::string slows = "tanh(-spin)";
   for (const double power : {1.0, 3.0})
     guesses.growing(kSpin, slows, spin, power, ", slowing it, growing with it" + at_spin, {0.0, 2.0});
@@ -276,6 +158,7 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   guesses.fixed(kSpin, slows + " * (1 - taut)", ", slowing it while off the string");
   guesses.fixed(kSpin, slows + " * pull / 10", ", slowing it, growing with the string's pull (at 10 m/s^2)");
   guesses.growing(kSpin, slows, speed, 1.0, ", slowing it, growing with the speed" + at_speed);
+  guesses.growing(kSpin, slows, tips, 1.0, ", slowing it, growing with the speed of the tips" + at_tips);
   guesses.growing(kString, "", speed, 1.0, ", growing with the speed" + at_speed);
   guesses.growing(kString, "", spin, 1.0, ", growing with the spin" + at_spin);
   if (fit.fit_takes.size() == 1)
