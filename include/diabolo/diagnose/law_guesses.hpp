@@ -135,7 +135,7 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   for (const Acts acts : {kAlong, kAcross}) {
     guesses.fixed(acts, "taut", ", of constant size");
     guesses.fixed(acts, "taut * pull / 10", ", growing with the string's pull (at 10 m/s^2)");
-    guesses.fixed(acts, "taut * slip / " + slip, ", growing with the slip (at " + slip + " m/s)");
+    guesses.fixed(acts, "taut * tanh(slip / 0.05)", ", with the sense of the slip");
     in_all(acts, "taut");
   }
   guesses.fixed(kUp, "(1 - taut)", " while off the string, of constant size");
