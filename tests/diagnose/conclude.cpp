@@ -138,10 +138,13 @@ TEST_CASE("a rate that is off comes with the force that would look the same") {
   d.findings = {claim("frame_rate", 20.0, {})};
   d.findings.front().estimate[index_of(Unknown::kGravity)] = -0.3;
   conclude(d);
-  CHECK(d.sentence.ends_with(" A constant force up of 0.3 m/s^2 would look the same."));
+  CHECK(d.sentence.ends_with(" A constant acceleration up of 0.3 m/s^2 would look the same as that rate."));
+  d.findings.front().estimate[index_of(Unknown::kGravity)] = 0.2;
+  conclude(d);
+  CHECK(d.sentence.ends_with(" A constant acceleration down of 0.2 m/s^2 would look the same as that rate."));
   d.findings.front().claimed = false;
   conclude(d);
-  CHECK(d.sentence.find("force") == std::string::npos);
+  CHECK(d.sentence.find("would look the same") == std::string::npos);
 }
 
 TEST_CASE("what was not done ends the sentence") {

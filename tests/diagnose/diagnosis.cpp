@@ -277,7 +277,9 @@ TEST_CASE("a force near a place is learnt with its place, and beside it no turn 
   REQUIRE(learnt.value.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
     CHECK(std::abs(learnt.value[i] - expected[i]) < 4.0 * learnt.deviation[i]);
+  CHECK(learnt.deviation[0] < 0.03);
   CHECK(learnt.deviation[1] < 0.01);
+  CHECK(learnt.deviation[2] < 0.01);
 }
 
 TEST_CASE("a law of one's own is named where it is at work, with its size, and not where it is not") {

@@ -17,30 +17,29 @@ using namespace diabolo;
 
 namespace {
 
-constexpr Eigen::Index kRows = 60;
-
-/// Windows that leave noise averaged over five rows, and `swing` [m] at 2 Hz.
-std::vector<WindowSystem> left_over(double deviation, double swing, std::uint32_t seed) {
+/// So many windows of half a second that leave noise averaged over five rows, and `swing` [m] at 2 Hz.
+std::vector<WindowSystem> left_over(double rate, double deviation, double swing, std::uint32_t seed,
+                                    std::size_t count = 40) {
   std::mt19937_64 generator(seed);
-  std::vector<WindowSystem> systems(40);
+  const Eigen::Index rows = std::lround(0.5 * rate);
+  std::vector<WindowSystem> systems(count);
   for (WindowSystem& system : systems) {
-    system.residuals.resize(3, kRows);
+    system.residuals.resize(3, rows);
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::VectorXd given =
-          drawn_noise(kRows + 4, std::sqrt(5.0) * deviation, 0.0, generator);  // averaged: a fifth of it
-      for (Eigen::Index i = 0; i < kRows; ++i)
+          drawn_noise(rows + 4, std::sqrt(5.0) * deviation, 0.0, generator);  // averaged: a fifth of it
+      for (Eigen::Index i = 0; i < rows; ++i)
         system.residuals(axis, i) =
-            given.segment(i, 5).mean() + swing * std::sin(4.0 * M_PI * static_cast<double>(i) / kRate);
+            given.segment(i, 5).mean() + swing * std::sin(4.0 * M_PI * static_cast<double>(i) / rate);
     }
   }
   return systems;
 }
 
-TrackNoise hidden(const std::vector<WindowSystem>& systems) {
+TrackNoise hidden(const std::vector<WindowSystem>& systems, double rate, double growth = 2.0) {
   TrackNoise noise;
   noise.deviation.setConstant(5e-5);
-  noise.growth = 3.0;
-  return diagnose_detail::noise_beside_motion(noise, systems.data(), systems.size(), kRate);
+  return diagnose_detail::noise_beside_motion(noise, systems.data(), systems.size(), rate, growth);
 }
 
 /// All tracks as their mean over five rows.
@@ -55,7 +54,7 @@ void average(Recording& r) {
 }  // namespace
 
 TEST_CASE("noise that rows hide is measured by what a fit leaves, with how long it lives") {
-  const TrackNoise noise = hidden(left_over(3e-4, 0.0, test::fresh_seed()));
+  const TrackNoise noise = hidden(left_over(kRate, 3e-4, 0.0, test::fresh_seed()), kRate);
   for (int axis = 0; axis < 3; ++axis) {
     CHECK(noise.deviation[axis] == Approx(3e-4).epsilon(0.15));
     CHECK(noise.correlation[axis] > 0.3);
@@ -63,8 +62,18 @@ TEST_CASE("noise that rows hide is measured by what a fit leaves, with how long 
   }
 }
 
+TEST_CASE("rows that nobody saw take nothing but themselves") {
+  std::vector<WindowSystem> systems = left_over(kRate, 3e-4, 0.0, test::fresh_seed());
+  for (WindowSystem& system : systems) system.residuals.middleCols(20, 4).setConstant(kNaN);
+  CHECK(hidden(systems, kRate).deviation[0] == Approx(3e-4).epsilon(0.15));
+}
+
 TEST_CASE("what grows as the displacement by a force does is no noise") {
-  CHECK((hidden(left_over(1e-5, 0.01, test::fresh_seed())).deviation == 5e-5).all());
+  for (const double rate : {15.0, 24.0, 25.0, 30.0, 60.0, kRate, 1000.0}) {
+    CAPTURE(rate);
+    CHECK((hidden(left_over(rate, 1e-6, 0.01, test::fresh_seed()), rate, 20.0).deviation == 5e-5).all());
+  }
+  CHECK((hidden(left_over(30.0, 1e-6, 0.01, test::fresh_seed(), 4), 30.0).deviation == 5e-5).all());
 }
 
 TEST_CASE("nothing is missing in a play whose tracks were smoothed, and what is missing is told") {

@@ -66,7 +66,7 @@ TEST_CASE("of what nobody sees without the spin there is no guess") {
   const auto by_spin = [](const LawGuess& guess) {
     const std::string& text = guess.law.formula.text();
     return guess.law.acts == Acts::kSpin || guess.law.acts == Acts::kLift ||
-           text.find("spin") != std::string::npos;
+           text.find("spin") != std::string::npos || text.find("slip") != std::string::npos;
   };
   const auto others = std::ranges::count_if(guesses, [&](const LawGuess& guess) { return !by_spin(guess); });
   leave_out_unseen(guesses, fit_of_nothing());

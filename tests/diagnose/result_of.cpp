@@ -41,6 +41,8 @@ TEST_CASE(
                 finding("air_drag_linear", Unknown::kLinearDrag, 0.02, 0.01, false)};
   d.findings[0].windows = {0, 1, 3};
   d.windows = windows();
+  d.windows[1].mode = StringState::kFlying;
+  d.windows[1].eventful = true;  // it may matter after the catch alone
   std::vector<Recording> recordings(2);
   recordings[1].name = "second";
   const DiagnosisResult result = result_of(d, recordings, {"lost"});

@@ -28,6 +28,13 @@ TEST_CASE("The step is found where three of four rows are missing and the median
   CHECK(usual_step(time) == Approx(0.01).epsilon(0.01));
 }
 
-TEST_CASE("Every other row left out is half the rate, not a row in two missing") {
-  CHECK(usual_step(Eigen::VectorXd::LinSpaced(500, 0.0, 499.0 / 60.0)) == Approx(1.0 / 60.0).epsilon(1e-3));
+TEST_CASE("A pattern of missing rows is no step, however long it lasts") {
+  for (const int size : {900, 1500, 4000}) {
+    std::vector<double> stamps{0.0};
+    for (int i = 2; std::ssize(stamps) < size; ++i)
+      if (i % 3 != 1) stamps.push_back(i / 120.0);
+    CAPTURE(size);
+    CHECK(usual_step(Eigen::Map<const Eigen::VectorXd>(stamps.data(), size)) ==
+          Approx(1.0 / 120.0).epsilon(1e-3));
+  }
 }

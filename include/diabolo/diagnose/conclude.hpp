@@ -179,13 +179,13 @@ inline std::string too_far_in_words(const Diagnosis& d) {
   return {};
 }
 
-/// A rate of the frames that is off acts as a constant force along gravity does: the end of the sentence.
+/// A rate of the frames that is off acts as a constant force along gravity does: a sentence.
 inline std::string force_like_rate_in_words(const Diagnosis& d) {
   for (const Finding& f : d.findings) {
     const double down = f.estimate[index_of(Unknown::kGravity)];
     if (f.claimed && f.candidate->name == "frame_rate")
-      return std::string(" A constant force ") + (down > 0.0 ? "down" : "up") + " of " +
-             size_in_words(std::abs(down), "m/s^2") + " would look the same.";
+      return std::string(" A constant acceleration ") + (down > 0.0 ? "down" : "up") + " of " +
+             size_in_words(std::abs(down), "m/s^2") + " would look the same as that rate.";
   }
   return {};
 }

@@ -52,6 +52,7 @@ struct Take {
   std::vector<Eigen::Matrix3d> left_frames, right_frames;  ///< of the sticks in each row, to the world
   int substeps = 4;                                        ///< per row; see also steps_for_spring()
   TrackNoise left_noise, right_noise, diabolo_noise;       ///< as the camera gave them
+  double growth = 1.0;                                     ///< growth_of_differences() of the diabolo's track
   double angle_noise = 0.0;                                ///< [rad]
   bool has_spin = false, has_orientation = false;
 };
@@ -130,6 +131,7 @@ inline FitTake make_fit_take(const Recording& given) {
   take.left_noise = track_noise(take.recording.left);
   take.right_noise = track_noise(take.recording.right);
   take.diabolo_noise = track_noise(take.recording.diabolo);
+  take.growth = growth_of_differences(take.recording.diabolo, given.rate);
   take.recording.left = smoothed(given.left, given.rate);
   take.recording.right = smoothed(given.right, given.rate);
   const RecordedTips tips(take.recording, Interpolation::kSpline);

@@ -111,17 +111,13 @@ class Guesses {
          {made(acts, step(shown(onset)), words, {amplitude(acts)})}});
   }
 
-  /// amplitude * exp(-t / decay), `clock` being t at the begin: what warms up, dries or settles.
-  void fading(Acts acts, double clock, double span) {
-    const std::string begun = clock == 0.0 ? "-t" : "(" + shown(clock) + " - t)";
-    const auto from_begin = [&](const std::string& decay) {
-      return product("exp(" + begun + " / " + decay + ")");
-    };
-    const double decay = one_digit(span / 4.0);
-    const std::string words = ", fading in time";
-    list.push_back({made(acts, from_begin("decay"), words,
-                         {amplitude(acts), {"decay", "s", 0.5 * decay, decay, 0.1 * decay, 8.0 * decay}}),
-                    {made(acts, from_begin(shown(decay)), words, {amplitude(acts)})}});
+  /// amplitude * exp(-base / decay), begun with `decay`: what warms up, dries or settles, or slips fast.
+  void decaying(Acts acts, const std::string& base, double decay, const std::string& unit,
+                const std::string& words) {
+    const auto by = [&](const std::string& scale) { return product("exp(-" + base + " / " + scale + ")"); };
+    list.push_back({made(acts, by("decay"), words,
+                         {amplitude(acts), {"decay", unit, 0.5 * decay, decay, 0.1 * decay, 8.0 * decay}}),
+                    {made(acts, by(shown(decay)), words, {amplitude(acts)})}});
   }
 
   /// amplitude * exp(-((place - centre) / width)^2): near a plane across `place`.

@@ -16,10 +16,11 @@ namespace diabolo {
 
 namespace diagnose_detail {
 
-/// Third differences over these times [s] see a force that lasts half a second by an eighth and by a third.
-/// The longer one is asked where the differences of a track grow by more than kVeryHidden.
+/// Times [s] between the rows of third differences. Noise that lives for less keeps its size in them; a swing
+/// of 2 Hz keeps (2 sin(2 pi time))^3 of its own, over the sqrt(20) of white noise: an eighth and a third.
+/// The longer one is asked only of tracks that are smoother than kVeryHidden.
 inline constexpr std::array<double, 2> kBesideMotion{1.0 / 15.0, 1.0 / 10.0};
-inline constexpr double kVeryHidden = 16.0;
+inline constexpr double kVeryHidden = 8.0;  ///< of growth_of_differences()
 
 /// Standard deviation of what windows leave over along an axis, from the median of its third differences over
 /// so many rows; zero where they take fewer than 30.
@@ -40,18 +41,19 @@ inline double third_difference_size(const WindowSystem* systems, std::size_t cou
   return recording_detail::kMedianToDeviation * quantile(sizes, 0.5) / std::sqrt(kThird);
 }
 
-/// Over how many rows third differences of what windows leave are as large as those over more are; zero where
-/// they grow as those of forces do: by the third power.
+/// Over how many rows third differences of what windows leave do not grow with the time as those of forces
+/// do, by its third power; zero where there are none. (What wanders grows by the root of the time.)
 inline Eigen::Index rows_beside_motion(const WindowSystem* systems, std::size_t count, int axis, double rate,
                                        double growth) {
-  constexpr double kMore = 4.0 / 3.0, kForces = 1.4;  // (what wanders grows by the root of kMore)
+  constexpr double kMore = 4.0 / 3.0, kMostPower = 1.2;
   for (const double time : kBesideMotion) {
     if (time > kBesideMotion.front() && growth < kVeryHidden) break;
     const Eigen::Index rows = std::max<Eigen::Index>(1, std::lround(time * rate)),
-                       more = std::lround(kMore * time * rate);
-    if (third_difference_size(systems, count, axis, more) <=
-        kForces * third_difference_size(systems, count, axis, rows))
-      return rows;
+                       more = std::max<Eigen::Index>(rows + 1, std::lround(kMore * time * rate));
+    const double size = third_difference_size(systems, count, axis, rows),
+                 larger = third_difference_size(systems, count, axis, more),
+                 ratio = static_cast<double>(more) / static_cast<double>(rows);
+    if (larger > 0.0 && larger <= std::pow(ratio, kMostPower) * size) return rows;
   }
   return 0;
 }
@@ -59,10 +61,10 @@ inline Eigen::Index rows_beside_motion(const WindowSystem* systems, std::size_t 
 /// Noise of a track whose rows hide it: what a fit leaves over, where that is not what forces leave. It lives
 /// for as many rows as its differences take to grow.
 inline TrackNoise noise_beside_motion(TrackNoise noise, const WindowSystem* systems, std::size_t count,
-                                      double rate) {
+                                      double rate, double growth) {
   constexpr double kGrown = 0.7;
   for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Index most = rows_beside_motion(systems, count, axis, rate, noise.growth);
+    const Eigen::Index most = rows_beside_motion(systems, count, axis, rate, growth);
     const double size = most > 0 ? third_difference_size(systems, count, axis, most) : 0.0;
     if (!(size > noise.deviation[axis])) continue;
     Eigen::Index rows = 1;

@@ -165,6 +165,7 @@ class Inquiry : public ClaimSearch<D> {
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, looking);
       fit_.noise_is_known = true;
       ask_wraps_again<D>(fit_, set_, exchanged_, physics_, options_.threads, looking);
+      if (looking.is_enough()) budget_.leave("learning laws");
       result_.learnt.push_back({.law = std::move(law->law),
                                 .gain = law->gain,
                                 .worsening_ci95 = std::move(law->worsening_ci95),

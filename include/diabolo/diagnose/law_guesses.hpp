@@ -41,15 +41,22 @@ inline UsualSizes usual_sizes(const Fit& fit) {
   return {middle(speeds), middle(spins), middle(tips)};
 }
 
+/// Whether the axle's surface turns towards the right tip (1), against the string, or away from it (-1).
+inline constexpr const char* kSenseOfSlip = "tanh(slip / 0.05)";
+
 /// What the coefficient of the string's friction may depend on: the slip, with which it grows or falls
 /// (Stribeck's curve), the string's pull (Howell, "The general case of friction of a string round a
 /// cylinder", 1953), and the slip's sense. (A power of its own nobody tells from the coefficient itself.)
-inline void guess_rubbing(Guesses& guesses, const std::string& slip) {
+inline void guess_rubbing(Guesses& guesses, const Fit& fit, const UsualSizes& usual) {
+  const double speed = one_digit(usual.spin * fit.at[index_of(Unknown::kAxleRadius)]);
+  const std::string slip = shown(speed);
   guesses.fixed(Acts::kFriction, "abs(slip) / " + slip, ", growing with the slip (at " + slip + " m/s)");
-  guesses.fixed(Acts::kFriction, "exp(-abs(slip) / " + slip + ")", ", more where the string slips slowly");
+  for (const double part : {1.0, 0.2})
+    guesses.decaying(Acts::kFriction, "abs(slip)", part * speed, "m/s",
+                     ", more where the string slips slowly");
   guesses.fixed(Acts::kFriction, "log(max(pull, 1) / 10)",
                 ", growing with the logarithm of the string's pull");
-  guesses.fixed(Acts::kFriction, "tanh(slip / 0.05)", ", more where the axle turns towards the right tip");
+  guesses.fixed(Acts::kFriction, kSenseOfSlip, ", more where the axle turns towards the right tip");
 }
 
 static_assert(kMayChange.back().unknown == Unknown::kTimeOffset);
@@ -75,6 +82,7 @@ inline constexpr std::array<Swinging, kMayChange.size() - 1> kSwinging{{{Acts::k
 /// Laws in time: a trend, and the oscillation and the onset that windows see best. `clock` is the laws' time
 /// at the recording's first row [s].
 inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& windows, double clock) {
+  const double begun = std::round(100.0 * clock) / 100.0;
   for (std::size_t k = 0; k < kSwinging.size(); ++k) {
     const WindowSeries series = series_of(windows, k);
     if (series.size() < 12) continue;
@@ -86,11 +94,14 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
     if (const std::optional<double> onset = best_onset(series))
       guesses.starting(acts, factor, std::round(100.0 * (clock + *onset)) / 100.0,
                        clock + series.time.front(), clock + series.time.back());
-    if (acts == Acts::kString || acts == Acts::kFriction) guesses.fading(acts, clock, span);
+    if (acts == Acts::kString || acts == Acts::kFriction)
+      guesses.decaying(acts, begun == 0.0 ? "t" : "(t - " + shown(begun) + ")", one_digit(span / 4.0), "s",
+                       ", fading in time");
   }
 }
 
-/// Forces near a place: at the middle of where the diabolo is, and to both sides of it.
+/// Forces near a place: at the middle of where the diabolo is, to both sides, and above and below. (Fore and
+/// aft it hardly goes.)
 inline void guess_in_places(Guesses& guesses, const Fit& fit) {
   for (const int axis : {1, 2}) {
     std::vector<double> places;
@@ -117,8 +128,6 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   const std::string at_speed = " (at " + shown(usual.speed) + " m/s)",
                     at_spin = " (at " + shown(usual.spin) + " rad/s)",
                     at_tips = " (at " + shown(usual.tips) + " m/s)";
-  const std::string slip =
-      shown(diagnose_detail::one_digit(usual.spin * fit.at[index_of(Unknown::kAxleRadius)]));
   diagnose_detail::Guesses guesses;
   const auto in_all = [&](Acts acts, const std::string& factor) {
     for (const double power : {1.0, 3.0})
@@ -135,7 +144,8 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   for (const Acts acts : {kAlong, kAcross}) {
     guesses.fixed(acts, "taut", ", of constant size");
     guesses.fixed(acts, "taut * pull / 10", ", growing with the string's pull (at 10 m/s^2)");
-    guesses.fixed(acts, "taut * tanh(slip / 0.05)", ", with the sense of the slip");
+    guesses.fixed(acts, "taut * " + std::string(diagnose_detail::kSenseOfSlip),
+                  ", with the sense of the slip");
     in_all(acts, "taut");
   }
   guesses.fixed(kUp, "(1 - taut)", " while off the string, of constant size");
@@ -150,7 +160,7 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
     guesses.growing(acts, "", tips, 1.0, ", growing with the speed of the tips" + at_tips);
   }
   diagnose_detail::guess_in_places(guesses, fit);
-  if (fit.at[index_of(Unknown::kFriction)] > 0.0) diagnose_detail::guess_rubbing(guesses, slip);
+  if (fit.at[index_of(Unknown::kFriction)] > 0.0) diagnose_detail::guess_rubbing(guesses, fit, usual);
   const std::string slows = "tanh(-spin)";
   for (const double power : {1.0, 3.0})
     guesses.growing(kSpin, slows, spin, power, ", slowing it, growing with it" + at_spin, {0.0, 2.0});

@@ -54,8 +54,8 @@ inline std::shared_ptr<const Take> imagined(const Take& given, const std::vector
   const auto made = std::make_shared<Take>(given);
   Take& take = *made;
   const double rate = take.recording.rate;
-  if (take.diabolo_noise.is_hidden())
-    take.diabolo_noise = noise_beside_motion(take.diabolo_noise, systems, windows.size(), rate);
+  if (take.growth > kHidden)
+    take.diabolo_noise = noise_beside_motion(take.diabolo_noise, systems, windows.size(), rate, take.growth);
   put_predicted(take, windows, systems);
   add_noise(take.recording.diabolo, take.diabolo_noise, generator);
   add_smoothed_noise(take.recording.left, take.left_noise, rate, generator);

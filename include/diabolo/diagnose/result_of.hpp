@@ -58,10 +58,13 @@ inline std::string direction_of(const Candidate& candidate) {
 inline EffectPlace place_of(const Finding& f, const std::vector<WindowFinding>& windows) {
   EffectPlace place;
   place.direction = direction_of(*f.candidate);
+  // A window in which the string's state changes does not say in which of them it matters.
+  const bool calm = std::ranges::any_of(f.windows, [&](std::size_t w) { return !windows[w].eventful; });
   std::size_t recording = 0;
   for (const std::size_t w : f.windows) {
     const WindowFinding& window = windows[w];
-    if (std::ranges::find(place.modes, text_of(window.mode)) == place.modes.end())
+    const bool counts = !(calm && window.eventful);
+    if (counts && std::ranges::find(place.modes, text_of(window.mode)) == place.modes.end())
       place.modes.emplace_back(text_of(window.mode));
     if (!place.intervals.empty() && recording == window.recording &&
         window.begin - place.intervals.back().high < 0.2)

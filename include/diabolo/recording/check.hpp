@@ -55,7 +55,8 @@ inline bool steps_at(double rate, const Eigen::VectorXd& time, double unit = 1.0
 /// a quarter of the steps are shorter than a hundredth of the longer ones.
 inline void check_instants(const Eigen::VectorXd& time, const std::string& where) {
   constexpr double kAtOnce = 0.01;
-  if (time.size() < 3) return;
+  constexpr Eigen::Index kFewest = 20;  // of fewer the longer steps may be gaps
+  if (time.size() < kFewest) return;
   const Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
   Eigen::VectorXd sorted = step;
   double* const longer = sorted.data() + 4 * sorted.size() / 5;

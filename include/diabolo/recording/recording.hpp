@@ -78,7 +78,7 @@ struct Recording {
   std::string file;                ///< that it was read from; empty where it is of none
   bool has_own_rows = false;       ///< its samples are others than the file's rows: a part, or resampled
 
-  /// What messages call it; of one with its own rows they name none of the file's.
+  /// What messages call it. Those about a part, or a resampled one, name no rows of the file.
   std::string title() const {
     if (file.empty()) return "recording " + shown(name);
     return has_own_rows ? "recording " + shown(name) + " (from " + file + ")" : file;

@@ -17,13 +17,6 @@ namespace diabolo {
 /// (the correlation of an AR(1) process).
 struct TrackNoise {
   Eigen::Array3d deviation = Eigen::Array3d::Zero(), correlation = Eigen::Array3d::Zero();
-  /// Sixth differences over four frames by those over one, of the middle axis. In AR(1) noise of any
-  /// correlation they are at most 2. Beyond that the track was smoothed or interpolated, or moves without
-  /// noise.
-  double growth = 1.0;
-
-  /// Whether neighbouring rows hide the noise, of which `deviation` is a part.
-  bool is_hidden() const { return growth > 2.2; }
 };
 
 namespace recording_detail {
@@ -80,7 +73,6 @@ inline double correlation_of(double ratio) {
 /// wanders over many frames does not show in them. Zero where the track is too short to tell.
 inline TrackNoise track_noise(const Track& track) {
   TrackNoise noise;
-  std::array<double, 3> growth{1.0, 1.0, 1.0};
   for (int axis = 0; axis < 3; ++axis) {
     const auto value = [&](Eigen::Index i) { return track.position(axis, i); };
     const double near = recording_detail::difference_size(track.valid, 1, value),
@@ -89,11 +81,29 @@ inline TrackNoise track_noise(const Track& track) {
     noise.correlation[axis] = far > 0.0 ? recording_detail::correlation_of(far / near) : 0.0;
     noise.deviation[axis] =
         near / std::sqrt(recording_detail::difference_variance(noise.correlation[axis], 1));
-    growth[static_cast<std::size_t>(axis)] = recording_detail::difference_size(track.valid, 4, value) / near;
+  }
+  return noise;
+}
+
+/// Beyond this growth_of_differences() rows hide the noise of their track.
+inline constexpr double kHidden = 1.1;
+
+/// How much larger sixth differences over a thirtieth of a second are than those over one row, over the root
+/// of so many rows, on the middle axis. In AR(1) noise of any correlation that is at most 1. Beyond it the
+/// track was smoothed or interpolated, or moves almost without noise. 1 where the rows are too few or too
+/// slow to tell.
+inline double growth_of_differences(const Track& track, double rate) {
+  const Eigen::Index stride = std::max<Eigen::Index>(1, std::lround(rate / 30.0));
+  std::array<double, 3> growth{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto value = [&](Eigen::Index i) { return track.position(axis, i); };
+    const double near = recording_detail::difference_size(track.valid, 1, value),
+                 far = recording_detail::difference_size(track.valid, stride, value);
+    growth[static_cast<std::size_t>(axis)] =
+        far > 0.0 ? far / std::sqrt(static_cast<double>(stride)) / std::max(near, 1e-12) : 1.0;
   }
   std::ranges::sort(growth);
-  noise.growth = growth[1];
-  return noise;
+  return growth[1];
 }
 
 /// Noise of an angle [rad] whose change per frame times the rate is the spin: of each of the two angles that

@@ -19,20 +19,25 @@ inline double median_step(const Eigen::VectorXd& time) {
 }
 
 /// The step of which the others are multiples, but for jitter [s]: rows may be left out, most of them, too.
-/// There must be two times at least. Schuster's periodogram of the steps: the mean cosine of their phases, of
-/// which the lowest of the highest peaks tells the longest period that fits.
+/// There must be two times at least. Schuster's periodogram of the steps: the sum of the cosines of their
+/// phases. Of its peaks that are nearly as high as the highest, the one of lowest frequency tells the longest
+/// period that fits.
 inline double usual_step(const Eigen::VectorXd& time) {
   constexpr double kLongest = 1.3;         // medians
   constexpr double kShortest = 1.0 / 8.0;  // a median leaves no more rows out than that
-  constexpr double kLongestCounted = 6.0;  // medians; a longer step is a gap, of no whole periods
+  constexpr double kLongestStep = 6.0;     // medians; a longer step is a gap, of no whole periods
   constexpr double kAsHigh = 0.8;          // share of the highest peak
   constexpr double kPhase = 0.02;          // of a median from frequency to frequency [turns]
   constexpr std::size_t kMostSteps = 1000;
   const double median = median_step(time);
   std::vector<double> steps;  // medians
-  const Eigen::Index every = 1 + (time.size() - 2) / static_cast<Eigen::Index>(kMostSteps);
-  for (Eigen::Index i = 0; i + 1 < time.size(); i += every)
-    if (const double step = (time[i + 1] - time[i]) / median; step < kLongestCounted) steps.push_back(step);
+  for (Eigen::Index i = 0; i + 1 < time.size(); ++i)
+    if (const double step = (time[i + 1] - time[i]) / median; step < kLongestStep) steps.push_back(step);
+  std::ranges::sort(steps);
+  if (const std::size_t all = steps.size(); all > kMostSteps) {  // fewer of them, spread alike
+    for (std::size_t k = 0; k < kMostSteps; ++k) steps[k] = steps[k * all / kMostSteps];
+    steps.resize(kMostSteps);
+  }
   const auto height = [&steps](double frequency) {
     double sum = 0.0;
     for (const double step : steps) sum += std::cos(2.0 * std::numbers::pi * frequency * step);

@@ -149,7 +149,8 @@ class TidyReader {
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const auto column = std::ranges::find(kTidyColumns, cells[c]);
-      if (column != kTidyColumns.end() && !has(static_cast<std::size_t>(column - kTidyColumns.begin())))
+      if (column != kTidyColumns.end() && !has(static_cast<std::size_t>(column - kTidyColumns.begin())) &&
+          std::ranges::find(at_, c) == at_.end())
         place(column - kTidyColumns.begin(), c);
     }
     ignored_.assign(cells.size(), 1);
