@@ -44,6 +44,15 @@ TEST_CASE("A rate that the times contradict is refused") {
     CHECK(complaint([&] { check_rate(rate, time, "f"); }) != "(no complaint)");
 }
 
+TEST_CASE("A row of a file that comes a microsecond after another is refused") {
+  Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(121, 0.0, 1.0);
+  time[60] = time[59] + 1e-6;
+  CHECK(complaint([&] { check_rows_apart(time, "f"); }) ==
+        "f: the row at 0.492 s comes 1 us after the one before; expected one row an instant");
+  time[60] = time[59] + 1e-4;
+  CHECK_NOTHROW(check_rows_apart(time, "f"));
+}
+
 TEST_CASE("Several rows an instant are refused, with or without a rate that would fit") {
   Eigen::VectorXd time(120);
   for (Eigen::Index i = 0; i < 120; ++i)

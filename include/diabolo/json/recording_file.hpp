@@ -124,7 +124,9 @@ inline Recording put_right(Recording recording, double yaw, const ReadOptions& o
                            const std::string& file_name) {
   if (const std::string odd = constant_coordinate(recording); !odd.empty())
     throw RecordingError(file_name + ": " + odd);
+  check_rows_apart(recording.time, file_name);
   regularise_times(recording);
+  put_rate_right(recording);
   mask_jumps(recording);
   mask_frozen(recording);
   if (!options.up) check_up(recording, yaw, file_name);

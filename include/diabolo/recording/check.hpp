@@ -51,21 +51,43 @@ inline bool steps_at(double rate, const Eigen::VectorXd& time, double unit = 1.0
   return fits(median_step(time)) || fits(usual_step(time));
 }
 
+namespace recording_detail {
+
+/// The step [s] that four of five are no longer than. There must be two times at least.
+inline double long_step(const Eigen::VectorXd& time) {
+  Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  double* const longer = step.data() + 4 * step.size() / 5;
+  std::nth_element(step.data(), longer, step.data() + step.size());
+  return *longer;
+}
+
+inline constexpr Eigen::Index kFewestTimes = 20;  ///< of fewer the longer steps may be gaps
+
+}  // namespace recording_detail
+
 /// Throws RecordingError where many rows come at once with the one before, such as two rows for each instant:
 /// a quarter of the steps are shorter than a hundredth of the longer ones.
 inline void check_instants(const Eigen::VectorXd& time, const std::string& where) {
-  constexpr double kAtOnce = 0.01;
-  constexpr Eigen::Index kFewest = 20;  // of fewer the longer steps may be gaps
-  if (time.size() < kFewest) return;
-  const Eigen::VectorXd step = time.tail(time.size() - 1) - time.head(time.size() - 1);
-  Eigen::VectorXd sorted = step;
-  double* const longer = sorted.data() + 4 * sorted.size() / 5;
-  std::nth_element(sorted.data(), longer, sorted.data() + sorted.size());
-  const Eigen::Index count = (step.array() < kAtOnce * *longer).count();
-  if (4 * count < step.size()) return;
+  if (time.size() < recording_detail::kFewestTimes) return;
+  const double at_once = 0.01 * recording_detail::long_step(time);
+  const Eigen::Index steps = time.size() - 1,
+                     count = ((time.tail(steps) - time.head(steps)).array() < at_once).count();
+  if (4 * count < steps) return;
   throw RecordingError(where + ": " + std::to_string(count) + " of " + std::to_string(time.size()) +
-                       " rows come within " + shown_rounded(1e3 * kAtOnce * *longer) +
+                       " rows come within " + shown_rounded(1e3 * at_once) +
                        " ms of the row before, as if an instant had several; expected one row an instant");
+}
+
+/// Throws RecordingError where one row comes so soon behind another that no motion is known between them: by
+/// less than a thousandth of the longer steps.
+inline void check_rows_apart(const Eigen::VectorXd& time, const std::string& where) {
+  if (time.size() < recording_detail::kFewestTimes) return;
+  const double least = 1e-3 * recording_detail::long_step(time);
+  for (Eigen::Index i = 1; i < time.size(); ++i)
+    if (time[i] - time[i - 1] < least)
+      throw RecordingError(where + ": the row at " + shown_rounded(time[i]) + " s comes " +
+                           shown_rounded(1e6 * (time[i] - time[i - 1])) +
+                           " us after the one before; expected one row an instant");
 }
 
 /// Throws RecordingError unless the sampling rate [Hz] is believable and fits the times, see steps_at(); says

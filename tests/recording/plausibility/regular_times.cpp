@@ -41,6 +41,7 @@ std::pair<Recording, Eigen::VectorXd> thinned(double out, double jitter, double 
   r.rate = rate > 0.0 ? rate : rate_of(r.time);
   check_rate(r.rate, r.time, "thinned");
   regularise_times(r);
+  put_rate_right(r);
   return {r, Eigen::Map<const Eigen::VectorXd>(even.data(), size)};
 }
 
@@ -181,7 +182,7 @@ TEST_CASE("Jitter between rows of which most are left out is put right, or told"
   std::normal_distribution<double> normal;
   Recording slight = steady, hopeless = steady;
   for (double& time : slight.time) time += 0.3e-3 * normal(generator);
-  CHECK(share_between_places(slight) > kMostUneven);
+  CHECK(share_between_places(slight.time, slight.rate) > kMostUneven);
   CHECK(regularise_times(slight));
   CHECK(odd_times(slight).empty());
   for (double& time : hopeless.time) time += 3e-3 * normal(generator);
@@ -201,9 +202,23 @@ TEST_CASE("Rows that are moved so far that they may belong beside are counted") 
                                 "they may belong beside it"));
 }
 
-TEST_CASE("A rate that is a little off is put right with the times") {
-  Recording r = with_jitter(test::shipped("throw"), 0.4e-3, 11);
-  r.rate = 118.0;
-  REQUIRE(regularise_times(r));
-  CHECK(r.rate == 120.0);
+TEST_CASE("A rate that the times contradict a little is put right, and said to be") {
+  for (const double jitter : {0.0, 0.4e-3}) {
+    Recording r = with_jitter(test::shipped("throw"), jitter, 11);
+    const std::vector<Eigen::Index> frames(r.frame.begin(), r.frame.end());
+    r.rate = 118.0;
+    for (Eigen::Index i = 0; i < r.size(); ++i)
+      r.frame[static_cast<std::size_t>(i)] = std::lround(118.0 * r.time[i]);
+    CHECK(odd_times(r).starts_with("the rate is given as 118 Hz, but the times step at 120 Hz") ==
+          (jitter == 0.0));
+    regularise_times(r);
+    put_rate_right(r);
+    CAPTURE(jitter, r.notes);
+    CHECK(r.rate == 120.0);
+    CHECK(r.notes.back() == "the rate is given as 118 Hz, but the times step at 120 Hz, which counts");
+    if (jitter == 0.0) CHECK(std::ranges::equal(r.frame, frames));
+  }
+  Recording right = test::shipped("throw");
+  put_rate_right(right);
+  CHECK(right.notes.empty());
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,9 @@ inline bool steps_unevenly(const Recording& r, Eigen::Index i) {
 /// A step over more periods than this is a gap: where the rows behind it belong is not counted.
 inline constexpr double kLongestCounted = 10.0;
 
-/// Whether the step behind sample i is no whole number of periods, give or take a tenth; of a gap it need not
-/// be.
-inline bool steps_between_places(const Recording& r, Eigen::Index i) {
-  const double periods = (r.time[i + 1] - r.time[i]) * r.rate;
+/// Whether a step is no whole number of periods, give or take a tenth; of a gap it need not be.
+inline bool steps_between_places(double step, double rate) {
+  const double periods = step * rate;
   return periods < kLongestCounted && std::abs(periods - std::max(1.0, std::round(periods))) > 0.1;
 }
 
@@ -45,10 +45,11 @@ inline bool steps_between_places(const Recording& r, Eigen::Index i) {
 inline constexpr double kMostUneven = 0.02;
 
 /// Share of the rows behind which the step ends between places.
-inline double share_between_places(const Recording& r) {
+inline double share_between_places(const Eigen::VectorXd& time, double rate) {
   Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i + 1 < r.size(); ++i) count += steps_between_places(r, i);
-  return static_cast<double>(count) / static_cast<double>(std::max<Eigen::Index>(1, r.size()));
+  for (Eigen::Index i = 0; i + 1 < time.size(); ++i)
+    count += steps_between_places(time[i + 1] - time[i], rate);
+  return static_cast<double>(count) / static_cast<double>(std::max<Eigen::Index>(1, time.size()));
 }
 
 namespace recording_plausibility_detail {
@@ -120,11 +121,11 @@ inline double rate_of(const Eigen::VectorXd& time) {
 
 /// Moves jittering stamps to even times: those of a camera that looks evenly and a clock that stamps late.
 /// Nothing changes where every step is even, or where too many stamps are too far from their places for the
-/// rate to be clear. A rate that is off by more than half a percent is put right. Returns whether times were
-/// moved; a note says by how much, and how many rows may belong beside their places.
+/// rate to be clear. Returns whether times were moved; a note says by how much, and how many rows may belong
+/// beside their places.
 inline bool regularise_times(Recording& r) {
   const Eigen::Index size = r.size();
-  bool uneven = share_between_places(r) > kMostUneven;
+  bool uneven = share_between_places(r.time, r.rate) > kMostUneven;
   for (Eigen::Index i = 0; i < size && !uneven; ++i) uneven = steps_unevenly(r, i);
   if (!uneven) return false;
   const double measured = rate_of(r.time),  // unless the stamps are too far off
@@ -141,9 +142,35 @@ inline bool regularise_times(Recording& r) {
                                    " of a period: they may belong beside it"
                              : ""));
   r.time = even;
-  if (constexpr double kAnotherRate = 5e-3; std::abs(period * r.rate - 1.0) > kAnotherRate)
-    r.rate = nearly_whole(1.0 / period);
   return true;
+}
+
+/// By how much a rate may be off that of the times.
+inline constexpr double kAnotherRate = 5e-3;
+
+/// The rate by which the times step where another one is stated, see kAnotherRate; nothing where they agree,
+/// or are too few to tell.
+inline std::optional<double> another_rate(const Recording& r) {
+  if (r.size() < 20) return std::nullopt;
+  const double measured = rate_of(r.time), off = std::abs(measured / r.rate - 1.0);
+  const bool agree = off <= kAnotherRate || off > 0.05;  // as check_rate() has it
+  if (agree || share_between_places(r.time, measured) > kMostUneven) return std::nullopt;
+  return measured;
+}
+
+/// Puts a stated rate right that the times contradict; a note says so. Frames that were counted by it follow.
+inline void put_rate_right(Recording& r) {
+  const std::optional<double> measured = another_rate(r);
+  if (!measured) return;
+  const auto frame_at = [&](Eigen::Index i, double rate) { return std::lround(r.time[i] * rate); };
+  bool counted = std::ssize(r.frame) == r.size();
+  for (Eigen::Index i = 0; i < r.size() && counted; ++i)
+    counted = r.frame[static_cast<std::size_t>(i)] == frame_at(i, r.rate);
+  for (Eigen::Index i = 0; i < r.size() && counted; ++i)
+    r.frame[static_cast<std::size_t>(i)] = frame_at(i, *measured);
+  r.notes.push_back("the rate is given as " + shown_rounded(r.rate) + " Hz, but the times step at " +
+                    shown_rounded(*measured) + " Hz, which counts");
+  r.rate = *measured;
 }
 
 /// A clause about times that step unevenly where no rate is clear, or too slowly for play; else empty.
@@ -153,7 +180,10 @@ inline std::string odd_times(const Recording& r) {
   if (r.rate * kLongestPeriod < 1.0)
     return "the rows are " + shown_rounded(1.0 / r.rate) +
            " s apart, too far for play: the times may be in other units";
-  const double share = share_between_places(r);
+  if (const std::optional<double> measured = another_rate(r))
+    return "the rate is given as " + shown_rounded(r.rate) + " Hz, but the times step at " +
+           shown_rounded(*measured) + " Hz";
+  const double share = share_between_places(r.time, r.rate);
   if (share <= kMostUneven) return {};
   return "the times step unevenly in " + std::to_string(std::lround(100.0 * share)) +
          " % of the rows, too far from a steady " + shown_rounded(r.rate) +
