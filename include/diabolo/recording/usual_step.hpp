@@ -25,14 +25,14 @@ inline double median_step(const Eigen::VectorXd& time) {
 inline double usual_step(const Eigen::VectorXd& time) {
   constexpr double kLongest = 1.3;         // medians
   constexpr double kShortest = 1.0 / 8.0;  // a median leaves no more rows out than that
-  constexpr double kLongestStep = 6.0;     // medians; a longer step is a gap, of no whole periods
+  constexpr double kBeginOfGap = 6.0;      // medians; a longer step is a gap, of no whole periods
   constexpr double kAsHigh = 0.8;          // share of the highest peak
   constexpr double kPhase = 0.02;          // of a median from frequency to frequency [turns]
   constexpr std::size_t kMostSteps = 1000;
   const double median = median_step(time);
   std::vector<double> steps;  // medians
   for (Eigen::Index i = 0; i + 1 < time.size(); ++i)
-    if (const double step = (time[i + 1] - time[i]) / median; step < kLongestStep) steps.push_back(step);
+    if (const double step = (time[i + 1] - time[i]) / median; step < kBeginOfGap) steps.push_back(step);
   std::ranges::sort(steps);
   if (const std::size_t all = steps.size(); all > kMostSteps) {  // fewer of them, spread alike
     for (std::size_t k = 0; k < kMostSteps; ++k) steps[k] = steps[k * all / kMostSteps];
