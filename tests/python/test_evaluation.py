@@ -172,7 +172,10 @@ def test_bad_input_is_named(played: Recording) -> None:
         properties=played.properties,
         string_length=played.string_length,
     )
-    with pytest.raises(ValueError, match='"unseen": no two successive rows with the diabolo'):
+    with (
+        pytest.warns(diabolo.RecordingWarning, match="the diabolo is never seen"),
+        pytest.raises(ValueError, match='"unseen": no two successive rows with the diabolo'),
+    ):
         evaluate(unseen)
 
 
