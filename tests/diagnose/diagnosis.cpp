@@ -5,28 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <string_view>
 #include <vector>
 
 #include "catch.hpp"
 #include "diabolo/diagnose/compiled.hpp"
 #include "diabolo/diagnose/posterior.hpp"
 
+#include "claimed.hpp"
 #include "played.hpp"
 
 using namespace diabolo;
 using Catch::Matchers::Contains;
 using Vector = Vector3<double>;
-
-namespace {
-
-const Finding* claimed(const Diagnosis& diagnosis, std::string_view name) {
-  for (const Finding& f : diagnosis.findings)
-    if (f.claimed && f.candidate->name == name) return &f;
-  return nullptr;
-}
-
-}  // namespace
 
 TEST_CASE("nothing is found where nothing is missing") {
   const Diagnosis d = diagnose({played({}, 14.0, 1)});
@@ -187,99 +177,6 @@ TEST_CASE("what turns the axle is named, and the model turns it") {
           std::pow(model.effects.get<GyroscopicTilt>().gain - d.model.effects.get<GyroscopicTilt>().gain, 2);
     CHECK(std::sqrt(squares / kCount) == Approx(f->sure * f->deviation[u]).epsilon(0.1));
   }
-}
-
-TEST_CASE("a force that has no name is learnt, and its law predicts what was left out") {
-  AllEffects<double> effects;
-  effects.get<UnnamedForce>().string_binormal = 0.8;
-  effects.get<UnnamedForce>().speed_exponent = 2.0;
-  const Diagnosis d = diagnose({played(effects, 14.0, 8)});  // later it is pushed off
-  CAPTURE(d.sentence);
-  CHECK(d.headline == Headline::kUnnamedStructure);
-  REQUIRE(d.learnt.size() == 1);
-  const Learnt& learnt = d.learnt.front();
-  CAPTURE(learnt.law.formula.text(), learnt.value, learnt.deviation);
-  CHECK(learnt.law.acts == Acts::kAcross);
-  CHECK(learnt.law.formula.text().find("speed /") != std::string::npos);
-  REQUIRE(learnt.value.size() == 2);
-  CHECK(std::abs(learnt.value[1] - 2.0) < 3.0 * learnt.deviation[1] + 0.1);
-  const auto& laws = d.model.effects.get<FormulaLaws>();
-  REQUIRE(laws.laws);
-  CHECK(laws.numbers[0] == Approx(learnt.value[0]));
-  CHECK(d.heldout.position.augmented_error.back().value() <
-        0.5 * d.heldout.position.base_error.back().value());
-}
-
-TEST_CASE("a force that grows is learnt where a constant one, or a tilt, would stand for its mean") {
-  AllEffects<double> effects;
-  effects.get<UnnamedForce>().string_tangent = 1.0;
-  effects.get<UnnamedForce>().spin_exponent = 2.0;
-  const Diagnosis d = diagnose({played(effects, 14.0, 9)});
-  CAPTURE(d.sentence);
-  CHECK(d.headline == Headline::kUnnamedStructure);
-  for (const Finding& f : d.findings) {
-    CAPTURE(f.candidate->name, f.z);
-    CHECK_FALSE(f.claimed);
-  }
-  REQUIRE_FALSE(d.learnt.empty());
-  const Learnt& learnt = d.learnt.front();
-  CAPTURE(learnt.law.formula.text(), learnt.value, learnt.deviation);
-  CHECK(learnt.law.acts == Acts::kAlong);
-  CHECK(learnt.law.formula.text().find("abs(spin)") != std::string::npos);
-}
-
-TEST_CASE("friction that changes is learnt as that: with use, as it fades, and with the slip") {
-  const auto asked = [](const char* formula, double size) {
-    AllEffects<double> effects;
-    effects.get<StringFriction>().coefficient = 0.12;
-    effects.get<StringFriction>().spin_gain = 3.3;
-    effects.get<FormulaLaws>() =
-        FormulaLaws<double>({Law("rub", "", Acts::kFriction, formula, {{"k", "1"}})});
-    effects.get<FormulaLaws>().numbers[0] = size;
-    return diagnose({played(effects, 20.0, 12)});
-  };
-  const auto check = [](const Diagnosis& d, const char* formula, double expected) {
-    CAPTURE(d.sentence);
-    CHECK(d.headline == Headline::kNamed);
-    for (const Finding& f : d.findings)
-      if (f.claimed) CHECK(f.candidate->name == "string_friction");
-    REQUIRE(d.learnt.size() == 1);
-    const Learnt& learnt = d.learnt.front();
-    CAPTURE(learnt.law.formula.text(), learnt.value, learnt.deviation);
-    CHECK(learnt.law.acts == Acts::kFriction);
-    CHECK(learnt.law.formula.text().starts_with(formula));
-    CHECK(learnt.value.front() == Approx(expected).epsilon(0.1));
-  };
-  check(asked("k * t", 0.006), "rate * t", 0.006);
-  check(asked("k * exp(-t / 5)", 0.12), "size * exp(-t / decay)", 0.12);
-  const Diagnosis slips = asked("k * exp(-abs(slip) / 0.5)", 0.12);
-  CAPTURE(slips.sentence);
-  REQUIRE_FALSE(slips.learnt.empty());
-  CHECK(slips.learnt.front().law.acts == Acts::kFriction);
-  CHECK(slips.learnt.front().law.formula.text().find("slip") != std::string::npos);
-}
-
-TEST_CASE("a force near a place is learnt with its place, and beside it no turn of the string is claimed") {
-  AllEffects<double> effects;
-  effects.get<StringFriction>().coefficient = 0.25;
-  effects.get<StringFriction>().spin_gain = 3.3;
-  effects.get<FormulaLaws>() =
-      FormulaLaws<double>({Law("fan", "", Acts::kLeft, "k * exp(-((y - 0.01) / 0.06)^2)", {{"k", "m/s^2"}})});
-  effects.get<FormulaLaws>().numbers[0] = 0.6;
-  const Diagnosis d = diagnose({played(effects, 24.0, 41)});
-  CAPTURE(d.sentence);
-  CHECK(claimed(d, "string_friction") != nullptr);
-  CHECK(claimed(d, "string_wrap") == nullptr);
-  REQUIRE(d.learnt.size() == 1);
-  const Learnt& learnt = d.learnt.front();
-  CHECK(learnt.law.acts == Acts::kLeft);
-  const std::vector<double> expected{0.6, 0.01, 0.06};
-  REQUIRE(learnt.value.size() == expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    CHECK(std::abs(learnt.value[i] - expected[i]) < 4.0 * learnt.deviation[i]);
-  CHECK(learnt.deviation[0] < 0.03);
-  CHECK(learnt.deviation[1] < 0.01);
-  CHECK(learnt.deviation[2] < 0.01);
 }
 
 TEST_CASE("a law of one's own is named where it is at work, with its size, and not where it is not") {
