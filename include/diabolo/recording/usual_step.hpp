@@ -44,8 +44,8 @@ inline double usual_step(const Eigen::VectorXd& time) {
     return sum;
   };
   std::vector<double> heights;
-  for (double frequency = 1.0 / kLongest; frequency < 1.0 / kShortest + 2.0 * kPhase; frequency += kPhase)
-    heights.push_back(height(frequency));
+  const double frequencies = (1.0 / kShortest - 1.0 / kLongest) / kPhase + 2.0;
+  for (int k = 0; k < frequencies; ++k) heights.push_back(height(1.0 / kLongest + k * kPhase));
   const double highest = *std::ranges::max_element(heights);
   for (std::size_t k = 1; k + 1 < heights.size(); ++k) {
     const double before = heights[k - 1], here = heights[k], after = heights[k + 1];
