@@ -43,9 +43,10 @@ inline double usual_step(const Eigen::VectorXd& time) {
     for (const double step : steps) sum += std::cos(2.0 * std::numbers::pi * frequency * step);
     return sum;
   };
-  std::vector<double> heights;
-  const double frequencies = (1.0 / kShortest - 1.0 / kLongest) / kPhase + 2.0;
-  for (int k = 0; k < frequencies; ++k) heights.push_back(height(1.0 / kLongest + k * kPhase));
+  constexpr double kFrequencies = (1.0 / kShortest - 1.0 / kLongest) / kPhase + 3.0;
+  std::vector<double> heights(static_cast<std::size_t>(kFrequencies));
+  for (std::size_t k = 0; k < heights.size(); ++k)
+    heights[k] = height(1.0 / kLongest + static_cast<double>(k) * kPhase);
   const double highest = *std::ranges::max_element(heights);
   for (std::size_t k = 1; k + 1 < heights.size(); ++k) {
     const double before = heights[k - 1], here = heights[k], after = heights[k + 1];
