@@ -22,6 +22,7 @@ struct LawGuess {
 
 namespace diagnose_detail {
 
+/// A size rounded to one digit, to be read in a formula; 1 where there is none.
 inline double one_digit(double x) {
   if (!(x > 0.0)) return 1.0;
   const double power = std::floor(std::log10(x));

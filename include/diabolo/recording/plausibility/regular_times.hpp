@@ -158,6 +158,12 @@ inline std::optional<double> another_rate(const Recording& r) {
   return measured;
 }
 
+/// The start of a clause about such a rate.
+inline std::string rates_in_words(double stated, double measured) {
+  return "the rate is given as " + shown_rounded(stated) + " Hz, but the times step at " +
+         shown_rounded(measured) + " Hz";
+}
+
 /// Puts a stated rate right that the times contradict; a note says so. Frames that were counted by it follow.
 inline void put_rate_right(Recording& r) {
   const std::optional<double> measured = another_rate(r);
@@ -168,8 +174,7 @@ inline void put_rate_right(Recording& r) {
     counted = r.frame[static_cast<std::size_t>(i)] == frame_at(i, r.rate);
   for (Eigen::Index i = 0; i < r.size() && counted; ++i)
     r.frame[static_cast<std::size_t>(i)] = frame_at(i, *measured);
-  r.notes.push_back("the rate is given as " + shown_rounded(r.rate) + " Hz, but the times step at " +
-                    shown_rounded(*measured) + " Hz, which counts");
+  r.notes.push_back(rates_in_words(r.rate, *measured) + ", which counts");
   r.rate = *measured;
 }
 
@@ -180,9 +185,7 @@ inline std::string odd_times(const Recording& r) {
   if (r.rate * kLongestPeriod < 1.0)
     return "the rows are " + shown_rounded(1.0 / r.rate) +
            " s apart, too far for play: the times may be in other units";
-  if (const std::optional<double> measured = another_rate(r))
-    return "the rate is given as " + shown_rounded(r.rate) + " Hz, but the times step at " +
-           shown_rounded(*measured) + " Hz";
+  if (const std::optional<double> measured = another_rate(r)) return rates_in_words(r.rate, *measured);
   const double share = share_between_places(r.time, r.rate);
   if (share <= kMostUneven) return {};
   return "the times step unevenly in " + std::to_string(std::lround(100.0 * share)) +
