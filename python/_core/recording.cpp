@@ -124,6 +124,13 @@ std::pair<std::vector<Recording>, std::vector<std::string>> trimmed(std::vector<
   return {std::move(recordings), std::move(notes)};
 }
 
+Recording named_cut(const Recording& recording, Eigen::Index first, Eigen::Index last,
+                    const std::optional<std::string>& name) {
+  Recording part = cut(recording, first, last);
+  if (name) part.name = *name;
+  return part;
+}
+
 Array spin(const Recording& recording, bool with_sign) {
   const Spin spin = with_sign ? signed_spin(recording) : unsigned_spin(recording);
   return Array(spin.value.size(), spin.value.data());
@@ -146,7 +153,8 @@ assumed, which is warned of.)");
           "diabolo_orientation"_a = py::none(), "left_orientation"_a = py::none(),
           "right_orientation"_a = py::none(), "name"_a = "recording", "properties"_a = py::none(),
           "string_length"_a = py::none());
-  cls.def("cut", &cut, "first"_a, "last"_a, "Rows first to last, both included.");
+  cls.def("cut", &named_cut, "first"_a, "last"_a, py::kw_only(), "name"_a = py::none(),
+          "Rows first to last, both included; `name` is what the part is called, by default as the whole.");
   cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
           "The recording at another rate [Hz]; dropouts are not bridged.");
   cls.def("warnings", &warnings, Unlocked(),

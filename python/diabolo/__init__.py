@@ -72,7 +72,8 @@ from .enums import (
     StringState,
     ThinRule,
 )
-from .evaluation import Evaluation, Excerpt, HorizonRow, TableRow, evaluate, position_errors, predict
+from .evaluation import Evaluation, HorizonRow, TableRow, evaluate, position_errors, predict
+from .excerpt import Excerpt
 from .formats import load_recording, save_recording
 from .headers import get_include
 from .player import aimed_again, best_guess, hang_at_rest, model_for, plan, plan_action, success_rate

@@ -834,8 +834,8 @@ class Recording:
     """
   def __init__(self, time: _Reals, left: _Reals, right: _Reals, diabolo: _Reals, rate: _Real, *, diabolo_orientation: _Reals | None = None, left_orientation: _Reals | None = None, right_orientation: _Reals | None = None, name: str = 'recording', properties: DiaboloProperties | None = None, string_length: _Real | None = None) -> None: ...
   def __len__(self) -> int: ...
-  def cut(self, first: _Whole, last: _Whole) -> Recording:
-    """Rows first to last, both included."""
+  def cut(self, first: _Whole, last: _Whole, *, name: str | None = None) -> Recording:
+    """Rows first to last, both included; `name` is what the part is called, by default as the whole."""
   def resample(self, rate: _Real) -> Recording:
     """The recording at another rate [Hz]; dropouts are not bridged."""
   def save(self, path: os.PathLike | str | bytes) -> None:

@@ -18,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import FormulaLaws, Model, Recording
+from .excerpt import Excerpt
 
 Kind = TypeVar("Kind")
 
-AnyRecording: TypeAlias = Recording | str | os.PathLike[str]
-"""A recording, or the name of its file."""
+AnyRecording: TypeAlias = Recording | Excerpt | str | os.PathLike[str]
+"""A recording, some rows of one, or the name of its file."""
 
 LARGEST_SEED = 2**63 - 1
 MOST_CYCLES = 1000  # of a figure in a row
@@ -196,27 +197,38 @@ def _loader() -> Callable[[Any], Recording]:
     return load_recording
 
 
+def excerpt_of(name: str, given: Excerpt) -> Excerpt:
+    """An excerpt of rows that are there; else raises ValueError."""
+    recording = instance_of(f"{name}.recording", given.recording, Recording)
+    last = len(recording) - 1
+    first = whole_number(f"{name}.first", given.first, 0, last)
+    return Excerpt(recording, first, whole_number(f"{name}.last", given.last, first, last))
+
+
 def recording_of(name: str, given: AnyRecording) -> Recording:
-    """A recording, or what its file holds."""
+    """A recording, or what its file or an excerpt holds."""
     if isinstance(given, str | os.PathLike):
         return _loader()(file_name(name, given))
+    if isinstance(given, Excerpt):
+        return excerpt_of(name, given).part()
     return instance_of(name, given, Recording)
 
 
 def list_of(name: str, given: Any, kinds: tuple[type, ...] = (Recording,), *, least: int = 0) -> list[Any]:
-    """One of `kinds`, or `least` or more of them, as a list; the name of a file counts as its recording."""
+    """One of `kinds`, or `least` or more of them, as a list; the name of a file counts as its recording, an
+    excerpt as its part."""
     expected = " or ".join(kind.__name__ for kind in kinds)
     if Recording in kinds:
         expected += " or the name of a file"
 
     def one(place: str, item: Any) -> Any:
-        if Recording in kinds and isinstance(item, str | os.PathLike):
-            return _loader()(file_name(place, item))
-        if not isinstance(item, kinds):
-            raise ValueError(f"{place}: {shown(item)}; expected {expected}")
-        return item
+        if isinstance(item, kinds):
+            return item
+        if Recording in kinds and isinstance(item, Excerpt | str | os.PathLike):
+            return recording_of(place, item)
+        raise ValueError(f"{place}: {shown(item)}; expected {expected}")
 
-    if isinstance(given, (*kinds, str, os.PathLike)):
+    if isinstance(given, (*kinds, Excerpt, str, os.PathLike)):
         return [one(name, given)]
     if not is_several(given):
         raise ValueError(f"{name}: {shown(given)}; expected {expected}, one or a list of them")

@@ -18,6 +18,7 @@ from .checks import (
     AnyRecording,
     callable_or_none,
     check_distinct,
+    excerpt_of,
     instance_of,
     is_several,
     list_of,
@@ -29,6 +30,7 @@ from .checks import (
     warn_of,
     whole_number,
 )
+from .excerpt import Excerpt
 from .rollout import Rollout, axle_parts
 
 DEFAULT_MODELS = ("published", "paper", "consistent")
@@ -43,14 +45,6 @@ ALL_RECORDINGS = "all recordings"
 
 RESERVED_NAMES = ("baseline", "program", "printed")
 """What else stands beside the models in a table."""
-
-
-class Excerpt(NamedTuple):
-    """Some rows of a recording, first and last included."""
-
-    recording: Recording
-    first: int
-    last: int
 
 
 class TableRow(NamedTuple):
@@ -96,7 +90,7 @@ class Evaluation(NamedTuple):
 
 
 def evaluate(
-    recordings: AnyRecording | Excerpt | Iterable[AnyRecording | Excerpt],
+    recordings: AnyRecording | Iterable[AnyRecording],
     models: Model | str | Iterable[Model | str] = DEFAULT_MODELS,
     *,
     starts_every: float | None = None,
@@ -136,7 +130,7 @@ def evaluate(
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
     report = progress or (lambda fraction: None)
-    takes = [_whole(take) for take in given]
+    takes = [_cut(take) for take in given]
     check_distinct(takes, parts=False)
     warn_of(takes)
     if starts_every is None:
@@ -197,13 +191,12 @@ def position_errors(recording: AnyRecording, predicted: Rollout) -> NDArray[np.f
     return distance
 
 
-def _whole(take: Recording | Excerpt) -> Recording:
+def _cut(take: Recording | Excerpt) -> Recording:
+    """Under the name of the whole, by which the paper's table knows it."""
     if isinstance(take, Recording):
         return take
-    recording = instance_of("Excerpt.recording", take.recording, Recording)
-    last = len(recording) - 1
-    first = whole_number("Excerpt.first", take.first, 0, last)
-    return recording.cut(first, whole_number("Excerpt.last", take.last, first, last))
+    checked = excerpt_of("Excerpt", take)
+    return checked.recording.cut(checked.first, checked.last)
 
 
 def _labels(given: list[Recording | Excerpt]) -> list[str]:
@@ -233,7 +226,7 @@ def _table(
 
 def _scores(take: Recording | Excerpt, model: Model) -> list[_core.ExcerptScore]:
     if isinstance(take, Excerpt):
-        return [_core.score_excerpt(_whole(take), model)]
+        return [_core.score_excerpt(_cut(take), model)]
     return _core.score_excerpts(take, model)
 
 

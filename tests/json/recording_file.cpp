@@ -36,6 +36,8 @@ TEST_CASE("Metadata is read as it stands and written back") {
   CHECK(again.properties.diameter == metadata.properties.diameter);
   CHECK(again.properties.length == metadata.properties.length);
   CHECK(again.rate == metadata.rate);
+  CHECK(again.clock == 0.0);
+  CHECK(read_metadata(write_metadata({kRedDiabolo, 1.46, 100.0, {}, 2.5}), "play.json").clock == 2.5);
   CHECK_NOTHROW(read_metadata(replaced(kMetadata, "\"rate\"", "\"note\": [1, {}], \"rate\""), "play.json"));
 }
 

@@ -354,6 +354,23 @@ def test_a_rollout_tells_samples_duration_and_end() -> None:
 # ---- names of files ----
 
 
+def test_an_excerpt_does_for_a_recording(played: Recording) -> None:
+    excerpt, whole = diabolo.Excerpt(played, 60, 180), diabolo.Excerpt(played, 0, len(played) - 1)
+    assert whole.part() is played and excerpt.part().name == f"{played.name}:60-180"
+    np.testing.assert_array_equal(
+        diabolo.predict(excerpt).states, diabolo.predict(played.cut(60, 180)).states
+    )
+    parts = [diabolo.Excerpt(played, 0, 40), diabolo.Excerpt(played, 30, 80)]
+    with pytest.warns(diabolo.RecordingWarning, match="'played:30-80' overlaps 'played:0-40' by 11 samples"):
+        diabolo.diagnose(parts)
+    for wrong, words in (
+        (diabolo.Excerpt(played, 60, 999), "Excerpt.last: 999"),
+        (diabolo.Excerpt("played.csv", 0, 1), "Excerpt.recording: 'played.csv'; expected a Recording"),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(ValueError, match=words.replace("Excerpt", r"recordings?")):
+            diabolo.diagnose(wrong)
+
+
 @pytest.mark.parametrize("kind", [str, Path], ids=["str", "Path"])
 def test_the_name_of_a_file_does_for_its_recording(
     tmp_path: Path, played: Recording, kind: Callable[[Path], Any]

@@ -225,6 +225,13 @@ def test_info_tells_what_is_there(command: Command, played: Recording, tmp_path:
     assert bodies["diabolo_red"]["longest_gap_s"] == pytest.approx(3 / 120)
     assert bodies["stick_left"]["dropouts"] == 0
     assert found["spin_rad_s"]["max"] == pytest.approx(100.0, abs=0.01)
+    part = json_of(command("info", "holes.csv:5-20", "--json").stdout)
+    assert (part["samples"], part["bodies"][0]["samples"]) == (16, 16) and part[
+        "duration_s"
+    ] == pytest.approx(0.125)
+    assert {body["name"]: body["dropouts"] for body in part["bodies"]}["diabolo_red"] == 3
+    refused = command("info", "holes.csv:5-481")
+    assert refused.returncode == 2 and "rows 5 to 481; expected rows from 0 to 480" in refused.stderr
     text = command("info", "holes.csv")
     assert "Motive export, 481 samples at 120 Hz, 4.00 s" in text.stdout
     assert "diabolo_red" in text.stdout and "spin: " in text.stdout

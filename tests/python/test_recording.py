@@ -62,11 +62,13 @@ def test_arrays_are_read_only_views(played: Recording) -> None:
     np.testing.assert_array_equal(track, played.diabolo[:100])
 
 
-def test_recordings_can_be_pickled(played: Recording) -> None:
+def test_recordings_can_be_pickled(played: Recording, tmp_path: Path) -> None:
     other = pickle.loads(pickle.dumps(played))
     part = played.cut(12, 30)
     assert part.clock == pytest.approx(played.time[12] - played.time[0])
     assert pickle.loads(pickle.dumps(part)).clock == part.clock
+    part.save(tmp_path / "part.csv")
+    assert Recording.load(tmp_path / "part.csv").clock == part.clock > 0.0
     assert (other.name, other.rate, other.string_length) == (played.name, played.rate, played.string_length)
     assert other.properties.mass == played.properties.mass
     for name in ("frame", "time", "left", "right", "diabolo", "diabolo_valid"):

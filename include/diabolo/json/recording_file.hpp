@@ -34,8 +34,9 @@ inline constexpr const char* kRecordingFrame = "x forward, y left, z up";
 ///   {"schema": "diabolo.recording/1",
 ///    "diabolo": {"mass": kg, "diameter": m, "length": m, "axle_radius": m},
 ///    "string_length": m, "rate": Hz, "units": "SI", "frame": "x forward, y left, z up"}
-/// Every field is required. "assumed" may be there, too: a list, possibly empty, of those of kAssumable that
-/// nobody told. Further fields are left alone. Throws RecordingError with file and field.
+/// Every field is required. There may be "assumed", a list, possibly empty, of those of kAssumable that
+/// nobody told, and "clock", the time of laws at the first row [s]: a part of a recording keeps that of the
+/// whole. Further fields are left alone. Throws RecordingError with file and field.
 inline TidyMetadata read_metadata(std::string_view text, const std::string& file_name) {
   const nlohmann::json json = parse_json(text, file_name);
   const JsonFields fields(json, file_name);
@@ -44,7 +45,8 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
   fields.expect_text("frame", kRecordingFrame);
   TidyMetadata metadata{properties_from_json(fields.object("diabolo")), fields.positive("string_length"),
                         fields.positive("rate"),
-                        fields.has("assumed") ? fields.texts("assumed") : std::vector<std::string>{}};
+                        fields.has("assumed") ? fields.texts("assumed") : std::vector<std::string>{},
+                        fields.has("clock") ? fields.number("clock") : 0.0};
   check_assumed(metadata.assumed, file_name);
   check_properties(metadata.properties, metadata.string_length, file_name);
   return metadata;
@@ -62,6 +64,7 @@ inline std::string write_metadata(const TidyMetadata& metadata) {
                               {"units", "SI"},
                               {"frame", kRecordingFrame}};
   if (!metadata.assumed.empty()) json["assumed"] = metadata.assumed;
+  if (metadata.clock != 0.0) json["clock"] = metadata.clock;
   return json_text(json, "recording");
 }
 
@@ -188,9 +191,9 @@ inline Recording load_recording(const std::filesystem::path& path,
 inline void save_tidy(const Recording& recording, const std::filesystem::path& path) {
   if (path.extension() != ".csv") throw RecordingError(path.string() + ": expected a name that ends in .csv");
   FilesToWrite files;
-  files.add(
-      std::filesystem::path(path).replace_extension(".json"),
-      write_metadata({recording.properties, recording.string_length, recording.rate, recording.assumed}));
+  files.add(std::filesystem::path(path).replace_extension(".json"),
+            write_metadata({recording.properties, recording.string_length, recording.rate, recording.assumed,
+                            recording.clock}));
   files.add(path, write_tidy(recording));
   files.commit();
 }

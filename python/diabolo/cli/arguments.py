@@ -15,7 +15,8 @@ from typing import Any
 from .._core import Calibration, Model, Recording, StickArm
 from ..arms import SIDES
 from ..checks import shown
-from ..evaluation import DEFAULT_MODELS, Excerpt
+from ..evaluation import DEFAULT_MODELS
+from ..excerpt import Excerpt
 from ..files import STDOUT
 from ..formats import load_recording
 

@@ -106,7 +106,7 @@ def _convert_recording(arguments: argparse.Namespace, target: Path) -> Done:
     check_writer(target)
     check_is_recording(Path(arguments.recording))
     excerpt = read_excerpt(arguments.recording, reading_of(arguments))
-    recording = excerpt.recording.cut(excerpt.first, excerpt.last)
+    recording = excerpt.part()
     warn_of([recording])
     save_recording(recording, target)
     dropouts = int(np.count_nonzero(~recording.diabolo_valid))

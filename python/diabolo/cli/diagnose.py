@@ -18,7 +18,7 @@ from .._core import DiagnosisResult, Estimate, FormulaLaws, InputFile, Recording
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
 from ..diagnosis import MOST_DRAWS, Comparison, Diagnosis, compare_simulator
 from ..diagnosis import diagnose as run_diagnosis
-from ..evaluation import DEFAULT_MODELS, Excerpt
+from ..evaluation import DEFAULT_MODELS
 from ..formats import check_writer, load_recording, reader_of
 from ..report import LEAST_PROBABILITY, report_html
 from ..report import check as check_report
@@ -140,7 +140,7 @@ def run(arguments: argparse.Namespace) -> None:
     laws = [law for file in arguments.law for law in FormulaLaws.load(file).to_list()]
     reading = reading_of(arguments)
     takes, held = (
-        [_cut(read_excerpt(text, reading, BODIES)) for text in given]
+        [read_excerpt(text, reading, BODIES).part() for text in given]
         for given in (arguments.recordings, arguments.holdout)
     )
     simulated = [read_simulated(path, takes[0]) for path in arguments.simulated]
@@ -312,10 +312,6 @@ def _p_value(p: float | None) -> str:
     if p is None:
         return ""
     return f"; p = {p:.1g}" if p >= LEAST_PROBABILITY else f"; p < {LEAST_PROBABILITY:g}"
-
-
-def _cut(excerpt: Excerpt) -> Recording:
-    return excerpt.recording.cut(excerpt.first, excerpt.last)
 
 
 def _value(parameter: Estimate) -> str:

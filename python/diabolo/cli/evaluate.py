@@ -9,7 +9,8 @@ from typing import Any
 from .. import files
 from .._core import Model
 from ..checks import LARGEST_SEED, MOST_THREADS, whole_number
-from ..evaluation import DEFAULT_HORIZONS, DEFAULT_MODELS, Evaluation, Excerpt, TableRow, evaluate
+from ..evaluation import DEFAULT_HORIZONS, DEFAULT_MODELS, Evaluation, TableRow, evaluate
+from ..excerpt import Excerpt
 from .arguments import (
     BODIES,
     RECORDING_HELP,
@@ -131,7 +132,7 @@ def evaluate_excerpts(
     threads: int = 0,
 ) -> Evaluation:
     """As diabolo.evaluate, with a progress bar; an excerpt of all rows counts as the recording."""
-    takes = [e.recording if (e.first, e.last) == (0, len(e.recording) - 1) else e for e in excerpts]
+    takes = [e.recording if e.is_whole else e for e in excerpts]
     with progress_bar("evaluating") as progress:
         return evaluate(
             takes, models, starts_every=starts_every, seed=seed, threads=threads, progress=progress

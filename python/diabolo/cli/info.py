@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from .. import files
 from .._core import Recording, RecordingError, TrackedTake
+from ..excerpt import Excerpt
 from ..formats import reader_of
-from .arguments import FILE_HELP, Reading, add_calibration, add_command, reading_of
+from .arguments import RECORDING_HELP, Reading, add_calibration, add_command, reading_of, split_excerpt
 from .tables import format_table
 
 SCHEMA = "diabolo.info/1"
@@ -44,7 +45,7 @@ def add_parser(commands: Any) -> None:
         example="  diabolo info throw_1.csv\n  diabolo info throw_1.csv --json -\n"
         "  diabolo info own.csv --columns time=t[ms],left_x=lx[mm],...",
     )
-    parser.add_argument("recording", metavar="RECORDING", help=FILE_HELP)
+    parser.add_argument("recording", metavar="RECORDING", help=RECORDING_HELP)
     add_calibration(parser)
     parser.add_argument(
         "--json",
@@ -57,7 +58,9 @@ def add_parser(commands: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     reading = reading_of(arguments)
-    inputs = [arguments.recording] + ([arguments.calibration] if arguments.calibration else [])
+    inputs = [split_excerpt(arguments.recording)[0]] + (
+        [arguments.calibration] if arguments.calibration else []
+    )
     files.check_outputs([arguments.json], inputs)
     found = describe(arguments.recording, reading)
     files.write_json(arguments.json, found)
@@ -65,8 +68,9 @@ def run(arguments: argparse.Namespace) -> None:
         print(text_of(found))
 
 
-def describe(path: str, reading: Reading) -> dict[str, Any]:
-    """The figures, for JSON of the schema diabolo.info/1."""
+def describe(text: str, reading: Reading) -> dict[str, Any]:
+    """The figures of a file, or of some rows of it, for JSON of the schema diabolo.info/1."""
+    path, rows = split_excerpt(text)
     if Path(path).exists() and not Path(path).is_file() and not Path(path).is_dir():
         raise ValueError(f"{path}: a device or a pipe; expected a file")
     reader = reader_of(Path(path))
@@ -94,10 +98,16 @@ def describe(path: str, reading: Reading) -> dict[str, Any]:
             "right": recording.right_valid,
             "diabolo": recording.diabolo_valid,
         }
-    seen = [_body(name, valid, time, rate) for name, valid in bodies.items()]
+    first, last = rows or (0, len(time) - 1)
+    if not first <= last < len(time):
+        raise ValueError(f"{text}: rows {first} to {last}; expected rows from 0 to {len(time) - 1}")
+    time = time[first : last + 1]
+    if recording is not None:
+        recording = Excerpt(recording, first, last).part()
+    seen = [_body(name, valid[first : last + 1], time, rate) for name, valid in bodies.items()]
     return {
         "schema": SCHEMA,
-        "file": path,
+        "file": text,
         "format": reader or ("motive" if take is not None else "csv" if reading.columns else "tidy"),
         "samples": len(time),
         "rate_hz": rate,

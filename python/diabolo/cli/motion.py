@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> None:
     inputs += [arguments.calibration] if arguments.calibration else []
     files.check_outputs([target, target.with_suffix(".json")], inputs)
     excerpt = read_excerpt(arguments.recording, reading_of(arguments), TIPS)
-    take = excerpt.recording.cut(excerpt.first, excerpt.last)
+    take = excerpt.part()
     warn_of([take])
     tips = recorded_plan(take)
     rows = (tips.end - tips.begin) * arguments.rate

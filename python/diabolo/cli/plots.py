@@ -12,7 +12,8 @@ import numpy as np
 from .._core import Model, PlannedPlay, baseline
 from ..checks import check_drawing
 from ..enums import StringState
-from ..evaluation import ALL_RECORDINGS, Evaluation, Excerpt, HorizonRow, position_errors, predict
+from ..evaluation import ALL_RECORDINGS, Evaluation, HorizonRow, position_errors, predict
+from ..excerpt import Excerpt
 from ..files import whole_file
 
 if TYPE_CHECKING:
@@ -130,7 +131,7 @@ def _draw_horizons(panel: Axes, rows: list[HorizonRow]) -> None:
 def _first_start_figure(excerpts: list[Excerpt], models: list[Model]) -> Figure:
     figure, axes = _panels(len(excerpts))
     for panel, excerpt in zip(axes, excerpts, strict=True):
-        take = excerpt.recording.cut(excerpt.first, excerpt.last)
+        take = excerpt.part()
         time = take.time - take.time[0]
         for index, model in enumerate(models):
             error = position_errors(take, predict(take, model))
@@ -138,8 +139,7 @@ def _first_start_figure(excerpts: list[Excerpt], models: list[Model]) -> Figure:
         panel.plot(
             time, np.linalg.norm(baseline(take) - take.diabolo, axis=1), label="baseline", **BASELINE_STYLE
         )
-        rows = "" if len(take) == len(excerpt.recording) else f", rows {excerpt.first} to {excerpt.last}"
-        panel.set(title=take.name + rows, xlabel="time after the start [s]", ylabel="position error [m]")
+        panel.set(title=take.name, xlabel="time after the start [s]", ylabel="position error [m]")
         panel.set_ylim(0.0, min(panel.get_ylim()[1], LOST))
         panel.grid(alpha=0.25)
     axes[0].legend(fontsize="small")

@@ -157,7 +157,7 @@ def write(
 def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording, NDArray[np.uint8]]:
     """The recording from the first row that a prediction can start from, its diabolo predicted."""
     excerpt = read_excerpt(arguments.on, reading_of(arguments), TIPS)
-    take = excerpt.recording.cut(excerpt.first, excerpt.last)
+    take = excerpt.part()
     predicted = predict(take, model)
     assert predicted.axis is not None
     known = ~np.isnan(predicted.states[:, 0])

@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> None:
     inputs += [name for name in arguments.model if name not in DEFAULT_MODELS]
     files.check_outputs([arguments.out], inputs)
     excerpt = read_excerpt(arguments.recording, reading_of(arguments))
-    take = excerpt.recording.cut(excerpt.first, excerpt.last)
+    take = excerpt.part()
     predictions = {}
     for name in arguments.model:
         model = read_model(name)

@@ -27,6 +27,7 @@ struct TidyMetadata {
   double string_length = kPublishedStringLength;  ///< [m]
   double rate = 0.0;                              ///< nominal sampling rate [Hz]; 0: that of the times
   std::vector<std::string> assumed = {};          ///< those of kAssumable that it does not tell
+  double clock = 0.0;                             ///< of laws in time, at the first row [s]
 };
 
 /// One pass over a tidy CSV; use read_tidy().
@@ -49,6 +50,7 @@ class TidyReader {
     result.properties = metadata.properties;
     result.string_length = metadata.string_length;
     result.assumed = metadata.assumed;
+    result.clock = metadata.clock;
     result.time.resize(size);
     result.left = result.right = result.diabolo = Track::missing(size);
     result.diabolo_orientation = OrientationTrack::missing(size);
