@@ -12,14 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/explanations.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/refine.hpp"
 
 namespace diabolo {
-
-/// Explanations predict the same where the squares of what they leave differ by less than this share, beside
-/// three standard deviations' worth: the model itself is no better.
-inline constexpr double kSameResidual = 0.01;
 
 /// By how much a wrapped string may differ from its given length [m].
 inline constexpr double kWrappedLength = 0.03;
@@ -172,15 +169,6 @@ inline std::ptrdiff_t explanations_of(const Fit& fit, const ActiveSet& set, cons
 
 namespace diagnose_detail {
 
-/// A claim, or what it may be exchanged for.
-struct Explanation {
-  std::string_view name;
-  Fit fit;
-  ActiveSet set;
-  std::ptrdiff_t explanations;  ///< that the fit is sure of
-  bool sure;                    ///< else it may be there
-};
-
 /// Whether the bank holds an alternative, or what it is one to.
 inline bool is_known(std::string_view name, const Bank& bank) {
   return std::ranges::any_of(
@@ -215,41 +203,13 @@ inline std::optional<bool> is_sure(const Fit& trial, const Alternative& other) {
   return speaks_for(young, z) && speaks_for(drag, significance(drag, now));
 }
 
-/// Adds an explanation; of two of a name, the one that leaves less stays.
-inline void add(std::vector<Explanation>& options, Explanation option) {
-  const auto same = std::ranges::find(options, option.name, &Explanation::name);
-  if (same == options.end())
-    options.push_back(std::move(option));
-  else if (option.fit.cost < same->fit.cost)
-    *same = std::move(option);
-}
-
-/// Leaves those that explain a claim, which `fit` holds, as well as the best one that is sure.
-inline void keep_the_good(std::vector<Explanation>& options, std::string_view claim, const Fit& fit) {
-  double least = fit.cost;
-  for (const Explanation& option : options)
-    if (option.sure) least = std::min(least, option.fit.cost);
-  // What the model does not describe is the same whether the string is wrapped or not.
-  const double imprecision = claim == "string_friction" ? 0.0 : kSameResidual;
-  const double worse = kAsGood * fit.dispersion + imprecision * least;
-  std::erase_if(options, [&](const Explanation& option) { return option.fit.cost - least >= worse; });
-}
-
-/// See exchange_claims().
-inline Explanation best_of(const std::vector<Explanation>& options, const Candidate& claim) {
-  const bool fault = claim.kind == CandidateKind::kMeasurement;
-  return std::ranges::min(options, {}, [&](const Explanation& option) {
-    const bool rarer = fault || option.fit.at[index_of(Unknown::kWraps)] > 0.0;
-    return std::tuple(!option.sure, option.explanations, rarer && option.name != claim.name, option.fit.cost);
-  });
-}
-
 }  // namespace diagnose_detail
 
 /// Refits with each alternative to a claim and keeps the best: of those that are sure and explain it as well
-/// as any (one that may be there and does is a tie), the one that needs the fewest; then a fault stays what
-/// it is, the others being rarer, and physics is what leaves least. `draft` holds what is claimed before;
-/// `fit`, `bank` and `set` are moved to what is best.
+/// as any, the one that needs the fewest; then a fault stays what it is, the others being rarer, and physics
+/// is what leaves least. One that may be there and does as well is a tie, and one that does worse where the
+/// windows do not agree on it. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to
+/// what is best.
 template <class D = diagnose_detail::FitDual>
 std::vector<Replacement> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
                                          const Model& base, int threads, const FitWatch& watch) {
@@ -281,7 +241,7 @@ std::vector<Replacement> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, c
           explanations_of(trial, other.set, exchanged(bank, name, other.name));
       diagnose_detail::add(options, {other.name, std::move(trial), other.set, explanations, *sure});
     }
-    diagnose_detail::keep_the_good(options, name, fit);
+    diagnose_detail::keep_the_good(options, name);
     const Explanation best = diagnose_detail::best_of(options, *finding.candidate);
     Replacement exchange{best.name, {}, std::sqrt(std::max(0.0, fit.cost - best.fit.cost) / fit.dispersion)};
     for (const Explanation& option : options)

@@ -31,6 +31,7 @@ struct WindowScore {
   double chi_square = 0.0;                                                ///< with the best start
   double weight = 1.0;      ///< less than 1 where the window lies far off all others
   double start_gain = 0.0;  ///< what the best start took off chi_square
+  double cost = 0.0;        ///< its part of the fit's
   int numbers = 0;
   /// To the best start.
   Eigen::Matrix<double, kStartUnknowns, 1> start_step = Eigen::Matrix<double, kStartUnknowns, 1>::Zero();
@@ -125,9 +126,10 @@ inline void reweight(Fit& fit, int threads) {
     score.weight = system.failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
     // What a window cannot tell since its prediction failed, or missed a catch, costs as much as if it were
     // infinitely far off: a better fit never pays more for seeing more.
-    fit.cost += 2.0 * far * far * (system.failed ? system.numbers + system.lost : system.lost);
+    score.cost = 2.0 * far * far * (system.failed ? system.numbers + system.lost : system.lost);
     if (!system.failed)
-      fit.cost += off > 1.0 ? score.chi_square / square * (2.0 - 1.0 / square) : score.chi_square;
+      score.cost += off > 1.0 ? score.chi_square / square * (2.0 - 1.0 / square) : score.chi_square;
+    fit.cost += score.cost;
     chi_square += score.weight * score.chi_square;
     numbers += score.weight * std::max(0, score.numbers - kStartUnknowns);
   }
