@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/json/recording_file.hpp"
 #include "diabolo/recording/check.hpp"
 #include "diabolo/recording/plausibility/overlaps.hpp"
 #include "diabolo/recording/plausibility/warnings.hpp"
@@ -131,6 +132,11 @@ Recording named_cut(const Recording& recording, Eigen::Index first, Eigen::Index
   return part;
 }
 
+Recording read_again(Recording recording) {
+  const std::string title = recording.title();
+  return put_right(std::move(recording), 0.0, {}, title);
+}
+
 Array spin(const Recording& recording, bool with_sign) {
   const Spin spin = with_sign ? signed_spin(recording) : unsigned_spin(recording);
   return Array(spin.value.size(), spin.value.data());
@@ -157,6 +163,10 @@ assumed, which is warned of.)");
           "Rows first to last, both included; `name` is what the part is called, by default as the whole.");
   cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
           "The recording at another rate [Hz]; dropouts are not bridged.");
+  cls.def("put_right", &read_again, Unlocked(),
+          "What a file of it would be read as: stamps that jitter are moved to even times, markers that jump or "
+          "freeze are masked, a frame that is turned by a quarter is turned back; `notes` tell. Raises "
+          "RecordingError where the motion says that z does not point up.");
   cls.def("warnings", &warnings, Unlocked(),
           "What its reader changed, and what is odd about it although it is well formed, such as other "
           "units, tips "

@@ -361,6 +361,24 @@ def test_clocks_jitter_jumps_and_a_cut_line_are_put_right_and_told(tmp_path: Pat
     assert pickle.loads(pickle.dumps(take)).notes == take.notes
 
 
+def test_a_recording_of_arrays_is_put_right_as_a_file_is() -> None:
+    swing = load_recording(shipped("swing"))
+    jitter = np.random.default_rng(3).normal(0.0, 0.4e-3, len(swing))
+    jumping = swing.diabolo.copy()
+    jumping[500, 2] += 0.5
+    given = Recording(swing.time + jitter, swing.left, swing.right, jumping, swing.rate)
+    assert any("the times jitter about a steady 120 Hz" in odd and "put_right()" in odd for odd in given.warnings())
+    right = given.put_right()
+    np.testing.assert_allclose(np.diff(right.time), 1.0 / 120.0, atol=1e-6)
+    assert not right.diabolo_valid[500] and np.array_equal(given.time, swing.time + jitter)
+    assert [words in note for words, note in zip(("jitter by 0.", "(diabolo 1)"), right.notes, strict=True)] == [True] * 2
+    turned = Recording(
+        swing.time, swing.left[:, [0, 2, 1]], swing.right[:, [0, 2, 1]], swing.diabolo[:, [0, 2, 1]], swing.rate
+    )
+    with pytest.raises(RecordingError, match="points up, not z"):
+        turned.put_right()
+
+
 def test_columns_of_ones_own_are_mapped(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     take = load_recording(shipped("swing"))
     path = tmp_path / "own.csv"

@@ -104,6 +104,7 @@ std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const
           odds = std::min(odds, std::isfinite(more) ? std::exp(std::max(0.5 * more, 0.0)) : 1.0);
         }
         if (!best.odds || odds > *best.odds) best.experiment = &experiment, best.odds = odds;
+        if (*best.odds == kLongOdds) break;
       }
     }
     result.push_back(std::move(best));

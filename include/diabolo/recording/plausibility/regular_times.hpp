@@ -188,6 +188,9 @@ inline std::string odd_times(const Recording& r) {
   if (const std::optional<double> measured = another_rate(r)) return rates_in_words(r.rate, *measured);
   const double share = share_between_places(r.time, r.rate);
   if (share <= kMostUneven) return {};
+  if (Recording even = r; regularise_times(even))
+    return "the times jitter about a steady " + shown_rounded(rate_of(even.time)) +
+           " Hz, and no velocities are known there: put_right() moves each row to its even time";
   return "the times step unevenly in " + std::to_string(std::lround(100.0 * share)) +
          " % of the rows, too far from a steady " + shown_rounded(r.rate) +
          " Hz to be put right: no velocities are known there";
