@@ -126,7 +126,8 @@ void bind_effect(py::module_& module, const Effect& nominal) {
 
 void assign_effect(AllEffects<double>& effects, const std::string& name, const py::object& given) {
   // (A list is made laws by their class, whose sentence says what is wrong with one.)
-  const bool listed = name == FormulaLaws<double>::kName && py::isinstance<py::list>(given);
+  const bool listed = name == FormulaLaws<double>::kName &&
+                      (py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given));
   const py::object value = listed ? py::type::of<FormulaLaws<double>>()(given) : given;
   std::string names;
   bool found = false;

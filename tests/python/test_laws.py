@@ -51,6 +51,7 @@ def test_a_law_by_a_formula_acts_as_that_of_the_library_in_rollouts_of_one_and_o
 def test_what_is_wrong_with_a_law_of_a_model_is_said() -> None:
     model = Model(formula_laws=[DRAG])
     assert model.formula_laws.to_list()[0]["name"] == "own_drag"
+    assert Model(formula_laws=cast(Any, (DRAG,))).formula_laws == model.formula_laws
     with pytest.raises(ValueError, match="wind"):
         Model(formula_laws=[{**DRAG, "formula": "k * wind^2"}])
     with pytest.raises(TypeError, match="formula_laws: 5; expected FormulaLaws, a list of laws or None"):
