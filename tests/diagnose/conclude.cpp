@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "diabolo/diagnose/withdraw.hpp"
 
 using namespace diabolo;
 
@@ -116,6 +117,26 @@ TEST_CASE("a wrap is claimed beside friction that is") {
   claim_wraps(without, fit, 8.0);
   CHECK(stands(with, "string_wrap"));
   CHECK_FALSE(stands(without, "string_wrap"));
+}
+
+TEST_CASE("a string is no shorter that may as well be wrapped") {
+  Fit fit;
+  fit.at[index_of(Unknown::kAxleRadius)] = 0.0065;  // a turn takes 40.8 mm
+  const auto judged = [&](double longer, bool tied) {
+    Diagnosis d;
+    d.findings = {claim("string_friction", 20.0, {}), claim("string_length", 30.0, {})};
+    if (tied) d.findings.front().tied_with = {"string_wrap"};
+    d.findings.back().deviation[index_of(Unknown::kStringLength)] = 5e-4;
+    fit.at[index_of(Unknown::kStringLength)] = longer;
+    withdraw_length_of_a_wrap(d, fit);
+    CHECK(stands(d, "string_friction"));
+    return stands(d, "string_length");
+  };
+  CHECK_FALSE(judged(-0.041, true));
+  CHECK_FALSE(judged(-0.036, true));  // within the floor
+  CHECK(judged(-0.041, false));
+  CHECK(judged(-0.025, true));
+  CHECK(judged(0.041, true));
 }
 
 TEST_CASE("a fault that would have to be larger than any is told where something stays unexplained") {

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/judge_adequacy.hpp"
+#include "diabolo/diagnose/left_out_says.hpp"
+#include "diabolo/diagnose/significance.hpp"
+
+// Claims that do not stand, and why.
+namespace diabolo {
+
+inline void claims_first(Diagnosis& d) {
+  // (The algorithm on ranges returns a subrange, which Clang 14 cannot read in libstdc++ 12.)
+  std::stable_partition(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.claimed; });
+}
+
+/// No fault is claimed that lies farther off than any measurement: something else is at work. (To be asked
+/// once other explanations have been tried: a rate that is off by 4 % looks like a scale that is off by 8 %.)
+inline void withdraw_what_cannot_be(Diagnosis& d) {
+  for (Finding& f : d.findings) {
+    if (!f.claimed || f.possible) continue;
+    f.claimed = false;
+    f.reason = "farther off than any measurement: something else is at work";
+  }
+  claims_first(d);
+}
+
+/// Physics that is left out since it is not sure, and would leave nothing sure of a fault; null where there
+/// is none.
+inline const Candidate* physics_instead(const Evidence& evidence, const Bank& bank, const ActiveSet& set,
+                                        const Candidate& fault) {
+  for (const Candidate* other : bank) {
+    if (!is_law(*other) || is_in(set, *other)) continue;
+    const Estimates beside = estimates_of(evidence, with(set, *other));
+    const double z = significance(*other, beside);
+    if ((other->positive ? z : std::abs(z)) < kMayBe) continue;
+    if (!speaks_for(fault, significance(fault, beside)) || !is_beyond_floor(fault, beside)) return other;
+  }
+  return nullptr;
+}
+
+/// No fault is claimed that may as well be physics. (To be asked after exchange_claims(), which tries others
+/// in the place of claims.)
+inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence, const Bank& bank,
+                                         const ActiveSet& set) {
+  for (Finding& f : d.findings) {
+    if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement) continue;
+    const Candidate* other = physics_instead(evidence, bank, set, *f.candidate);
+    if (other == nullptr) continue;
+    f.claimed = false;
+    f.reason = "may as well be " + std::string(other->plain);
+  }
+  claims_first(d);
+}
+
+/// Nor is a string shorter than it was told that may as well be wrapped around the axle.
+inline void withdraw_length_of_a_wrap(Diagnosis& d, const Fit& fit) {
+  const auto wrapped = [](const Finding& f) {
+    return f.claimed && std::ranges::find(f.tied_with, "string_wrap") != f.tied_with.end();
+  };
+  if (std::ranges::none_of(d.findings, wrapped)) return;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const int length = index_of(Unknown::kStringLength), radius = index_of(Unknown::kAxleRadius);
+  for (Finding& f : d.findings) {
+    if (!f.claimed || f.candidate->name != "string_length") continue;
+    const double left = fit.at[length] + kTurn * fit.at[radius],
+                 deviation = std::hypot(f.deviation[length], kTurn * f.deviation[radius]);
+    if (std::abs(left) - kBeyondFloor * deviation > f.candidate->floor) continue;
+    f.claimed = false;
+    f.reason = "may as well be " + std::string(candidate_of("string_wrap").plain);
+  }
+  claims_first(d);
+}
+
+/// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim
+/// on the spin; any, where positions are. Returns whether that was so.
+inline bool withdraw_what_does_not_help(Diagnosis& d, const HeldOut& heldout) {
+  const LeftOutSays position(heldout.position.improvement_ci95, kImmaterialPosition),
+      spin(heldout.spin.improvement_ci95, kImmaterialSpin);
+  if (!position.against() && !spin.against()) return false;
+  bool withdrawn = false;
+  for (Finding& f : d.findings) {
+    if (!f.claimed || (!position.against() && !is_of_spin(*f.candidate))) continue;
+    f.claimed = false;
+    withdrawn = true;
+    d.withdrawn = d.withdrawn || (f.candidate->kind == CandidateKind::kPhysics && std::abs(f.z) > kStrong);
+    f.reason = kDenied;
+  }
+  return position.against() || withdrawn;
+}
+
+/// Nothing is claimed that leaves the gap more than half open where the middle window still misses by far:
+/// the motion is none that these laws make. Returns whether that was so. (Bodies under each other's names are
+/// seen without a fit.)
+inline bool withdraw_what_explains_too_little(Diagnosis& d) {
+  const Adequacy& a = d.adequacy;
+  if (a.overall.empty() || a.overall.front().quantity != "position" || !a.explained) return false;
+  const std::optional<double> half =
+      d.heldout.augmented_median.size() > 2 ? d.heldout.augmented_median[2] : std::nullopt;
+  const bool far = a.overall.front().times_noise > kFarOff || half.value_or(0.0) > kFarOffAnyway;
+  if (!far || *a.explained >= kHalfOpen || a.adequate.value_or(true)) return false;
+  for (Finding& f : d.findings) {
+    if (!f.claimed) continue;
+    f.claimed = false;
+    f.reason = "leaves more than half of the gap: the motion is none that the known laws make";
+  }
+  return true;
+}
+
+/// No physics is claimed without which what was left out is surely predicted better, or rather better where
+/// the spin does not say otherwise. Nor are tips somewhere else, unless it is predicted worse without at half
+/// of the horizons, where that can be said: six numbers explain much that nobody knows. (Of other faults this
+/// is not asked: what one of them does, tips elsewhere could do as well. What acts on the spin alone is
+/// judged by the spin.) Returns the least sure physics that was withdrawn, which the model has to do without;
+/// null where there is none.
+inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
+  const Finding* weakest = nullptr;
+  for (Finding& f : d.findings) {
+    const LeftOutSays position(f.worsening_ci95, kImmaterialPosition),
+        spin(f.spin_worsening_ci95, kImmaterialSpin), &says = is_of_spin(*f.candidate) ? spin : position;
+    const bool physics = is_law(*f.candidate), tips = first_of(*f.candidate) == Unknown::kLeftX;
+    const bool denied = physics ? says.against() || (says.leans_against() && spin.better == 0)
+                                : tips && 2 * says.better < says.horizons;
+    if (!f.claimed || !denied) continue;
+    f.claimed = false;
+    f.reason = kDenied;
+    if (!physics) continue;
+    d.withdrawn = d.withdrawn || (says.against() && std::abs(f.z) > kStrong);
+    if (weakest == nullptr || std::abs(f.z) < std::abs(weakest->z)) weakest = &f;
+  }
+  const Candidate* result = weakest == nullptr ? nullptr : weakest->candidate;
+  claims_first(d);
+  return result;
+}
+
+/// Of physics that left-out data denied before the last fit.
+inline void say_denied(Diagnosis& d, const Candidate& candidate) {
+  for (Finding& f : d.findings)
+    if (f.candidate == &candidate && !f.claimed) f.reason = kDenied;
+}
+
+}  // namespace diabolo
