@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "diabolo/diagnose/next_experiment.hpp"
 
+#include <cmath>
+
 #include "catch.hpp"
 #include "diabolo/diagnose/compiled.hpp"
 #include "diabolo/diagnose/first_fit.hpp"
@@ -58,6 +60,24 @@ TEST_CASE("every part of a motion can be simulated and seen, whatever the string
         CHECK(static_cast<double>(r.size()) / r.rate == Approx(part.seconds).margin(0.02));
         CHECK(make_fit_take(r).windows.size() >= 1);
       }
+}
+
+TEST_CASE("a motion in which the diabolo is dropped says nothing") {
+  MotionPart part = experiments().front().parts.front();
+  const Experiment kept{"throw", "a throw", 1.0, {part}};
+  part.velocity = Vector3<double>(8.0, 0.0, -8.0);
+  part.seconds = 6.0;  // it falls by more than 100 m
+  const Experiment dropped{"drop", "a drop", 6.0, {part}};
+  const Model physics = consistent_model();
+  Fit seen = diagnose_detail::prepared({imagined(kept.parts.front(), physics, camera())}, physics);
+  seen.noise.front() = {4e-4, 0.5};
+  const Alternative explanation{"air_drag_linear", seen.delay, nuisances(), seen.at};
+  const auto left = [&](const Experiment& experiment) {
+    return diagnose_detail::left_of<diagnose_detail::FitDual>(experiment, physics, explanation, seen, physics,
+                                                              1, {});
+  };
+  CHECK(std::isfinite(left(kept)));
+  CHECK(std::isnan(left(dropped)));
 }
 
 TEST_CASE("laws of drag are parted by throws, string and sticks by turning the sticks") {

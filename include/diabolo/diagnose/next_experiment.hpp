@@ -13,6 +13,7 @@
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/experiments.hpp"
 #include "diabolo/diagnose/refine.hpp"
+#include "diabolo/evaluate/evaluation_step.hpp"
 
 namespace diabolo {
 
@@ -22,7 +23,8 @@ inline constexpr double kLongOdds = 1e6;
 namespace diagnose_detail {
 
 /// What is left of a motion that a perfect camera sees where `truth` holds, once an explanation is fitted to
-/// it alone, in units of twice the logarithm of odds. The noise is that of the camera which saw the tie.
+/// it alone, in units of twice the logarithm of odds; NaN where the diabolo is dropped. The noise is that of
+/// the camera which saw the tie.
 template <class D>
 double left_of(const Experiment& experiment, const Model& truth, const Alternative& explanation,
                const Fit& seen, const Model& physics, int threads, const FitWatch& watch) {
@@ -31,7 +33,8 @@ double left_of(const Experiment& experiment, const Model& truth, const Alternati
   like.string_length += seen.at[index_of(Unknown::kStringLength)];
   for (const MotionPart& part : experiment.parts) {
     const Recording recording = imagined(part, truth, like);
-    if (!recording.diabolo.position.allFinite()) return kNaN;
+    for (Eigen::Index i = 0; i < recording.size(); ++i)
+      if (!is_in_world(recording.diabolo.position.col(i))) return kNaN;  // it was dropped
     fit.fit_takes.push_back(make_fit_take(recording));
     fit.noise.push_back(seen.noise.front());
   }
