@@ -200,7 +200,7 @@ def draw_power(path: Path, rows: list[dict[str, Any]]) -> bool:
     axes.axvline(10.0, color="grey", linewidth=0.8)
     axes.set(xscale="log", ylim=(-0.02, 1.02), xlabel="SNR of the effect", ylabel="in the answer or its tie")
     temporary = path.with_name(f".{path.name}")
-    figure.savefig(temporary, dpi=120, format="png")
+    figure.savefig(temporary, dpi=80, format="png")
     temporary.replace(path)
     return True
 
