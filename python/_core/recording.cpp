@@ -163,10 +163,11 @@ assumed, which is warned of.)");
           "Rows first to last, both included; `name` is what the part is called, by default as the whole.");
   cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
           "The recording at another rate [Hz]; dropouts are not bridged.");
-  cls.def("put_right", &read_again, Unlocked(),
-          "What a file of it would be read as: stamps that jitter are moved to even times, markers that jump or "
-          "freeze are masked, a frame that is turned by a quarter is turned back; `notes` tell. Raises "
-          "RecordingError where the motion says that z does not point up.");
+  cls.def(
+      "put_right", &read_again, Unlocked(),
+      "What a file of it would be read as: stamps that jitter are moved to even times, markers that jump or "
+      "freeze are masked, a frame that is turned by a quarter is turned back; `notes` tell. Raises "
+      "RecordingError where the motion says that z does not point up.");
   cls.def("warnings", &warnings, Unlocked(),
           "What its reader changed, and what is odd about it although it is well formed, such as other "
           "units, tips "

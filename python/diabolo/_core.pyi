@@ -836,6 +836,8 @@ class Recording:
   def __len__(self) -> int: ...
   def cut(self, first: _Whole, last: _Whole, *, name: str | None = None) -> Recording:
     """Rows first to last, both included; `name` is what the part is called, by default as the whole."""
+  def put_right(self) -> Recording:
+    """What a file of it would be read as: stamps that jitter are moved to even times, markers that jump or freeze are masked, a frame that is turned by a quarter is turned back; `notes` tell. Raises RecordingError where the motion says that z does not point up."""
   def resample(self, rate: _Real) -> Recording:
     """The recording at another rate [Hz]; dropouts are not bridged."""
   def save(self, path: os.PathLike | str | bytes) -> None:
