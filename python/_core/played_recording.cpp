@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/recording/check.hpp"
 #include "diabolo/text/shown.hpp"
 
 #include "arrays.hpp"
@@ -29,9 +30,11 @@ Eigen::Matrix3Xd to_columns(const Array& rows, const std::string& name) {
 /// `states`, shape (N, 7): position [m], velocity [m/s] and spin [rad/s]; `axis`, of the axle, shape (N, 3).
 Recording make_played(const std::string& name, const Array& time, const Array& left, const Array& right,
                       const Array& states, double rate, const DiaboloProperties& properties,
-                      double string_length, const std::optional<Array>& axis) {
+                      double string_length, const std::optional<Array>& axis, double clock) {
   expect_shape(time, "time", {kAny});
   expect_shape(states, "states", {time.shape(0), 7});
+  if (!(std::abs(clock) <= kLargestTime))
+    throw std::invalid_argument("clock: " + shown(clock) + " s; expected within 1e9 s");
   if (axis) expect_shape(*axis, "axis", {time.shape(0), 3});
   std::vector<State<double>> played(static_cast<std::size_t>(states.shape(0)));
   for (py::ssize_t i = 0; i < states.shape(0); ++i) {
@@ -46,9 +49,11 @@ Recording make_played(const std::string& name, const Array& time, const Array& l
       throw std::invalid_argument("axis: norm " + shown(state.axis.norm()) + " in row " + std::to_string(i) +
                                   "; expected unit vectors");
   }
-  return played_recording(name, Eigen::Map<const Eigen::VectorXd>(time.data(), time.shape(0)),
-                          to_columns(left, "left"), to_columns(right, "right"), played, rate, properties,
-                          string_length);
+  Recording recording = played_recording(name, Eigen::Map<const Eigen::VectorXd>(time.data(), time.shape(0)),
+                                         to_columns(left, "left"), to_columns(right, "right"), played, rate,
+                                         properties, string_length);
+  recording.clock = clock;
+  return recording;
 }
 
 /// x, y, z, w.
@@ -70,11 +75,12 @@ void bind_played_recording(py::module_& module) {
       "along `axis`, a unit vector.");
   module.def(
       "played_recording", &make_played, "name"_a, "time"_a, "left"_a, "right"_a, "states"_a, "rate"_a,
-      "properties"_a, "string_length"_a, "axis"_a = py::none(),
+      "properties"_a, "string_length"_a, "axis"_a = py::none(), "clock"_a = 0.0,
       "A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position "
       "[m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin about the "
       "axle's "
-      "`axis`, unit vectors, shape (N, 3), by default world x.");
+      "`axis`, unit vectors, shape (N, 3), by default world x. `clock` is the time of laws at "
+      "its begin [s].");
 }
 
 }  // namespace diabolo::python

@@ -836,8 +836,8 @@ class Recording:
   def __len__(self) -> int: ...
   def cut(self, first: _Whole, last: _Whole, *, name: str | None = None) -> Recording:
     """Rows first to last, both included; `name` is what the part is called, by default as the whole."""
-  def put_right(self) -> Recording:
-    """What a file of it would be read as: stamps that jitter are moved to even times, markers that jump or freeze are masked, a frame that is turned by a quarter is turned back; `notes` tell. Raises RecordingError where the motion says that z does not point up."""
+  def put_right(self, *, up: str | None = None) -> Recording:
+    """What a file of it would be read as, `up` being as of `load`: stamps that jitter are moved to even times, and a rate that they contradict gives way to theirs; markers that jump or freeze are masked; a frame that is turned by a quarter is turned back. `notes` tell. Raises RecordingError where the motion says that another axis points up, a coordinate was not recorded, or rows come too close together."""
   def resample(self, rate: _Real) -> Recording:
     """The recording at another rate [Hz]; dropouts are not bridged."""
   def save(self, path: os.PathLike | str | bytes) -> None:
@@ -2594,8 +2594,8 @@ def played_orientation(axis: _Reals, turned: _Real) -> _Array:
   """How a diabolo lies that has spun by `turned` [rad]: a quaternion x, y, z, w, body to world, body x along `axis`, a unit vector."""
 def played_properties(parameters: Parameters) -> DiaboloProperties:
   """The diabolo of a model: cups of the paper's red one, the model's mass and axle."""
-def played_recording(name: str, time: _Reals, left: _Reals, right: _Reals, states: _Reals, rate: _Real, properties: DiaboloProperties, string_length: _Real, axis: _Reals | None = None) -> Recording:
-  """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin about the axle's `axis`, unit vectors, shape (N, 3), by default world x."""
+def played_recording(name: str, time: _Reals, left: _Reals, right: _Reals, states: _Reals, rate: _Real, properties: DiaboloProperties, string_length: _Real, axis: _Reals | None = None, clock: _Real = 0.0) -> Recording:
+  """A predicted play as a recording: time [s], shape (N,), tips [m], shape (N, 3), and states, position [m], velocity [m/s] and spin [rad/s], shape (N, 7); its orientations turn by the spin about the axle's `axis`, unit vectors, shape (N, 3), by default world x. `clock` is the time of laws at its begin [s]."""
 def predict(recording: Recording, model: Model, row: _Whole | None, start: str) -> tuple:
   """See diabolo.predict."""
 def read_recording(text: str, path: os.PathLike | str | bytes, calibration: Calibration | None, up: str | None, columns: None | str | collections.abc.Mapping[str, str]) -> Recording:

@@ -219,7 +219,7 @@ def list_of(name: str, given: Any, kinds: tuple[type, ...] = (Recording,), *, le
     excerpt as its part."""
     expected = " or ".join(kind.__name__ for kind in kinds)
     if Recording in kinds:
-        expected += " or the name of a file"
+        expected += ", an Excerpt or the name of a file"
 
     def one(place: str, item: Any) -> Any:
         if isinstance(item, kinds):

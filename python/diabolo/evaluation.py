@@ -116,7 +116,7 @@ def evaluate(
 
         evaluate("throw_1.csv").rows[0].error  # [m]
     """
-    given = list_of("recordings", recordings, (Recording, Excerpt), least=1)
+    given = [_checked(take) for take in list_of("recordings", recordings, (Recording, Excerpt), least=1)]
     one_of("start", start, STARTS)
     chosen = [model_of("models", model) for model in (models if is_several(models) else [models])]
     if not chosen:
@@ -130,9 +130,9 @@ def evaluate(
     seed = whole_number("seed", seed, 0, LARGEST_SEED)
     callable_or_none("progress", progress)
     report = progress or (lambda fraction: None)
-    takes = [_cut(take) for take in given]
+    takes = [take if isinstance(take, Recording) else take.part() for take in given]
     check_distinct(takes, parts=False)
-    warn_of(takes)
+    warn_of([_under_its_name(take) for take in given])
     if starts_every is None:
         return Evaluation(_table(given, chosen, report), [])
 
@@ -191,24 +191,26 @@ def position_errors(recording: AnyRecording, predicted: Rollout) -> NDArray[np.f
     return distance
 
 
-def _cut(take: Recording | Excerpt) -> Recording:
-    """Under the name of the whole, by which the paper's table knows it."""
+def _checked(take: Recording | Excerpt) -> Recording | Excerpt:
+    """An excerpt of rows that are there; of all rows, its recording."""
     if isinstance(take, Recording):
         return take
-    checked = excerpt_of("Excerpt", take)
-    return checked.recording.cut(checked.first, checked.last)
+    excerpt = excerpt_of("recordings", take)
+    return excerpt.recording if excerpt.is_whole else excerpt
+
+
+def _under_its_name(take: Recording | Excerpt) -> Recording:
+    """The rows under the name of the whole, by which the paper's table knows it, and of which one is warned
+    once."""
+    return take if isinstance(take, Recording) else take.recording.cut(take.first, take.last)
 
 
 def _labels(given: list[Recording | Excerpt]) -> list[str]:
-    """Names of the recordings, with the rows where they are not all; equal ones are numbered."""
+    """Names, with the rows where they are not all; equal ones are numbered."""
     labels = [ALL_RECORDINGS]  # taken
     for take in given:
-        rows = "" if isinstance(take, Recording) else f":{take.first}-{take.last}"
-        name = (take if isinstance(take, Recording) else take.recording).name + rows
-        numbered = (f"{name} ({number})" for number in itertools.count(2))
-        labels.append(
-            name if name not in labels else next(other for other in numbered if other not in labels)
-        )
+        names = itertools.chain([take.name], (f"{take.name} ({number})" for number in itertools.count(2)))
+        labels.append(next(name for name in names if name not in labels))
     return labels[1:]
 
 
@@ -226,7 +228,7 @@ def _table(
 
 def _scores(take: Recording | Excerpt, model: Model) -> list[_core.ExcerptScore]:
     if isinstance(take, Excerpt):
-        return [_core.score_excerpt(_cut(take), model)]
+        return [_core.score_excerpt(_under_its_name(take), model)]
     return _core.score_excerpts(take, model)
 
 

@@ -9,7 +9,7 @@ from ._core import Recording
 
 
 class Excerpt(NamedTuple):
-    """Some rows of a recording, first and last included; it stands wherever a recording does."""
+    """Some rows of a recording, first and last included; it stands wherever the name of a file does."""
 
     recording: Recording
     first: int
@@ -20,9 +20,14 @@ class Excerpt(NamedTuple):
         """Whether it has all rows."""
         return (self.first, self.last) == (0, len(self.recording) - 1)
 
+    @property
+    def name(self) -> str:
+        """NAME:FIRST-LAST, or NAME where it is whole."""
+        return self.recording.name + ("" if self.is_whole else f":{self.first}-{self.last}")
+
     def part(self) -> Recording:
-        """A recording of these rows alone, called NAME:FIRST-LAST, or NAME where it is whole."""
-        if self.is_whole:
-            return self.recording
-        name = f"{self.recording.name}:{self.first}-{self.last}"
-        return self.recording.cut(self.first, self.last, name=name)
+        """A recording of these rows alone, under the excerpt's name. Raises ValueError where it lacks one."""
+        from .checks import excerpt_of  # which knows excerpts
+
+        checked = excerpt_of("Excerpt", self)
+        return checked.recording.cut(checked.first, checked.last, name=checked.name)

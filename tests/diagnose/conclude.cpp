@@ -120,15 +120,17 @@ TEST_CASE("a wrap is claimed beside friction that is") {
 }
 
 TEST_CASE("a string is no shorter that may as well be wrapped") {
-  Fit fit;
-  fit.at[index_of(Unknown::kAxleRadius)] = 0.0065;  // a turn takes 40.8 mm
+  const int length = index_of(Unknown::kStringLength), radius = index_of(Unknown::kAxleRadius);
+  Estimates now{UnknownVector::Zero(), Eigen::MatrixXd::Zero(kUnknowns, kUnknowns),
+                Eigen::MatrixXd::Zero(kUnknowns, kUnknowns)};
+  now.estimate[radius] = 0.0065;  // a turn takes 40.8 mm
+  now.noise(length, length) = 5e-4 * 5e-4;
   const auto judged = [&](double longer, bool tied) {
     Diagnosis d;
     d.findings = {claim("string_friction", 20.0, {}), claim("string_length", 30.0, {})};
     if (tied) d.findings.front().tied_with = {"string_wrap"};
-    d.findings.back().deviation[index_of(Unknown::kStringLength)] = 5e-4;
-    fit.at[index_of(Unknown::kStringLength)] = longer;
-    withdraw_length_of_a_wrap(d, fit);
+    now.estimate[length] = longer;
+    withdraw_length_of_a_wrap(d, now);
     CHECK(stands(d, "string_friction"));
     return stands(d, "string_length");
   };
@@ -137,6 +139,8 @@ TEST_CASE("a string is no shorter that may as well be wrapped") {
   CHECK(judged(-0.041, false));
   CHECK(judged(-0.025, true));
   CHECK(judged(0.041, true));
+  now.spread(length, length) = now.spread(radius, length) = now.spread(length, radius) = 25e-6;
+  CHECK_FALSE(judged(-0.025, true));  // too unsure to tell
 }
 
 TEST_CASE("a fault that would have to be larger than any is told where something stays unexplained") {

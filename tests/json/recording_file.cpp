@@ -42,6 +42,8 @@ TEST_CASE("Metadata is read as it stands and written back") {
 }
 
 TEST_CASE("Missing and wrong metadata are named") {
+  CHECK(metadata_complaint("\"rate\": 100", "\"clock\": 1e300, \"rate\": 100") ==
+        "play.json: field \"clock\" is 1e+300; expected seconds within 1e9");
   CHECK(metadata_complaint("recording/1", "calibration/1") ==
         "play.json: field \"schema\" is \"diabolo.calibration/1\"; expected \"diabolo.recording/1\"");
   CHECK(metadata_complaint("\"SI\"", "\"mm\"") == "play.json: field \"units\" is \"mm\"; expected \"SI\"");

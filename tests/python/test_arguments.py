@@ -6,12 +6,13 @@ from __future__ import annotations
 import copy
 import inspect
 import pickle
+import re
 import subprocess
 import sys
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import diabolo
 import numpy as np
@@ -356,19 +357,26 @@ def test_a_rollout_tells_samples_duration_and_end() -> None:
 
 def test_an_excerpt_does_for_a_recording(played: Recording) -> None:
     excerpt, whole = diabolo.Excerpt(played, 60, 180), diabolo.Excerpt(played, 0, len(played) - 1)
-    assert whole.part() is played and excerpt.part().name == f"{played.name}:60-180"
+    assert whole.part().name == played.name and excerpt.part().name == f"{played.name}:60-180"
     np.testing.assert_array_equal(
         diabolo.predict(excerpt).states, diabolo.predict(played.cut(60, 180)).states
     )
     parts = [diabolo.Excerpt(played, 0, 40), diabolo.Excerpt(played, 30, 80)]
     with pytest.warns(diabolo.RecordingWarning, match="'played:30-80' overlaps 'played:0-40' by 11 samples"):
         diabolo.diagnose(parts)
-    for wrong, words in (
-        (diabolo.Excerpt(played, 60, 999), "Excerpt.last: 999"),
-        (diabolo.Excerpt("played.csv", 0, 1), "Excerpt.recording: 'played.csv'; expected a Recording"),  # type: ignore[arg-type]
+    row = diabolo.evaluate(diabolo.Excerpt(played, np.int64(60), np.int64(180)), "paper").rows[0]
+    assert row.frames == (60, 180) and row.recording == played.name and type(row.frames[0]) is int
+
+
+@pytest.mark.parametrize("use", [diabolo.diagnose, diabolo.evaluate, diabolo.Excerpt.part])
+def test_a_wrong_excerpt_is_told(played: Recording, use: Callable[[Any], Any]) -> None:
+    for recording, last, words in (
+        (played, 999, ".last: 999; expected a whole number from 60 to 480"),
+        (cast(Any, "played.csv"), 100, ".recording: 'played.csv'; expected a Recording"),
     ):
-        with pytest.raises(ValueError, match=words.replace("Excerpt", r"recordings?")):
-            diabolo.diagnose(wrong)
+        with pytest.raises(ValueError, match=re.escape(words)) as told:
+            use(diabolo.Excerpt(recording, 60, last))
+        assert str(told.value).split(".")[0] in ("recordings", "Excerpt")
 
 
 @pytest.mark.parametrize("kind", [str, Path], ids=["str", "Path"])

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,7 +31,7 @@ struct Alternative {
 /// What took a claim's place, or kept it, and what does as well.
 struct Replacement {
   std::string_view name;               ///< of the best
-  std::vector<std::string> tied_with;  ///< others that do as well
+  std::vector<std::string> tied_with;  ///< others that do as well, or would but for a single window
   double z = 0.0;  ///< by how much the claim that it replaced is worse [standard deviations]
 };
 
@@ -207,9 +206,9 @@ inline std::optional<bool> is_sure(const Fit& trial, const Alternative& other) {
 
 /// Refits with each alternative to a claim and keeps the best: of those that are sure and explain it as well
 /// as any, the one that needs the fewest; then a fault stays what it is, the others being rarer, and physics
-/// is what leaves least. One that may be there and does as well is a tie, and one that does worse where the
-/// windows do not agree on it. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to
-/// what is best.
+/// is what leaves least. One that may be there and does as well is a tie, and so is one that would do as well
+/// but for a single window. `draft` holds what is claimed before; `fit`, `bank` and `set` are moved to what
+/// is best.
 template <class D = diagnose_detail::FitDual>
 std::vector<Replacement> exchange_claims(Fit& fit, Bank& bank, ActiveSet& set, const Diagnosis& draft,
                                          const Model& base, int threads, const FitWatch& watch) {

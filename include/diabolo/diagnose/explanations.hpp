@@ -26,8 +26,8 @@ struct Explanation {
   ActiveSet set;
   std::ptrdiff_t explanations;  ///< that the fit is sure of
   bool sure;                    ///< else it may be there
-  bool as_good = true;          ///< as any that is sure
-  bool by_one_window = true;    ///< no worse than that but for a single window
+  bool as_good = true;          ///< as any that is sure; set by keep_the_good()
+  bool but_for_one = true;      ///< that, or would be but for a single window
 };
 
 /// By how much the window that most prefers `one` to `other` does, in cost.
@@ -48,7 +48,7 @@ inline void add(std::vector<Explanation>& options, Explanation option) {
 }
 
 /// Leaves those that explain a claim as well as the best that is sure, and those that would but for a single
-/// window: a catch that one of them mistimes decides nothing. Marks the first.
+/// window: a catch that one of them mistimes decides nothing.
 inline void keep_the_good(std::vector<Explanation>& options, std::string_view claim) {
   const auto order = [](const Explanation& option) { return std::tuple(!option.sure, option.fit.cost); };
   const Fit& best = std::ranges::min_element(options, {}, order)->fit;
@@ -58,9 +58,9 @@ inline void keep_the_good(std::vector<Explanation>& options, std::string_view cl
   for (Explanation& option : options) {
     const double more = option.fit.cost - best.cost;
     option.as_good = more < worse;
-    option.by_one_window = more - strongest_preference(best, option.fit) < worse;
+    option.but_for_one = more - strongest_preference(best, option.fit) < worse;
   }
-  std::erase_if(options, [](const Explanation& o) { return !o.as_good && !o.by_one_window; });
+  std::erase_if(options, [](const Explanation& option) { return !option.but_for_one; });
 }
 
 /// See exchange_claims().

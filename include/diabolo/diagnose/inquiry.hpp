@@ -119,7 +119,7 @@ class Inquiry : public ClaimSearch<D> {
         if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
       for (const Candidate* candidate : denied_) std::erase(f.tied_with, candidate->name);
     }
-    withdraw_length_of_a_wrap(result_, fit_);
+    withdraw_length_of_a_wrap(result_, estimates_of(evidence, set_));
     for (const Replacement& exchange : exchanged_)
       if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);
   }

@@ -13,7 +13,6 @@
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/experiments.hpp"
 #include "diabolo/diagnose/refine.hpp"
-#include "diabolo/evaluate/evaluation_step.hpp"
 
 namespace diabolo {
 
@@ -21,6 +20,12 @@ namespace diabolo {
 inline constexpr double kLongOdds = 1e6;
 
 namespace diagnose_detail {
+
+/// Whether it lies a string's length below the lower tip, or nowhere.
+inline bool is_dropped(const Recording& r) {
+  const auto lower = r.left.position.row(2).cwiseMin(r.right.position.row(2)).array() - r.string_length;
+  return !(r.diabolo.position.row(2).array() > lower).all();
+}
 
 /// What is left of a motion that a perfect camera sees where `truth` holds, once an explanation is fitted to
 /// it alone, in units of twice the logarithm of odds; NaN where the diabolo is dropped. The noise is that of
@@ -33,8 +38,7 @@ double left_of(const Experiment& experiment, const Model& truth, const Alternati
   like.string_length += seen.at[index_of(Unknown::kStringLength)];
   for (const MotionPart& part : experiment.parts) {
     const Recording recording = imagined(part, truth, like);
-    for (Eigen::Index i = 0; i < recording.size(); ++i)
-      if (!is_in_world(recording.diabolo.position.col(i))) return kNaN;  // it was dropped
+    if (is_dropped(recording)) return kNaN;
     fit.fit_takes.push_back(make_fit_take(recording));
     fit.noise.push_back(seen.noise.front());
   }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
@@ -60,19 +61,21 @@ inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence,
   claims_first(d);
 }
 
-/// Nor is a string shorter than it was told that may as well be wrapped around the axle.
-inline void withdraw_length_of_a_wrap(Diagnosis& d, const Fit& fit) {
+/// No string is claimed to be shorter than it was told that may as well be wrapped around the axle.
+inline void withdraw_length_of_a_wrap(Diagnosis& d, const Estimates& now) {
   const auto wrapped = [](const Finding& f) {
     return f.claimed && std::ranges::find(f.tied_with, "string_wrap") != f.tied_with.end();
   };
   if (std::ranges::none_of(d.findings, wrapped)) return;
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const int length = index_of(Unknown::kStringLength), radius = index_of(Unknown::kAxleRadius);
+  // By how much the string is longer than told, one turn of it being on the axle.
+  const std::vector<int> own{index_of(Unknown::kStringLength), index_of(Unknown::kAxleRadius)};
+  const Eigen::Vector2d turn(1.0, 2.0 * std::numbers::pi), at = now.estimate(own);
+  const auto variance = [&](const Eigen::MatrixXd& of) { return turn.dot(of(own, own) * turn); };
+  const double longer = std::abs(turn.dot(at)),
+               deviation = std::sqrt(std::max(variance(now.noise), variance(now.spread)));
   for (Finding& f : d.findings) {
     if (!f.claimed || f.candidate->name != "string_length") continue;
-    const double left = fit.at[length] + kTurn * fit.at[radius],
-                 deviation = std::hypot(f.deviation[length], kTurn * f.deviation[radius]);
-    if (std::abs(left) - kBeyondFloor * deviation > f.candidate->floor) continue;
+    if (longer - kBeyondFloor * deviation > f.candidate->floor) continue;
     f.claimed = false;
     f.reason = "may as well be " + std::string(candidate_of("string_wrap").plain);
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -47,6 +48,9 @@ inline TidyMetadata read_metadata(std::string_view text, const std::string& file
                         fields.positive("rate"),
                         fields.has("assumed") ? fields.texts("assumed") : std::vector<std::string>{},
                         fields.has("clock") ? fields.number("clock") : 0.0};
+  if (!(std::abs(metadata.clock) <= kLargestTime))
+    throw RecordingError(file_name + ": field \"clock\" is " + shown(metadata.clock) +
+                         "; expected seconds within 1e9");
   check_assumed(metadata.assumed, file_name);
   check_properties(metadata.properties, metadata.string_length, file_name);
   return metadata;

@@ -135,7 +135,7 @@ def split_excerpt(text: str) -> tuple[str, tuple[int, int] | None]:
     if Path(text).exists():
         return text, None
     file, _, rows = text.rpartition(":")
-    if match := re.fullmatch(r"(\d{1,9})-(\d{1,9})", rows):
+    if match := re.fullmatch(r"([0-9]{1,9})-([0-9]{1,9})", rows):
         return file, (int(match[1]), int(match[2]))
     if Path(file).is_file():
         raise ValueError(f"{text}: '{rows}'; expected the rows FIRST-LAST, as in {file}:0-180")

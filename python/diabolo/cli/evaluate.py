@@ -131,11 +131,10 @@ def evaluate_excerpts(
     seed: int = 1,
     threads: int = 0,
 ) -> Evaluation:
-    """As diabolo.evaluate, with a progress bar; an excerpt of all rows counts as the recording."""
-    takes = [e.recording if e.is_whole else e for e in excerpts]
+    """As diabolo.evaluate, with a progress bar."""
     with progress_bar("evaluating") as progress:
         return evaluate(
-            takes, models, starts_every=starts_every, seed=seed, threads=threads, progress=progress
+            excerpts, models, starts_every=starts_every, seed=seed, threads=threads, progress=progress
         )
 
 

@@ -107,7 +107,8 @@ def describe(text: str, reading: Reading) -> dict[str, Any]:
     seen = [_body(name, valid[first : last + 1], time, rate) for name, valid in bodies.items()]
     return {
         "schema": SCHEMA,
-        "file": text,
+        "file": path,
+        "rows": [first, last],
         "format": reader or ("motive" if take is not None else "csv" if reading.columns else "tidy"),
         "samples": len(time),
         "rate_hz": rate,
@@ -124,7 +125,7 @@ def describe(text: str, reading: Reading) -> dict[str, Any]:
 def text_of(found: dict[str, Any]) -> str:
     kind = KINDS[found["format"]]
     lines = [
-        f"{found['file']}: {kind}, {found['samples']} samples at {found['rate_hz']:g} Hz, "
+        f"{found['file']}: {kind}, {_rows(found['rows'])} at {found['rate_hz']:g} Hz, "
         f"{found['duration_s']:.2f} s",
         "",
         format_table(
@@ -160,6 +161,11 @@ def text_of(found: dict[str, Any]) -> str:
     if not found["warnings"] and not found["not_calibrated"]:
         lines.append("nothing odd")
     return "\n".join(lines)
+
+
+def _rows(rows: list[int]) -> str:
+    first, last = rows
+    return f"{last - first + 1} samples" + (f" from row {first} on" if first > 0 else "")
 
 
 def _warnings(recording: Recording, refused: str | None) -> list[str]:

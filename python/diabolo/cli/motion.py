@@ -92,7 +92,7 @@ def run(arguments: argparse.Namespace) -> None:
         "units": "SI",
         "frame": "x forward, y left, z up",
         "starts": starts,
-    }
+    } | ({"clock": take.clock} if take.clock else {})
     files.write_texts(
         {target: "\n".join(lines) + "\n", target.with_suffix(".json"): json.dumps(told, indent=1) + "\n"}
     )

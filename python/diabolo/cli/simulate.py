@@ -174,7 +174,7 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
     left, right, _, _ = TipMotion.of_recording(take, model.interpolation).at(take.time - take.time[0])
     return (
         played_recording(
-            take.name,
+            excerpt.recording.name,
             take.time,
             np.where(take.left_valid[:, np.newaxis], take.left, left),
             np.where(take.right_valid[:, np.newaxis], take.right, right),
@@ -183,6 +183,7 @@ def on_recording(arguments: argparse.Namespace, model: Model) -> tuple[Recording
             take.properties,
             take.string_length,
             predicted.axis[first:],
+            take.clock,
         ),
         predicted.string_states[first:],
     )

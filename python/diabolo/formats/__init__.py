@@ -17,7 +17,7 @@ from pathlib import Path
 from .. import _core
 from .._core import Calibration, Recording, RecordingError, StickArm
 from ..arms import two_arms
-from ..checks import check_library, file_name, instance_of, shown
+from ..checks import AnyRecording, check_library, file_name, instance_of, recording_of, shown
 from . import bodies, qualisys, vicon
 from .bodies import ROLES, Body
 
@@ -111,7 +111,7 @@ def _names_in(calibration: Calibration | None, known: list[str]) -> dict[str, st
     return found if len(found) == len(ROLES) else {}
 
 
-def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
+def save_recording(recording: AnyRecording, path: str | os.PathLike[str]) -> None:
     """Write it as its suffix says: `.csv` (tidy, with JSON beside it), `.mcap` (poses of ROS 2), `.parquet`
     (the tidy table, with JSON beside it), or `.rrd` (to look at in rerun; it is not read again).
 
@@ -120,7 +120,7 @@ def save_recording(recording: Recording, path: str | os.PathLike[str]) -> None:
         ValueError: a library is not installed.
     """
     path = file_name("path", path)
-    instance_of("recording", recording, Recording)
+    recording = recording_of("recording", recording)
     check_writer(path)
     if path.suffix == ".csv":
         recording.save(path)

@@ -178,7 +178,8 @@ inline void put_rate_right(Recording& r) {
   r.rate = *measured;
 }
 
-/// A clause about times that step unevenly where no rate is clear, or too slowly for play; else empty.
+/// A clause about times that step unevenly, whether they can be put right or no rate is clear, or too slowly
+/// for play; else empty.
 inline std::string odd_times(const Recording& r) {
   constexpr double kLongestPeriod = 0.2;  // s; a beat of the hands has two samples at least
   if (r.size() < 20) return {};
@@ -188,11 +189,11 @@ inline std::string odd_times(const Recording& r) {
   if (const std::optional<double> measured = another_rate(r)) return rates_in_words(r.rate, *measured);
   const double share = share_between_places(r.time, r.rate);
   if (share <= kMostUneven) return {};
+  const std::string rows = " in " + std::to_string(std::lround(100.0 * share)) + " % of the rows";
   if (Recording even = r; regularise_times(even))
-    return "the times jitter about a steady " + shown_rounded(rate_of(even.time)) +
-           " Hz, and no velocities are known there: put_right() moves each row to its even time";
-  return "the times step unevenly in " + std::to_string(std::lround(100.0 * share)) +
-         " % of the rows, too far from a steady " + shown_rounded(r.rate) +
+    return "the times jitter about a steady " + shown_rounded(rate_of(even.time)) + " Hz" + rows +
+           ", where no velocities are known: put_right() moves each row to its even time";
+  return "the times step unevenly" + rows + ", too far from a steady " + shown_rounded(r.rate) +
          " Hz to be put right: no velocities are known there";
 }
 
