@@ -19,7 +19,7 @@ namespace {
 
 /// So many windows of half a second that leave noise averaged over five rows, and `swing` [m] at 2 Hz.
 std::vector<WindowSystem> left_over(double rate, double deviation, double swing, std::uint32_t seed,
-                                    std::size_t count = 40) {
+                                    std::size_t count = 160) {
   std::mt19937_64 generator(seed);
   const Eigen::Index rows = std::lround(0.5 * rate);
   std::vector<WindowSystem> systems(count);
