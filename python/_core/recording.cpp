@@ -136,9 +136,7 @@ Recording read_again(Recording recording, const std::optional<std::string>& up) 
   const std::string title = recording.title();
   ReadOptions options;
   if (up) options.up = up_axis_of(*up);
-  const UpAxis axis = options.up.value_or(UpAxis{});
-  if (axis.axis != 3 || axis.mirrored) recording = turned_to_z_up(std::move(recording), axis);
-  return put_right(std::move(recording), 0.0, options, title);
+  return put_right(std::move(recording), options, title);
 }
 
 Array spin(const Recording& recording, bool with_sign) {
@@ -168,13 +166,11 @@ assumed, which is warned of.)");
   cls.def("resample", py::overload_cast<const Recording&, double>(&resample), "rate"_a,
           "The recording at another rate [Hz]; dropouts are not bridged.");
   cls.def("put_right", &read_again, py::kw_only(), "up"_a = py::none(), Unlocked(),
-          "What a file of it would be read as, `up` being as of `load`: stamps that jitter are moved to even "
-          "times, and "
-          "a rate that they contradict gives way to theirs; markers that jump or freeze are masked; a frame "
-          "that is "
-          "turned by a quarter is turned back. `notes` tell. Raises RecordingError where the motion says "
-          "that another "
-          "axis points up, a coordinate was not recorded, or rows come too close together.");
+          "What a file of it would be read as, `up` being as of `load`: stamps that jitter are moved to "
+          "even times, and a rate that they contradict gives way to theirs; markers that jump or freeze are "
+          "masked; a frame that is turned by a quarter is turned back. `notes` tell. Raises RecordingError "
+          "where the motion says that another axis points up, a coordinate was not recorded, or rows come "
+          "too close together.");
   cls.def("warnings", &warnings, Unlocked(),
           "What its reader changed, and what is odd about it although it is well formed, such as other "
           "units, tips "

@@ -26,7 +26,8 @@ class Excerpt(NamedTuple):
         return self.recording.name + ("" if self.is_whole else f":{self.first}-{self.last}")
 
     def part(self) -> Recording:
-        """A recording of these rows alone, under the excerpt's name. Raises ValueError where it lacks one."""
+        """A recording of these rows alone, under the excerpt's name. Raises ValueError where the recording
+        has no such rows."""
         from .checks import excerpt_of  # which knows excerpts
 
         checked = excerpt_of("Excerpt", self)

@@ -142,6 +142,13 @@ inline Recording put_right(Recording recording, double yaw, const ReadOptions& o
   return recording;
 }
 
+/// The same of a recording in the frame of its file, which is turned first where the options say what is up.
+inline Recording put_right(Recording recording, const ReadOptions& options, const std::string& file_name) {
+  const UpAxis up = options.up.value_or(UpAxis{});
+  if (up.axis != 3 || up.mirrored) recording = turned_to_z_up(std::move(recording), up);
+  return put_right(std::move(recording), 0.0, options, file_name);
+}
+
 /// The recording of rigid bodies, to which `calibration` is applied. Throws RecordingError.
 inline Recording recording_of(TrackedTake take, const Calibration& calibration, const ReadOptions& options) {
   const UpAxis up = options.up.value_or(UpAxis{});
@@ -177,10 +184,7 @@ inline Recording read_recording(const std::string& text, const std::filesystem::
     throw RecordingError(file_name + ", line 1: starts with " + shown(first_line) +
                          "; expected a Motive export (\"Format Version,...\") or a tidy recording "
                          "(\"time,...\"); --columns maps other names");
-  Recording recording = load_tidy(path, text, calibration, options.columns);
-  const UpAxis up = options.up.value_or(UpAxis{});
-  if (up.axis != 3 || up.mirrored) recording = turned_to_z_up(std::move(recording), up);
-  return put_right(std::move(recording), 0.0, options, file_name);
+  return put_right(load_tidy(path, text, calibration, options.columns), options, file_name);
 }
 
 /// The same of a file.
