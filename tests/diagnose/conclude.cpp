@@ -221,3 +221,38 @@ TEST_CASE("too much of what turns the axle is said to be, and how well its direc
   CHECK_THAT(d.sentence, Catch::Contains("What turns the axle is off, too: the simulator leaves out cups of "
                                          "unlike weight and has too much of the tilt"));
 }
+
+TEST_CASE(
+    "where nothing is missing from a simulator that is off, the answer says which calibration that was") {
+  Diagnosis d;
+  d.base_spin_coupling = 0.15;
+  const int drive = index_of(Unknown::kSpinCoupling);
+  d.deviation[drive] = 1e-3;
+  const auto sentence = [](Diagnosis asked, double change, std::optional<bool> base_adequate) {
+    asked.at[index_of(Unknown::kSpinCoupling)] = change;
+    asked.adequacy.base_adequate = base_adequate;
+    conclude(asked);
+    CHECK(asked.headline == Headline::kNothingMissing);
+    return asked.sentence;
+  };
+  const std::string nothing = "Nothing is missing that this recording could show.";
+  CHECK(sentence(d, -0.15, true) == nothing);
+  CHECK(sentence(d, -0.15, std::nullopt) == nothing);
+  CHECK(sentence(d, -0.15, false) == nothing +
+                                         " Calibration makes the difference: the string does not drive the "
+                                         "spin, as the simulator's does by 0.15 1/s.");
+  CHECK(sentence(d, 0.25, false) == nothing +
+                                        " Calibration makes the difference: the string drives the spin by "
+                                        "0.4 1/s, not by 0.15 1/s.");
+  CHECK(sentence(d, 4.9e-3, false) == nothing);  // not sure
+  Finding tips = claim("stick_tip_offset", 13.0, {});
+  tips.claimed = tips.material = false;
+  tips.size = 0.02;
+  d.findings = {tips, tips};
+  d.findings.back().candidate = &candidate_of("time_offset");
+  d.findings.back().size = 5e-4;  // too small to move it
+  CHECK(sentence(d, -0.05, false) == nothing +
+                                         " Calibration makes the difference: the string drives the spin by "
+                                         "0.1 1/s, not by 0.15 1/s; slightly off: the places of the stick "
+                                         "tips.");
+}

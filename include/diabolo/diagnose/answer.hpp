@@ -240,6 +240,7 @@ struct Diagnosis {
   std::string base, sentence, reason;
   double base_gravity = kStandardGravity;  ///< [m/s^2]
   double base_string_length = 0.0;         ///< [m]
+  double base_spin_coupling = 0.0;         ///< [1/s]
   std::vector<Finding> findings;           ///< of every candidate, the surest first
   std::vector<UnexplainedForce> unexplained_forces;
   std::vector<Learnt> learnt;        ///< in the order in which they were

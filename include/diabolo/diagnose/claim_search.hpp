@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "diabolo/diagnose/select.hpp"
 #include "diabolo/diagnose/sufficient.hpp"
 #include "diabolo/diagnose/thin.hpp"
+#include "diabolo/diagnose/thin_axle.hpp"
 #include "diabolo/diagnose/time_budget.hpp"
 
 namespace diabolo {
@@ -46,6 +48,7 @@ class ClaimSearch {
     bank_ = bank_for(physics_.parameters, options.bank, result_.own->list);
     result_.base = options.base.name;
     result_.base_gravity = physics_.parameters.gravity;
+    result_.base_spin_coupling = physics_.parameters.spin_coupling;
     result_.base_string_length = parameters_for(physics_, recordings.front()).string_length;
   }
 
@@ -70,10 +73,15 @@ class ClaimSearch {
     result_.reason = insufficient(fit_.fit_takes);
     if (!result_.reason.empty()) return;
     thin<D>(fit_, physics_, options_.threads, budget_, step("choosing what decides", 0.03, 0.05));
-    refine<D>(fit_, physics_, ActiveSet::Constant(false), 2, options_.threads,
-              step("fitting starts", 0.05, 0.15));
-    remember_before(result_, fit_);
-    before_ = fit_.systems;
+    begin_with(fit_, step("fitting starts", 0.05, 0.15));
+  }
+
+  /// Fits the starts of the base alone, and takes down what it leaves.
+  void begin_with(Fit& base, const FitWatch& watch) {
+    refine<D>(base, physics_, ActiveSet::Constant(false), 2, options_.threads, watch);
+    result_.windows.clear();
+    remember_before(result_, base);
+    before_ = base.systems;
   }
 
   /// Fits everything, keeps what is sure and exchanges it for what explains more. Another delay or rate than
@@ -93,6 +101,10 @@ class ClaimSearch {
         return;
       }
       keep_what_is_sure(again);
+      if (try_thin_axle()) {
+        ask_again(false);
+        continue;
+      }
       const auto clock = [&] { return std::pair(fit_.delay, set_[index_of(Unknown::kGravity)]); };
       const auto before = clock();
       exchange(again);
@@ -132,6 +144,20 @@ class ClaimSearch {
         return;  // judged at its own fit
       set_ = next;
     }
+  }
+
+  /// Whether the recordings are rather of a string that lies around no axle; the fit is moved to it then.
+  bool try_thin_axle() {
+    const char* const trying = "trying a string around no axle";
+    if (is_thin(fit_.at) || !may_be_thin(fit_, physics_) || !budget_.allows(trying, kFitsShare)) return false;
+    const FitWatch watched = step(trying, 0.49, 0.5, kFitsShare);
+    std::optional<Fit> thin = with_thin_axle<D>(fit_, set_, physics_, options_.threads, watched);
+    if (watched.is_enough()) budget_.leave(trying);
+    if (!thin || watched.is_enough()) return false;
+    fit_ = *std::move(thin);
+    Fit base = begun_thin(fit_, physics_);
+    begin_with(base, watched);
+    return true;
   }
 
   void exchange(bool again) {

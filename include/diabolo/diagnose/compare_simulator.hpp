@@ -51,8 +51,9 @@ inline Estimates estimates_beside(const FinalFit& final_fit, const std::vector<c
         !is_of_axle(*candidate))  // which are fitted apart
       free = with(free, *candidate);
   Estimates result = estimates_of(Evidence(final_fit.fit), free);
-  for (const Unknown tried : {Unknown::kWraps, Unknown::kLag})  // and never free
+  for (const Unknown tried : kTriedUnknowns)
     result.estimate[index_of(tried)] = final_fit.fit.at[index_of(tried)];
+  result.estimate[index_of(Unknown::kLag)] = final_fit.fit.at[index_of(Unknown::kLag)];
   return result;
 }
 

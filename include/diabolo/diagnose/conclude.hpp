@@ -10,6 +10,7 @@
 
 #include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/axle_words.hpp"
+#include "diabolo/diagnose/calibration_words.hpp"
 #include "diabolo/diagnose/differing_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
@@ -164,6 +165,7 @@ inline void conclude(Diagnosis& d) {
   const bool of_motion = leading.size() + d.learnt.size() > 0 || d.headline == Headline::kUnnamedStructure;
   if (d.reason.empty() && of_motion && d.headline != Headline::kNumerical)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
+  if (axle_leads || d.headline == Headline::kNothingMissing) d.sentence += calibration_in_words(d);
   if (d.reason.empty()) d.sentence += force_like_rate_in_words(d) + too_far_in_words(d);
   if (!axle_leads) d.sentence += axle_claims_behind(axle);
   d.sentence += axle_ahead_in_words(d.heldout.axle, !axle.empty());

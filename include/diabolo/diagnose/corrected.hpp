@@ -61,7 +61,8 @@ inline Model augmented_model(const Model& base, const UnknownVector& at, const s
   });
   model.effects.get<FormulaLaws>() = fitted_laws(model.effects.get<FormulaLaws>(), at);
   if (x(Unknown::kAxleRadius) > 0.0) {
-    model.parameters.axle_radius = model.effects.get<FiniteAxle>().radius = x(Unknown::kAxleRadius);
+    model.parameters.axle_radius = x(Unknown::kAxleRadius);
+    model.effects.get<FiniteAxle>().radius = is_thin(at) ? 0.0 : x(Unknown::kAxleRadius);
     model.own_axle_radius = true;
   }
   return model;

@@ -15,6 +15,7 @@
 #include "diabolo/diagnose/evidence.hpp"
 #include "diabolo/diagnose/experiments.hpp"
 #include "diabolo/diagnose/heldout.hpp"
+#include "diabolo/diagnose/left_out_says.hpp"
 #include "diabolo/diagnose/open_law.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/select.hpp"
@@ -67,6 +68,7 @@ inline void remember_directions(Diagnosis& result, const std::vector<WindowSyste
 /// Why a candidate is claimed or not.
 inline constexpr const char *kNotSignificant = "not significant",
                             *kImmaterial = "significant, but too small to matter",
+                            *kWithinFloor = "significant, but perhaps no more than any measurement is off by",
                             *kMaterial = "significant, and large enough to matter",
                             *kDenied = "does not improve predictions of held-out data";
 
@@ -98,14 +100,15 @@ inline bool is_tied(const Evidence& evidence, const ActiveSet& set, const Candid
 /// said.
 inline constexpr double kUnexplainedWindow = 5.0, kUnexplainedShare = 0.2;
 
-/// The share of the windows whose residual is far beyond the middle one's.
+/// The share of the windows whose residual is far beyond the middle one's, and beyond what nobody would
+/// notice.
 inline double unexplained_share(const std::vector<WindowFinding>& windows) {
   std::vector<double> residuals;
   for (const WindowFinding& w : windows)
     if (std::isfinite(w.residual_after)) residuals.push_back(w.residual_after);
   if (residuals.empty()) return 0.0;
   std::ranges::sort(residuals);
-  const double far = kUnexplainedWindow * quantile(residuals, 0.5);
+  const double far = kUnexplainedWindow * std::max(quantile(residuals, 0.5), kImmaterialPosition);
   const auto count = std::ranges::count_if(residuals, [&](double r) { return r > far; });
   return static_cast<double>(count) / static_cast<double>(residuals.size());
 }
@@ -158,7 +161,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     f.claimed = f.sure && f.material && is_in(set, candidate);
     f.reason = !f.sure ? (candidate.positive && f.z < -kSignificance ? "against physics: it would give energy"
                                                                      : kNotSignificant)
-               : !f.material ? kImmaterial
+               : !f.material ? (candidate.kind == CandidateKind::kMeasurement ? kWithinFloor : kImmaterial)
                              : kMaterial;
     if (f.claimed && candidate.kind == CandidateKind::kPhysics)
       for (const Candidate* other : bank)

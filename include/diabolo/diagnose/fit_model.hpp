@@ -102,8 +102,8 @@ FitModel<D> fit_model(const Model& base, const Recording& recording, const DualU
     effects.template get<StringElasticity>() = elasticity;
     effects.template get<StickFlex>() = flex;
   }
-  effects.template get<FiniteAxle>().radius = x(Unknown::kAxleRadius) * scale;
-  p.axle_radius = effects.template get<FiniteAxle>().radius;
+  p.axle_radius = x(Unknown::kAxleRadius) * scale;
+  effects.template get<FiniteAxle>().radius = is_thin(x.at) ? D(0.0) : p.axle_radius;
   auto& own = effects.template get<FormulaLaws>();
   own.each([&](const Law& law, std::size_t first) {
     for (std::size_t i = 0; i < law.numbers.size(); ++i) {

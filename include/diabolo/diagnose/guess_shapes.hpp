@@ -22,9 +22,9 @@ struct LawGuess {
 
 namespace diagnose_detail {
 
-/// A size rounded to one digit, to be read in a formula; 1 where there is none.
+/// A size rounded to one digit, to be read in a formula; 1 where there is none but of rounding.
 inline double one_digit(double x) {
-  if (!(x > 0.0)) return 1.0;
+  if (!(x > 1e-6)) return 1.0;
   const double power = std::floor(std::log10(x));
   return power < 0.0 ? std::round(x * std::pow(10.0, -power)) / std::pow(10.0, -power)
                      : std::round(x / std::pow(10.0, power)) * std::pow(10.0, power);

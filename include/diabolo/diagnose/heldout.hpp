@@ -39,10 +39,10 @@ inline double unseen_spin(const Fit& fit) {
   return spins.empty() ? 0.0 : diagnose_detail::middle_of(spins);
 }
 
-/// Scaled unknowns in SI units, within their bounds, with the wraps that are tried and never free.
+/// Scaled unknowns in SI units, within their bounds, with those that are tried and never free.
 inline UnknownVector within_bounds(const UnknownVector& scaled, const Fit& fit) {
   UnknownVector at = scaled.cwiseProduct(scales());
-  at[index_of(Unknown::kWraps)] = fit.at[index_of(Unknown::kWraps)];
+  for (const Unknown tried : kTriedUnknowns) at[index_of(tried)] = fit.at[index_of(tried)];
   for (int u = 0; u < kUnknowns; ++u) {
     const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
     at[u] = std::clamp(at[u], info.minimum, info.maximum);

@@ -101,14 +101,16 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
 }
 
 /// Forces near a place: at the middle of where the diabolo is, to both sides, and above and below. (Fore and
-/// aft it hardly goes.)
+/// aft it hardly goes, and where it stays in place it says nothing of one.)
 inline void guess_in_places(Guesses& guesses, const Fit& fit) {
+  constexpr double kStays = 0.01;  // [m]
   for (const int axis : {1, 2}) {
     std::vector<double> places;
     for (const FitTake& fit_take : fit.fit_takes)
       for (const FitWindow& window : fit_take.windows) places.push_back(window.start.position[axis]);
     std::ranges::sort(places);
-    const double width = one_digit((quantile(places, 0.9) - quantile(places, 0.1)) / 3.0);
+    const double reach = quantile(places, 0.9) - quantile(places, 0.1), width = one_digit(reach / 3.0);
+    if (reach < kStays) continue;
     for (const double part : {0.1, 0.5, 0.9})
       for (const Acts acts : {Acts::kForward, Acts::kLeft, Acts::kUp})
         guesses.close_to(acts, axis == 1 ? "y" : "z", std::round(100.0 * quantile(places, part)) / 100.0,

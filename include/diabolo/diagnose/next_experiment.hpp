@@ -48,8 +48,8 @@ double left_of(const Experiment& experiment, const Model& truth, const Alternati
     if (explanation.set[u] && !of_measurement) fit.at[u] = explanation.at[u];
   }
   fit.at[index_of(Unknown::kStringLength)] -= seen.at[index_of(Unknown::kStringLength)];
-  const int wraps = index_of(Unknown::kWraps);  // tried and never free
-  fit.centre[wraps] = fit.at[wraps] = explanation.at[wraps];
+  for (const Unknown tried : kTriedUnknowns)
+    fit.centre[index_of(tried)] = fit.at[index_of(tried)] = explanation.at[index_of(tried)];
   fit.noise_is_known = true;
   constexpr int kIterations = 4;
   approach<D>(fit, physics, explanation.set, kIterations, threads, watch);

@@ -18,7 +18,7 @@ namespace diabolo {
 namespace diagnose_detail {
 
 /// Numbers that are no field of an effect.
-inline constexpr int kOthers = 19;
+inline constexpr int kOthers = 20;
 /// Of a field that is looked for under a name.
 constexpr int number_of(std::string_view field) { return kOthers + field_named(field); }
 
@@ -46,6 +46,7 @@ enum class Unknown : int {
   kAxleRadius,    ///< of the string's centre line around the axle; slip and path count with it [m]
   kGravity,       ///< magnitude, less the base's [m/s^2]
   kWraps,         ///< of the string around the axle; a whole number, tried and never free
+  kThinAxle,      ///< 1: the string lies around no axle, as a simulator's may; tried and never free
   kLag,           ///< time constant of what Delay says [s]; never free with kClock
   kCompliance = diagnose_detail::number_of("compliance"),
   kDamping = diagnose_detail::number_of("damping"),
@@ -90,6 +91,12 @@ enum class Delay {
 using UnknownVector = Eigen::Matrix<double, kUnknowns, 1, Eigen::ColMajor | Eigen::DontAlign>;
 using UnknownMatrix = Eigen::MatrixXd;  ///< kUnknowns x kUnknowns
 
+/// Whole numbers, which are tried and never free.
+inline constexpr std::array kTriedUnknowns{Unknown::kWraps, Unknown::kThinAxle};
+
+/// Whether the string lies around no axle.
+inline bool is_thin(const UnknownVector& at) { return at[index_of(Unknown::kThinAxle)] > 0.0; }
+
 /// Which unknowns are free.
 using ActiveSet = Eigen::Array<bool, kUnknowns, 1>;
 
@@ -115,6 +122,7 @@ inline constexpr std::array<UnknownInfo, kUnknowns> kUnknownInfos = [] {
       {"axle_radius", "m", 0.001, 0.0007, 0.001, 0.03},
       {"gravity", "m/s^2", 0.1, 0.0, -10.0, 10.0},
       {"wraps", "1", 1.0, 0.0, 0.0, 5.0},
+      {"thin_axle", "1", 1.0, 0.0, 0.0, 1.0},
       {"lag", "s", 0.01, 0.0, 0.0, 0.1},
   }};
   constexpr std::array<std::string_view, Law::kMostNumbers> kOwn{"own_1", "own_2", "own_3",

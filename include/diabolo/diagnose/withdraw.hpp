@@ -119,7 +119,7 @@ inline bool withdraw_what_explains_too_little(Diagnosis& d) {
 
 /// No physics is claimed without which what was left out is surely predicted better, or rather better where
 /// the spin does not say otherwise. Nor are tips somewhere else, unless it is predicted worse without at half
-/// of the horizons, where that can be said: six numbers explain much that nobody knows. (Of other faults this
+/// of the horizons that say anything: six numbers explain much that nobody knows. (Of other faults this
 /// is not asked: what one of them does, tips elsewhere could do as well. What acts on the spin alone is
 /// judged by the spin.) Returns the least sure physics that was withdrawn, which the model has to do without;
 /// null where there is none.
@@ -130,7 +130,7 @@ inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
         spin(f.spin_worsening_ci95, kImmaterialSpin), &says = is_of_spin(*f.candidate) ? spin : position;
     const bool physics = is_law(*f.candidate), tips = first_of(*f.candidate) == Unknown::kLeftX;
     const bool denied = physics ? says.against() || (says.leans_against() && spin.better == 0)
-                                : tips && 2 * says.better < says.horizons;
+                                : tips && (says.better == 0 || 2 * says.better < says.horizons);
     if (!f.claimed || !denied) continue;
     f.claimed = false;
     f.reason = kDenied;

@@ -62,7 +62,7 @@ inline Recording played_recording(const std::string& name, const Eigen::VectorXd
     recording.frame.push_back(std::abs(time[i] * rate) < 1e15 ? std::lround(time[i] * rate) : 0);
     recording.diabolo.position.col(i) = state.position;
     recording.diabolo_orientation.quaternion.col(i) = played_orientation(state.axis, turned / rate).coeffs();
-    turned += state.spin;
+    if (i + 1 < size) turned += 0.5 * (state.spin + states[static_cast<std::size_t>(i) + 1].spin);
   }
   recording.properties = properties;
   recording.string_length = string_length;
