@@ -8,6 +8,7 @@
 
 #include "catch.hpp"
 #include "diabolo/diagnose/conclude.hpp"
+#include "diabolo/diagnose/withdraw.hpp"
 #include "recording/support.hpp"
 
 using namespace diabolo;
@@ -101,6 +102,29 @@ TEST_CASE("a stretch of time is found in a take that is right elsewhere") {
   CHECK(a.places.front().recording == "take");
   CHECK(std::abs(a.places.front().begin_s - 20.0) <= 2.0);
   CHECK(std::abs(a.places.front().end_s - 30.0) <= 2.0);
+}
+
+TEST_CASE("a gust of a second and a half is told, two windows far off are not") {
+  std::vector<WindowFinding> windows = windows_of(4e-4, 0.5, test::fresh_seed());
+  windows[70].residual_after = windows[71].residual_after = 5e-3;
+  CHECK(judge_adequacy(windows, kNames).adequate == true);
+  windows[73].residual_after = windows[74].residual_after = windows[75].residual_after = 5e-3;
+  for (std::size_t i = 73; i < 76; ++i) windows[i].beyond_noise = {2.5e-5, 0.0, 0.0};
+  const Adequacy a = judge_adequacy(windows, kNames);
+  CHECK(a.adequate == false);
+  REQUIRE(a.places.size() == 1);
+  CHECK(a.places.front().begin_s == 36.5);
+  CHECK(a.places.front().end_s == 38.0);
+  CHECK(a.places.front().direction == "forward");
+  CHECK(a.places.front().left == Approx(5e-3));
+  CHECK(a.places.front().p_value < 5e-3);
+  windows[74].begin += 2.0;  // another time, as where windows were thinned
+  windows[75].begin += 2.0;
+  CHECK(judge_adequacy(windows, kNames).adequate == true);
+  windows = windows_of(4e-4, 0.5, test::fresh_seed());
+  for (std::size_t i = 0; i < windows.size(); i += 4) windows[i].residual_after = 5e-3;
+  windows[41].residual_after = windows[42].residual_after = 5e-3;  // three in a row, as chance may have it
+  CHECK(judge_adequacy(windows, kNames).adequate == true);
 }
 
 TEST_CASE("a missed catch decides nothing, nor do fewer windows than a stretch") {

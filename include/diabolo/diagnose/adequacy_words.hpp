@@ -18,11 +18,11 @@ namespace diabolo {
 
 /// A size with its unit, in two digits.
 inline std::string size_in_words(double value, const std::string& unit) {
-  const bool length = unit == "m";
-  const double shown_value = length ? 1e3 * value : value;
+  const bool small = unit == "m" || (unit == "s" && value < 0.1);
+  const double shown_value = small ? 1e3 * value : value;
   const double step = std::pow(10.0, std::floor(std::log10(std::max(shown_value, 1e-3))) - 1.0);
   return shown(std::round(std::round(shown_value / step) * step * 1e6) / 1e6) +
-         (length ? " mm" : unit_behind(unit));
+         unit_behind(small ? "m" + unit : unit);
 }
 
 /// Where most is left over, after a comma.

@@ -151,6 +151,52 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
     change.frequency_hz = frequency;
 }
 
+/// A steady change in the time of a single recording [unit / s], and by how many standard deviations it is
+/// one, as the windows scatter around it (White's), none counting for more than four times the middle one.
+struct Trend {
+  double rate = 0.0, z = 0.0;
+};
+inline Trend trend_of(WindowSeries series) {
+  if (series.size() < 12 || series.recording.front() != series.recording.back()) return {};
+  std::vector<double> sorted = series.weight;
+  std::ranges::sort(sorted);
+  for (double& weight : series.weight) weight = std::min(weight, 4.0 * quantile(sorted, 0.5));
+  double weights = 0.0, times = 0.0, values = 0.0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    weights += series.weight[i];
+    times += series.weight[i] * series.time[i];
+    values += series.weight[i] * series.value[i];
+  }
+  double spread = 0.0, product = 0.0, scatter = 0.0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const double since = series.time[i] - times / weights;
+    spread += series.weight[i] * since * since;
+    product += series.weight[i] * since * series.value[i];
+  }
+  const double rate = product / spread;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const double since = series.time[i] - times / weights;
+    scatter += std::pow(series.weight[i] * since * (series.value[i] - values / weights - rate * since), 2);
+  }
+  return {rate, std::abs(product) / std::sqrt(std::max(scatter, 1e-300))};
+}
+
+/// Clocks that drift apart: a delay that changes steadily, surely, and by more than it may be off by.
+inline std::optional<ChangeInTime> drifting_clocks(const WindowSeries& series, const MayChange& delay) {
+  constexpr double kSure = 6.0, kFewest = 3.0;  // the whole of it, in the smallest that matters
+  const Trend trend = trend_of(series);
+  if (!(trend.z > kSure)) return std::nullopt;
+  const double span = series.time.back() - series.time.front(), whole = std::abs(trend.rate) * span;
+  if (!(whole > kFewest * delay.smallest)) return std::nullopt;
+  ChangeInTime change;
+  change.quantity = delay.name;
+  change.unit = delay.unit;
+  change.z = trend.z;
+  change.size = whole / std::sqrt(12.0);  // root mean square about its middle
+  change.trend_per_s = trend.rate;
+  return change;
+}
+
 }  // namespace diagnose_detail
 
 /// Unknowns of which neighbouring windows say the same, and others something else, by as much as matters: the
@@ -159,6 +205,11 @@ inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding
   std::vector<ChangeInTime> result;
   for (std::size_t k = 0; k < kMayChange.size(); ++k) {
     const diagnose_detail::WindowSeries series = diagnose_detail::series_of(windows, k);
+    if (kMayChange[k].unknown == Unknown::kTimeOffset) {  // one that comes and goes is of no clock
+      if (const auto drift = diagnose_detail::drifting_clocks(series, kMayChange[k]))
+        result.push_back(*drift);
+      continue;
+    }
     const diagnose_detail::Agreement agreement = diagnose_detail::agreement_of(series);
     if (!(agreement.z > kAgreement && agreement.size > kMayChange[k].smallest)) continue;
     ChangeInTime change;
@@ -167,8 +218,6 @@ inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding
     change.z = agreement.z;
     change.size = agreement.size;
     diagnose_detail::name_shape(series, change);
-    if (kMayChange[k].unknown == Unknown::kTimeOffset && !change.trend_per_s)
-      continue;  // no clocks that drift
     result.push_back(change);
   }
   std::ranges::stable_sort(result, std::greater(), &ChangeInTime::z);

@@ -29,6 +29,23 @@ inline std::string plainly(const Diagnosis& d, std::string_view name) {
   return std::string(name);
 }
 
+/// Whether a candidate that is not somebody's own is physics.
+inline bool is_physics(std::string_view name) {
+  return std::ranges::any_of(candidates(), [&](const Candidate& candidate) {
+    return candidate.name == name && candidate.kind == CandidateKind::kPhysics;
+  });
+}
+
+/// Faults, each with the physics that it may as well be.
+inline std::string plainly(const Diagnosis& d, const std::vector<const Finding*>& faults) {
+  std::string text = plainly(faults);
+  for (const Finding* f : faults)
+    for (const std::string& other : f->tied_with)
+      if (is_physics(other))
+        text += " (or " + plainly(d, other) + " in place of " + std::string(f->candidate->plain) + ")";
+  return text;
+}
+
 /// Where a latent acceleration acts.
 inline std::string plainly(Unknown latent) {
   switch (latent) {
@@ -119,20 +136,23 @@ inline void conclude(Diagnosis& d) {
     d.sentence = "Nothing can be concluded: " + d.reason + ".";
   } else if (tied != leading.end()) {
     d.headline = Headline::kTie;
-    d.sentence = std::string(physics.empty() ? "The measurement is off: " : "Something is missing: ") +
-                 plainly(leading) + " would explain it, and so would " +
-                 plainly(d, (*tied)->tied_with.front()) + " in place of " +
-                 std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
-                 (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + plainly(faults)) +
-                 (has_law ? "; and a" + left_plainly(d) : ".");
+    const std::string& other = (*tied)->tied_with.front();
+    d.sentence =
+        std::string(!physics.empty()    ? "Something is missing: "
+                    : is_physics(other) ? "Something is missing, or measured wrongly: "
+                                        : "The measurement is off: ") +
+        plainly(leading) + " would explain it, and so would " + plainly(d, other) + " in place of " +
+        std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
+        (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + plainly(d, faults)) +
+        (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!physics.empty()) {
     d.headline = Headline::kNamed;
     d.sentence = "The simulator leaves out " + plainly(physics) +
-                 (faults.empty() ? "" : "; the measurement is off by " + plainly(faults)) +
+                 (faults.empty() ? "" : "; the measurement is off by " + plainly(d, faults)) +
                  (has_law ? "; and a" + left_plainly(d) : ".");
   } else if (!faults.empty()) {
     d.headline = Headline::kMeasurementFault;
-    d.sentence = "The measurement is off by " + plainly(faults) +
+    d.sentence = "The measurement is off by " + plainly(d, faults) +
                  (has_law        ? "; and a" + left_plainly(d)
                   : axle.empty() ? "; no physics that has a name is missing."
                                  : "; no other physics that has a name is missing.");

@@ -113,12 +113,12 @@ class Inquiry : public ClaimSearch<D> {
     if (!physics_.effects.template get<UnnamedForce>().neutral())
       result_.unexplained_forces.clear();  // they are told in units of the law that is there
     withdraw_what_cannot_be(result_);
-    withdraw_what_may_be_physics(result_, evidence, possible(), set_);
     for (Finding& f : result_.findings) {
       for (const Replacement& exchange : exchanged_)
         if (f.claimed && f.candidate->name == exchange.name) f.tied_with = exchange.tied_with;
       for (const Candidate* candidate : denied_) std::erase(f.tied_with, candidate->name);
     }
+    tie_with_physics(result_, evidence, bank_, set_);
     withdraw_length_of_a_wrap(result_, estimates_of(evidence, set_));
     for (const Replacement& exchange : exchanged_)
       if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);

@@ -119,6 +119,67 @@ inline std::vector<ResidualAndNoise> stretches_beyond(const Windows& windows, co
   return result;
 }
 
+/// Fewest windows that leave more than noise one after the other, where others do not, to be told; with no
+/// more time between them [s].
+inline constexpr std::size_t kShortest = 3;
+inline constexpr double kTogether = 1.0;
+
+/// What happened in a moment, which the middle window of a stretch does not see: windows without events, one
+/// after the other, all of which leave more than kTimesNoise times what noise leaves, more than chance would
+/// put together.
+inline std::vector<ResidualAndNoise> moments_beyond(const Windows& windows, const Channel& channel,
+                                                    const std::vector<std::string>& names) {
+  const auto noise_of = [&](const WindowFinding& w) {
+    return std::max(w.*channel.noise, channel.immaterial);
+  };
+  const auto is_far = [&](const WindowFinding& w) { return w.*channel.left > kTimesNoise * noise_of(w); };
+  const auto far = static_cast<std::size_t>(
+      std::ranges::count_if(windows, [&](const WindowFinding* w) { return is_far(*w); }));
+  std::vector<ResidualAndNoise> result;
+  for (std::size_t first = 0, end = 0; first < windows.size(); first = std::max(end, first + 1)) {
+    for (end = first; end < windows.size() && is_far(*windows[end]); ++end)
+      if (end > first && (windows[end]->recording != windows[first]->recording ||
+                          windows[end]->begin > windows[end - 1]->end + kTogether))
+        break;
+    if (end < first + kShortest) continue;
+    const std::size_t length = end - first, others = windows.size() - length;
+    const double share = static_cast<double>(far - length + 1) / static_cast<double>(others + 1),
+                 chance = static_cast<double>(others + 1) * std::pow(share, static_cast<double>(length));
+    if (!(chance < kNoiseMayDoIt)) continue;
+    const Windows moment(windows.begin() + static_cast<std::ptrdiff_t>(first),
+                         windows.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto middle = [&](const auto& number) {
+      std::vector<double> values;
+      for (const WindowFinding* w : moment) values.push_back(number(*w));
+      return middle_of(std::move(values));
+    };
+    ResidualAndNoise left;
+    left.quantity = channel.quantity;
+    left.unit = channel.unit;
+    left.mode = "ANY";
+    if (channel.quantity == kPositionChannel.quantity) left.direction = leading_direction(moment);
+    left.recording = names[windows[first]->recording];
+    left.begin_s = windows[first]->begin;
+    left.end_s = windows[end - 1]->end;
+    left.windows = length;
+    left.base = middle([&](const WindowFinding& w) { return w.*channel.base; });
+    left.left = middle([&](const WindowFinding& w) { return w.*channel.left; });
+    left.noise = middle([&](const WindowFinding& w) { return w.*channel.noise; });
+    left.times_noise = middle([&](const WindowFinding& w) { return w.*channel.left / noise_of(w); });
+    left.p_value = chance;
+    result.push_back(left);
+  }
+  return result;
+}
+
+/// Whether one of some stretches holds a moment.
+inline bool is_within(const ResidualAndNoise& moment, const std::vector<ResidualAndNoise>& stretches) {
+  return std::ranges::any_of(stretches, [&](const ResidualAndNoise& stretch) {
+    return stretch.recording == moment.recording && stretch.begin_s <= moment.begin_s &&
+           moment.end_s <= stretch.end_s;
+  });
+}
+
 }  // namespace diagnose_detail
 
 /// What windows leave against what noise alone leaves: over all, in each state of the string, and in each
@@ -155,7 +216,10 @@ inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
       left->mode = mode;
       result.places.push_back(*left);
     }
-    std::ranges::move(in::stretches_beyond(calm, channel, names), std::back_inserter(result.places));
+    const std::vector<ResidualAndNoise> stretches = in::stretches_beyond(calm, channel, names);
+    std::ranges::copy(stretches, std::back_inserter(result.places));
+    std::ranges::copy_if(in::moments_beyond(calm, channel, names), std::back_inserter(result.places),
+                         [&](const ResidualAndNoise& moment) { return !in::is_within(moment, stretches); });
   }
   std::ranges::stable_sort(result.places, std::greater(), &ResidualAndNoise::times_noise);
   result.changes = changes_in_time(windows);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/first_spring.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/effects/finite_axle.hpp"
@@ -43,7 +44,7 @@ inline Fit begun_thin(Fit fit, const Model& physics) {
 }
 
 /// The fit with a string that lies around no axle, from the base alone or from the physics that was found,
-/// which costs less; nothing where it costs more than with one.
+/// which costs less; nothing where one with an axle does better.
 template <class D>
 std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Model& physics, int threads,
                                   const FitWatch& watch) {
@@ -55,7 +56,7 @@ std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Mo
     linearize<D>(*trial, physics, ActiveSet::Constant(false), threads, watch);
   if (found.cost < best.cost) best = std::move(found);
   approach<D>(best, physics, set, kMostIterations, threads, watch);
-  if (!(best.cost < cost_with_noise_of(best, fit, threads))) return std::nullopt;
+  if (best.cost > cost_with_noise_of(best, fit, threads) + kAsGood * best.dispersion) return std::nullopt;
   best.noise_is_known = fit.noise_is_known;
   return best;
 }

@@ -47,18 +47,16 @@ inline const Candidate* physics_instead(const Evidence& evidence, const Bank& ba
   return nullptr;
 }
 
-/// No fault is claimed that may as well be physics. (To be asked after exchange_claims(), which tries others
-/// in the place of claims.)
-inline void withdraw_what_may_be_physics(Diagnosis& d, const Evidence& evidence, const Bank& bank,
-                                         const ActiveSet& set) {
+/// A fault that may as well be physics is tied with it. (To be asked after exchange_claims(), which tries
+/// others in the place of claims.)
+inline void tie_with_physics(Diagnosis& d, const Evidence& evidence, const Bank& bank, const ActiveSet& set) {
   for (Finding& f : d.findings) {
     if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement) continue;
     const Candidate* other = physics_instead(evidence, bank, set, *f.candidate);
     if (other == nullptr) continue;
-    f.claimed = false;
-    f.reason = "may as well be " + std::string(other->plain);
+    f.tied_with.emplace_back(other->name);
+    f.confidence = 0.5;
   }
-  claims_first(d);
 }
 
 /// No string is claimed to be shorter than it was told that may as well be wrapped around the axle.

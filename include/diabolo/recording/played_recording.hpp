@@ -31,8 +31,9 @@ inline Eigen::Quaterniond played_orientation(const Vector3<double>& axis, double
 }
 
 /// A predicted play as a recording, sample by sample: time [s], tips [m], and the diabolo's states. It lies
-/// as played_orientation() says, so that readers see the spin again where it stays below half a turn a
-/// sample. Throws RecordingError where it is none, see check_recording().
+/// as played_orientation() says, turning by the mean spin between two samples, so that readers see the spin
+/// again where it stays below half a turn a sample. Throws RecordingError where it is none, see
+/// check_recording().
 inline Recording played_recording(const std::string& name, const Eigen::VectorXd& time,
                                   const Eigen::Matrix3Xd& left, const Eigen::Matrix3Xd& right,
                                   const std::vector<State<double>>& states, double rate,

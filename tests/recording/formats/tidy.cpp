@@ -76,6 +76,15 @@ TEST_CASE("Columns may stand in any order, sticks may have orientations") {
   CHECK(recording.right_orientation.empty());
 }
 
+TEST_CASE("nobody needs to have seen how the diabolo lies") {
+  const Recording recording = read_tidy(
+      "time,left_x,left_y,left_z,right_x,right_y,right_z,diabolo_x,diabolo_y,diabolo_z\n"
+      "0.5,1,2,3,4,5,6,7,8,9\n",
+      "play.csv", kMetadata);
+  CHECK(recording.diabolo.position.col(0) == Eigen::Vector3d(7.0, 8.0, 9.0));
+  CHECK(test::same(recording.diabolo_orientation, OrientationTrack::missing(1)));
+}
+
 TEST_CASE("headers of a tidy file that do not fit are refused") {
   CHECK(
       says_of("left_x", "left_q") ==

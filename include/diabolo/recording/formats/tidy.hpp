@@ -101,8 +101,8 @@ class TidyReader {
     }
     for (std::size_t k = 0; k < kTidyColumns.size(); ++k) {
       const std::size_t first = k < kDiaboloOrientation ? k : k - (k - kDiaboloOrientation) % 4;
-      const bool is_needed = k < (columns_.empty() ? kLeftOrientation : kDiaboloOrientation) || has(first) ||
-                             has(first + 1) || has(first + 2) || has(first + 3);
+      const bool is_needed =
+          k < kDiaboloOrientation || has(first) || has(first + 1) || has(first + 2) || has(first + 3);
       if (is_needed && !has(k))
         csv_.fail("column " + shown(kTidyColumns[k]) + " is missing" +
                   (k == kDiabolo && !has(k + 1) && !has(k + 2)
