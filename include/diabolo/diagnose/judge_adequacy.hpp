@@ -124,6 +124,10 @@ inline std::vector<ResidualAndNoise> stretches_beyond(const Windows& windows, co
 inline constexpr std::size_t kShortest = 3;
 inline constexpr double kTogether = 1.0;
 
+/// A moment that leaves no more than so many times the noise needs to last until chance puts it together so
+/// rarely: a string with a mass of its own leaves such in a swing or two.
+inline constexpr double kFarMoment = 6.0, kRarely = 1e-5;
+
 /// What happened in a moment, which the middle window of a stretch does not see: windows without events, one
 /// after the other, all of which leave more than kTimesNoise times what noise leaves, more than chance would
 /// put together.
@@ -167,7 +171,7 @@ inline std::vector<ResidualAndNoise> moments_beyond(const Windows& windows, cons
     left.noise = middle([&](const WindowFinding& w) { return w.*channel.noise; });
     left.times_noise = middle([&](const WindowFinding& w) { return w.*channel.left / noise_of(w); });
     left.p_value = chance;
-    result.push_back(left);
+    if (left.times_noise > kFarMoment || chance < kRarely) result.push_back(left);
   }
   return result;
 }

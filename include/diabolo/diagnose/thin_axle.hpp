@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -43,8 +44,18 @@ inline Fit begun_thin(Fit fit, const Model& physics) {
   return fit;
 }
 
+/// Whether string and tips are where they were told.
+inline bool is_as_told(const Fit& fit, const ActiveSet& set) {
+  const Estimates now = estimates_of(Evidence(fit), set);
+  return std::ranges::none_of(std::array{"string_length", "stick_tip_offset"}, [&](const char* name) {
+    const Candidate& fault = candidate_of(name);
+    return speaks_for(fault, significance(fault, now));
+  });
+}
+
 /// The fit with a string that lies around no axle, from the base alone or from the physics that was found,
-/// which costs less; nothing where one with an axle does better.
+/// which costs less; nothing where one with an axle does better, or where string or tips are not as told all
+/// the same.
 template <class D>
 std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Model& physics, int threads,
                                   const FitWatch& watch) {
@@ -56,7 +67,8 @@ std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Mo
     linearize<D>(*trial, physics, ActiveSet::Constant(false), threads, watch);
   if (found.cost < best.cost) best = std::move(found);
   approach<D>(best, physics, set, kMostIterations, threads, watch);
-  if (best.cost > cost_with_noise_of(best, fit, threads) + kAsGood * best.dispersion) return std::nullopt;
+  const double most = cost_with_noise_of(best, fit, threads) + kAsGood * best.dispersion;
+  if (best.cost > most || !is_as_told(best, set)) return std::nullopt;
   best.noise_is_known = fit.noise_is_known;
   return best;
 }
