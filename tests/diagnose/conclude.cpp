@@ -244,16 +244,20 @@ TEST_CASE(
   CHECK(sentence(d, 0.25, false) == nothing +
                                         " Calibration makes the difference: the string drives the spin by "
                                         "0.4 1/s, not by 0.15 1/s.");
-  CHECK(sentence(d, 4.9e-3, false) == nothing);  // not sure
+  CHECK(sentence(d, 4e-3, false) == nothing);  // sure, and too small to matter
+  d.deviation[drive] = 0.01;
+  CHECK(sentence(d, 0.04, false) == nothing);  // not sure
   Finding tips = claim("stick_tip_offset", 13.0, {});
   tips.claimed = tips.material = false;
   tips.size = 0.02;
-  d.findings = {tips, tips};
-  d.findings.back().candidate = &candidate_of("time_offset");
-  d.findings.back().size = 5e-4;  // too small to move it
-  CHECK(sentence(d, -0.05, false) == nothing +
+  d.findings = {tips, tips, tips};
+  d.findings[1].candidate = &candidate_of("time_offset");
+  d.findings[1].size = 5e-4;  // too small to move it
+  d.findings[2].candidate = &candidate_of("length_scale");
+  d.findings[2].possible = false;
+  CHECK(sentence(d, -0.06, false) == nothing +
                                          " Calibration makes the difference: the string drives the spin by "
-                                         "0.1 1/s, not by 0.15 1/s; slightly off: the places of the stick "
+                                         "0.09 1/s, not by 0.15 1/s; fitted along: the places of the stick "
                                          "tips.");
 }
 
@@ -268,6 +272,14 @@ TEST_CASE("a fault that may as well be physics is told with it") {
       d.sentence ==
       "Something is missing, or measured wrongly: a tilted frame would explain it, and so would friction of "
       "the string on the axle in place of a tilted frame; these recordings cannot tell.");
+  Finding delay = claim("time_offset", 20.0, {});
+  delay.tied_with = {"filter_lag"};
+  d.findings.insert(d.findings.begin(), delay);
+  conclude(d);
+  CHECK(d.sentence.starts_with("Something is missing, or measured wrongly: "));
+  CHECK(d.sentence.find("friction of the string on the axle in place of a tilted frame") !=
+        std::string::npos);
+  d.findings.erase(d.findings.begin());
   d.findings.push_back(claim("axle_drag", 30.0, {}));
   conclude(d);
   CHECK(d.headline == Headline::kNamed);

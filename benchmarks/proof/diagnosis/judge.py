@@ -99,7 +99,8 @@ class Verdict:
 
     @property
     def false_faults(self) -> list[str]:
-        at_work = set(self.faults)
+        """Claims of what is not wrong, nor tied with what is, or with physics at work."""
+        at_work = {*self.faults, *self.physics}
         return [name for name in self.claimed_faults if not at_work & {name, *self.tied[name]}]
 
     def is_in_answer(self, name: str) -> bool:

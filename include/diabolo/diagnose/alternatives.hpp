@@ -17,6 +17,9 @@
 
 namespace diabolo {
 
+/// Over which a string lies around the axle that has no wraps [rad].
+inline constexpr double kUsualContact = 2.6;
+
 /// By how much a wrapped string may differ from its given length [m].
 inline constexpr double kWrappedLength = 0.03;
 
@@ -53,15 +56,16 @@ inline Alternative exchanged(const Fit& fit, const ActiveSet& set, std::string_v
 }
 
 /// Whether wraps of the string are worth a trial, which multiply friction by three to five: it rubs no less
-/// than three times what the smoothest string does, on a spin that was seen.
+/// than three times what the smoothest string does, on a spin that was seen. (A turn around no axle takes up
+/// no length, and cannot be told.)
 inline bool may_be_wrapped(const Fit& fit) {
-  return fit.at[index_of(Unknown::kWraps)] == 0.0 && std::ranges::all_of(fit.fit_takes, has_spin) &&
-         fit.at[index_of(Unknown::kFriction)] > 0.1;
+  return !is_thin(fit.at) && fit.at[index_of(Unknown::kWraps)] == 0.0 &&
+         std::ranges::all_of(fit.fit_takes, has_spin) && fit.at[index_of(Unknown::kFriction)] > 0.1;
 }
 
 /// The string so often around the axle: longer by its circumference for each turn, and rubbing less.
 inline Alternative wrapped(std::string_view name, const Fit& fit, const ActiveSet& set, double turns) {
-  constexpr double kTurn = 2.0 * std::numbers::pi, kUsualContact = 2.6;  // [rad]
+  constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad]
   Alternative result{name, fit.delay, set, fit.at};
   double& now = result.at[index_of(Unknown::kWraps)];
   result.at[index_of(Unknown::kFriction)] *= (kUsualContact + kTurn * now) / (kUsualContact + kTurn * turns);

@@ -31,14 +31,14 @@ inline std::string spin_drive_in_words(const Diagnosis& d) {
 /// difference. A sentence.
 inline std::string calibration_in_words(const Diagnosis& d) {
   if (d.adequacy.base_adequate.value_or(true)) return {};
-  std::vector<const Finding*> slight;
+  std::vector<const Finding*> faults;
   for (const Finding& f : d.findings)
-    if (f.candidate->kind == CandidateKind::kMeasurement && f.sure && f.size > kSmallestReach)
-      slight.push_back(&f);
+    if (f.candidate->kind == CandidateKind::kMeasurement && f.sure && f.possible && f.size > kSmallestReach)
+      faults.push_back(&f);
   const std::string drive = spin_drive_in_words(d);
-  if (drive.empty() && slight.empty()) return {};
-  return " Calibration makes the difference: " + drive + (drive.empty() || slight.empty() ? "" : "; ") +
-         (slight.empty() ? "" : "slightly off: " + plainly(slight)) + ".";
+  if (drive.empty() && faults.empty()) return {};
+  return " Calibration makes the difference: " + drive + (drive.empty() || faults.empty() ? "" : "; ") +
+         (faults.empty() ? "" : "fitted along: " + plainly(faults)) + ".";
 }
 
 }  // namespace diabolo

@@ -218,6 +218,11 @@ inline ActiveSet with(ActiveSet set, const Candidate& candidate, bool included =
   return set;
 }
 
+/// `set` with one candidate in place of another, whose unknowns stay free where every fit has them.
+inline ActiveSet in_place_of(const Candidate& old, const Candidate& young, const ActiveSet& set) {
+  return with(is_nuisance(old) ? set : with(set, old, false), young);
+}
+
 inline bool is_in(const ActiveSet& set, const Candidate& candidate) {
   return set[index_of(first_of(candidate))];
 }

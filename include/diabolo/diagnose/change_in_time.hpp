@@ -151,16 +151,20 @@ inline void name_shape(const WindowSeries& series, ChangeInTime& change) {
     change.frequency_hz = frequency;
 }
 
-/// A steady change in the time of a single recording [unit / s], and by how many standard deviations it is
-/// one, as the windows scatter around it (White's), none counting for more than four times the middle one.
-struct Trend {
-  double rate = 0.0, z = 0.0;
-};
-inline Trend trend_of(WindowSeries series) {
-  if (series.size() < 12 || series.recording.front() != series.recording.back()) return {};
+/// A series none of whose windows counts for more than four times the middle one.
+inline WindowSeries capped(WindowSeries series) {
   std::vector<double> sorted = series.weight;
   std::ranges::sort(sorted);
   for (double& weight : series.weight) weight = std::min(weight, 4.0 * quantile(sorted, 0.5));
+  return series;
+}
+
+/// A steady change [unit / s], and by how many standard deviations it is one, as the windows scatter around
+/// it (White's).
+struct Trend {
+  double rate = 0.0, z = 0.0;
+};
+inline Trend trend_of(const WindowSeries& series) {
   double weights = 0.0, times = 0.0, values = 0.0;
   for (std::size_t i = 0; i < series.size(); ++i) {
     weights += series.weight[i];
@@ -181,20 +185,31 @@ inline Trend trend_of(WindowSeries series) {
   return {rate, std::abs(product) / std::sqrt(std::max(scatter, 1e-300))};
 }
 
-/// Clocks that drift apart: a delay that changes steadily, surely, and by more than it may be off by.
-inline std::optional<ChangeInTime> drifting_clocks(const WindowSeries& series, const MayChange& delay) {
-  constexpr double kSure = 6.0, kFewest = 3.0;  // the whole of it, in the smallest that matters
+/// Whether a line leaves less of a series than a step does.
+inline bool is_no_step(const WindowSeries& series) {
+  const std::optional<double> onset = best_onset(series);
+  return !onset || left_beside(series, {[](double t) { return t; }}) <
+                       left_beside(series, {[onset](double t) { return t < *onset ? 0.0 : 1.0; }});
+}
+
+/// Clocks that drift apart: in a single recording a delay that changes steadily, rather than at once or to
+/// and fro, surely, and by more than it may be off by.
+inline std::optional<ChangeInTime> drifting_clocks(const WindowSeries& given, const MayChange& delay) {
+  constexpr double kSure = 6.0;         // [standard deviations]
+  constexpr double kLeast = 3.0;        // of the whole of it, in the smallest change that matters
+  constexpr std::size_t kWindows = 12;  // to tell
+  if (given.size() < kWindows || given.recording.front() != given.recording.back()) return std::nullopt;
+  const WindowSeries series = capped(given);
   const Trend trend = trend_of(series);
-  if (!(trend.z > kSure)) return std::nullopt;
-  const double span = series.time.back() - series.time.front(), whole = std::abs(trend.rate) * span;
-  if (!(whole > kFewest * delay.smallest)) return std::nullopt;
+  const double whole = std::abs(trend.rate) * (series.time.back() - series.time.front());
+  if (!(trend.z > kSure) || !(whole > kLeast * delay.smallest)) return std::nullopt;
   ChangeInTime change;
   change.quantity = delay.name;
   change.unit = delay.unit;
   change.z = trend.z;
   change.size = whole / std::sqrt(12.0);  // root mean square about its middle
-  change.trend_per_s = trend.rate;
-  return change;
+  name_shape(series, change);
+  return change.trend_per_s && is_no_step(series) ? std::optional(change) : std::nullopt;
 }
 
 }  // namespace diagnose_detail
@@ -205,7 +220,7 @@ inline std::vector<ChangeInTime> changes_in_time(const std::vector<WindowFinding
   std::vector<ChangeInTime> result;
   for (std::size_t k = 0; k < kMayChange.size(); ++k) {
     const diagnose_detail::WindowSeries series = diagnose_detail::series_of(windows, k);
-    if (kMayChange[k].unknown == Unknown::kTimeOffset) {  // one that comes and goes is of no clock
+    if (kMayChange[k].unknown == Unknown::kTimeOffset) {
       if (const auto drift = diagnose_detail::drifting_clocks(series, kMayChange[k]))
         result.push_back(*drift);
       continue;

@@ -101,7 +101,7 @@ class ClaimSearch {
         return;
       }
       keep_what_is_sure(again);
-      if (try_thin_axle()) {
+      if (!again && try_thin_axle()) {
         ask_again(false);
         continue;
       }
@@ -149,14 +149,14 @@ class ClaimSearch {
   /// Whether the recordings are rather of a string that lies around no axle; the fit is moved to it then.
   bool try_thin_axle() {
     const char* const trying = "trying a string around no axle";
-    if (is_thin(fit_.at) || !may_be_thin(fit_, physics_) || !budget_.allows(trying, kFitsShare)) return false;
+    if (!may_be_thin(fit_, physics_) || !budget_.allows(trying, kFitsShare)) return false;
     const FitWatch watched = step(trying, 0.49, 0.5, kFitsShare);
-    std::optional<Fit> thin = with_thin_axle<D>(fit_, set_, physics_, options_.threads, watched);
+    std::optional<Fit> trial = with_thin_axle<D>(fit_, set_, physics_, options_.threads, watched);
     if (watched.is_enough()) budget_.leave(trying);
-    if (!thin || watched.is_enough()) return false;
-    fit_ = *std::move(thin);
+    if (!trial || watched.is_enough()) return false;
+    fit_ = *std::move(trial);
     Fit base = begun_thin(fit_, physics_);
-    begin_with(base, watched);
+    begin_with(base, step(trying, 0.5, 0.5));
     return true;
   }
 

@@ -226,7 +226,7 @@ SimulatorComparison compare_simulator(const Diagnosis& real, const Diagnosis& si
                             : in::compared(*candidate, real, simulated, in_real, in_simulated);
       const bool in_real_alone = in::claim_of(simulated, candidate->name) == nullptr;
       if (law.kind == "measurement" && in_real_alone && !in::has_always(*candidate))
-        result.recording_faults.push_back(law.what);
+        result.recording_faults.push_back(plainly(real, {in::claim_of(real, candidate->name)}));
       else
         result.laws.push_back(std::move(law));
     }

@@ -29,11 +29,19 @@ inline std::string plainly(const Diagnosis& d, std::string_view name) {
   return std::string(name);
 }
 
-/// Whether a candidate that is not somebody's own is physics.
-inline bool is_physics(std::string_view name) {
-  return std::ranges::any_of(candidates(), [&](const Candidate& candidate) {
+/// Whether a candidate, or a law of somebody's own, is physics.
+inline bool is_physics(const Diagnosis& d, std::string_view name) {
+  const auto is_it = [&](const Candidate& candidate) {
     return candidate.name == name && candidate.kind == CandidateKind::kPhysics;
-  });
+  };
+  return std::ranges::any_of(candidates(), is_it) || (d.own && std::ranges::any_of(d.own->list, is_it));
+}
+
+/// What is tied with a claim: of a fault physics first.
+inline const std::string& tie_of(const Diagnosis& d, const Finding& f) {
+  const auto physics =
+      std::ranges::find_if(f.tied_with, [&](const std::string& name) { return is_physics(d, name); });
+  return physics != f.tied_with.end() ? *physics : f.tied_with.front();
 }
 
 /// Faults, each with the physics that it may as well be.
@@ -41,7 +49,7 @@ inline std::string plainly(const Diagnosis& d, const std::vector<const Finding*>
   std::string text = plainly(faults);
   for (const Finding* f : faults)
     for (const std::string& other : f->tied_with)
-      if (is_physics(other))
+      if (is_physics(d, other))
         text += " (or " + plainly(d, other) + " in place of " + std::string(f->candidate->plain) + ")";
   return text;
 }
@@ -125,7 +133,10 @@ inline void conclude(Diagnosis& d) {
                                                     : physics)
           .push_back(&f);
   const std::vector<const Finding*>& leading = physics.empty() ? faults : physics;
-  const auto tied = std::ranges::find_if(leading, [](const Finding* f) { return !f->tied_with.empty(); });
+  const auto is_tied = [](const Finding* f) { return !f->tied_with.empty(); };
+  auto tied = std::ranges::find_if(
+      leading, [&](const Finding* f) { return is_tied(f) && is_physics(d, tie_of(d, *f)); });
+  if (tied == leading.end()) tied = std::ranges::find_if(leading, is_tied);
   const bool has_law = !d.learnt.empty();
   const bool only_leftover =
       !d.unexplained_forces.empty() && !d.withdrawn && d.unexplained <= kUnexplainedShare;
@@ -136,11 +147,11 @@ inline void conclude(Diagnosis& d) {
     d.sentence = "Nothing can be concluded: " + d.reason + ".";
   } else if (tied != leading.end()) {
     d.headline = Headline::kTie;
-    const std::string& other = (*tied)->tied_with.front();
+    const std::string& other = tie_of(d, **tied);
     d.sentence =
-        std::string(!physics.empty()    ? "Something is missing: "
-                    : is_physics(other) ? "Something is missing, or measured wrongly: "
-                                        : "The measurement is off: ") +
+        std::string(!physics.empty()       ? "Something is missing: "
+                    : is_physics(d, other) ? "Something is missing, or measured wrongly: "
+                                           : "The measurement is off: ") +
         plainly(leading) + " would explain it, and so would " + plainly(d, other) + " in place of " +
         std::string((*tied)->candidate->plain) + "; these recordings cannot tell" +
         (physics.empty() || faults.empty() ? "" : "; the measurement is off by " + plainly(d, faults)) +

@@ -70,7 +70,9 @@ inline constexpr const char *kNotSignificant = "not significant",
                             *kImmaterial = "significant, but too small to matter",
                             *kWithinFloor = "significant, but perhaps no more than any measurement is off by",
                             *kMaterial = "significant, and large enough to matter",
-                            *kDenied = "does not improve predictions of held-out data";
+                            *kDenied = "does not improve predictions of held-out data",
+                            *kNotComparable =
+                                "too few data were left out to tell whether it improves predictions";
 
 /// The chance that any of so many normal variables is beyond z.
 inline double family_wise(double z) {

@@ -131,8 +131,11 @@ inline constexpr double kFarMoment = 6.0, kRarely = 1e-5;
 /// What happened in a moment, which the middle window of a stretch does not see: windows without events, one
 /// after the other, all of which leave more than kTimesNoise times what noise leaves, more than chance would
 /// put together.
-inline std::vector<ResidualAndNoise> moments_beyond(const Windows& windows, const Channel& channel,
+inline std::vector<ResidualAndNoise> moments_beyond(Windows windows, const Channel& channel,
                                                     const std::vector<std::string>& names) {
+  std::erase_if(windows, [&](const WindowFinding* w) {
+    return !std::isfinite(w->*channel.base + w->*channel.left + w->*channel.noise);
+  });
   const auto noise_of = [&](const WindowFinding& w) {
     return std::max(w.*channel.noise, channel.immaterial);
   };
@@ -176,11 +179,11 @@ inline std::vector<ResidualAndNoise> moments_beyond(const Windows& windows, cons
   return result;
 }
 
-/// Whether one of some stretches holds a moment.
+/// Whether a moment is part of one of some stretches.
 inline bool is_within(const ResidualAndNoise& moment, const std::vector<ResidualAndNoise>& stretches) {
   return std::ranges::any_of(stretches, [&](const ResidualAndNoise& stretch) {
-    return stretch.recording == moment.recording && stretch.begin_s <= moment.begin_s &&
-           moment.end_s <= stretch.end_s;
+    return stretch.recording == moment.recording && stretch.begin_s < moment.end_s &&
+           moment.begin_s < stretch.end_s;
   });
 }
 

@@ -66,7 +66,7 @@ inline std::optional<Alternative> alternative_of(std::string_view claim, std::st
     return std::ranges::find(candidates(), name, &Candidate::name) != candidates().end();
   };
   if (other == "string_wrap" || !known_by_name(claim) || !known_by_name(other)) return std::nullopt;
-  Alternative result{other, fit.delay, with(with(set, candidate_of(claim), false), candidate_of(other)), {}};
+  Alternative result{other, fit.delay, in_place_of(candidate_of(claim), candidate_of(other), set), {}};
   result.at = within_bounds(Evidence(fit).solve(result.set), fit);
   return result;
 }
@@ -80,8 +80,9 @@ inline std::string_view motion_for_measurement(std::string_view name) {
 }  // namespace diagnose_detail
 
 /// For each tie the motion that parts it best, and the odds against the wrong explanation that it would give
-/// by itself: the motion is simulated with the claim and fitted with what is tied with it. Of delays, scales
-/// and rates without odds.
+/// by itself: the motion is simulated with the claim and fitted with what is tied with it; of a fault, which
+/// a perfect camera does not have, with the first physics that is tied with it, and fitted without. Of
+/// delays, scales and rates without odds.
 template <class D = diagnose_detail::FitDual>
 std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const Model& physics,
                                        const ActiveSet& set, int threads, const FitWatch& watch = {}) {
@@ -94,13 +95,17 @@ std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const
     if (!fixed.empty()) {
       best.experiment = &*std::ranges::find(experiments(), fixed, &Experiment::motion);
     } else {
-      const Model truth = augmented_model(physics, fit.at, "truth");
-      const Alternative claim{f.candidate->name, fit.delay, set, fit.at};
+      Alternative claim{f.candidate->name, fit.delay, set, fit.at};
       std::vector<Alternative> others;
       for (const std::string& name : f.tied_with)
         if (const auto other = diagnose_detail::alternative_of(f.candidate->name, name, fit, set))
           others.push_back(*other);
       if (others.empty()) continue;
+      if (f.candidate->kind == CandidateKind::kMeasurement) {
+        others.resize(1, claim);
+        std::swap(claim, others.front());
+      }
+      const Model truth = augmented_model(physics, claim.at, "truth");
       for (const Experiment& experiment : experiments()) {
         const double own =
             diagnose_detail::left_of<D>(experiment, truth, claim, fit, physics, threads, watch);

@@ -44,8 +44,8 @@ class Posterior {
     for (const Finding& f : diagnosis.findings)
       for (const std::string& other : f.tied_with)
         if (const Candidate* const tied = law_named(other);
-            tied != nullptr && is_in(final.free, *f.candidate))
-          also(claimed_, with(with(final.free, *f.candidate, false), *tied));
+            f.claimed && tied != nullptr && is_in(final.free, *f.candidate))
+          also(claimed_, in_place_of(*f.candidate, *tied, final.free));
     for (const Candidate* candidate : bank_)
       if (is_drawn(*candidate) && !is_in(final.free, *candidate)) also(others_, with(final.free, *candidate));
   }

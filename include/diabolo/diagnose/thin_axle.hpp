@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "diabolo/diagnose/alternatives.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/first_spring.hpp"
 #include "diabolo/diagnose/refine.hpp"
@@ -20,7 +21,6 @@ namespace diabolo::diagnose_detail {
 /// Whether the usual path from tip to tip is nearer the string's length than what of it is not around the
 /// axle, in each recording where a path stands out.
 inline bool may_be_thin(const Fit& fit, const Model& physics) {
-  constexpr double kUsualContact = 2.6;  // [rad]
   if (!physics.effects.get<FiniteAxle>().neutral()) return false;
   const double around = kUsualContact * fit.centre[index_of(Unknown::kAxleRadius)];
   bool any = false;
@@ -37,6 +37,7 @@ inline bool may_be_thin(const Fit& fit, const Model& physics) {
 /// Where the base alone is, its string around no axle. That lies on the axle itself.
 inline Fit begun_thin(Fit fit, const Model& physics) {
   fit.centre[index_of(Unknown::kThinAxle)] = 1.0;
+  fit.centre[index_of(Unknown::kWraps)] = 0.0;
   fit.centre[index_of(Unknown::kAxleRadius)] =
       parameters_for(physics, fit.fit_takes.front().take->recording).axle_radius;
   fit.at = fit.centre;
@@ -44,18 +45,18 @@ inline Fit begun_thin(Fit fit, const Model& physics) {
   return fit;
 }
 
-/// Whether string and tips are where they were told.
+/// Whether string and tips are as they were told, within what any measurement is off by.
 inline bool is_as_told(const Fit& fit, const ActiveSet& set) {
   const Estimates now = estimates_of(Evidence(fit), set);
   return std::ranges::none_of(std::array{"string_length", "stick_tip_offset"}, [&](const char* name) {
     const Candidate& fault = candidate_of(name);
-    return speaks_for(fault, significance(fault, now));
+    return speaks_for(fault, significance(fault, now)) && is_beyond_floor(fault, now);
   });
 }
 
 /// The fit with a string that lies around no axle, from the base alone or from the physics that was found,
-/// which costs less; nothing where one with an axle does better, or where string or tips are not as told all
-/// the same.
+/// which costs less; nothing where one with an axle does surely better, or where string or tips are not as
+/// told all the same.
 template <class D>
 std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Model& physics, int threads,
                                   const FitWatch& watch) {

@@ -33,27 +33,32 @@ inline void withdraw_what_cannot_be(Diagnosis& d) {
   claims_first(d);
 }
 
-/// Physics that is left out since it is not sure, and would leave nothing sure of a fault; null where there
-/// is none.
+/// Physics that is left out since it is not sure, and would leave nothing sure of a fault: the surest of it;
+/// null where there is none.
 inline const Candidate* physics_instead(const Evidence& evidence, const Bank& bank, const ActiveSet& set,
                                         const Candidate& fault) {
+  const Candidate* surest = nullptr;
+  double most = kMayBe;
   for (const Candidate* other : bank) {
     if (!is_law(*other) || is_in(set, *other)) continue;
     const Estimates beside = estimates_of(evidence, with(set, *other));
-    const double z = significance(*other, beside);
-    if ((other->positive ? z : std::abs(z)) < kMayBe) continue;
-    if (!speaks_for(fault, significance(fault, beside)) || !is_beyond_floor(fault, beside)) return other;
+    const double z = significance(*other, beside), sure = other->positive ? z : std::abs(z);
+    if (sure < most || (speaks_for(fault, significance(fault, beside)) && is_beyond_floor(fault, beside)))
+      continue;
+    surest = other;
+    most = sure;
   }
-  return nullptr;
+  return surest;
 }
 
 /// A fault that may as well be physics is tied with it. (To be asked after exchange_claims(), which tries
-/// others in the place of claims.)
+/// others in the place of claims; and of all physics: that data left out deny it may be since the fault
+/// stands in for it.)
 inline void tie_with_physics(Diagnosis& d, const Evidence& evidence, const Bank& bank, const ActiveSet& set) {
   for (Finding& f : d.findings) {
     if (!f.claimed || f.candidate->kind != CandidateKind::kMeasurement) continue;
     const Candidate* other = physics_instead(evidence, bank, set, *f.candidate);
-    if (other == nullptr) continue;
+    if (other == nullptr || std::ranges::find(f.tied_with, other->name) != f.tied_with.end()) continue;
     f.tied_with.emplace_back(other->name);
     f.confidence = 0.5;
   }
@@ -131,7 +136,7 @@ inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
                                 : tips && (says.better == 0 || 2 * says.better < says.horizons);
     if (!f.claimed || !denied) continue;
     f.claimed = false;
-    f.reason = kDenied;
+    f.reason = says.horizons > 0 ? kDenied : kNotComparable;
     if (!physics) continue;
     d.withdrawn = d.withdrawn || (says.against() && std::abs(f.z) > kStrong);
     if (weakest == nullptr || std::abs(f.z) < std::abs(weakest->z)) weakest = &f;

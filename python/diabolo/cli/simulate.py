@@ -51,8 +51,7 @@ def add_parser(commands: Any) -> None:
         run=run,
         summary="write a predicted play as a tidy recording",
         text="Predict the diabolo from a motion of the stick tips, that of a recording or a built-in one,\n"
-        "and write tips and diabolo as a tidy recording (TIDY.csv, with TIDY.json beside it).\n"
-        "The presets' string has no thickness: a diagnosis of such a recording finds it 20 mm too long.\n\n"
+        "and write tips and diabolo as a tidy recording (TIDY.csv, with TIDY.json beside it).\n\n"
         "With --live you are the player: open the address that is printed in a browser on this machine,\n"
         "and drag the tips with the mouse. Closing the page or Ctrl-C ends the play.",
         example="  diabolo simulate swing.csv --motion swing\n"
