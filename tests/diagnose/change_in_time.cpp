@@ -127,3 +127,10 @@ TEST_CASE("what lies in events, across a gap or in another recording is no neigh
   for (std::size_t i = 0; i < takes.size(); ++i) takes[i].recording = i;
   CHECK(changes_in_time(takes).empty());
 }
+
+TEST_CASE("a single window far off does not make all others agree") {
+  std::vector<WindowFinding> windows = seen(
+      kSideways, 120, [](double) { return 0.0; }, test::fresh_seed());
+  windows[30].slope[kSideways] = 1e4;
+  CHECK(changes_in_time(windows).empty());
+}

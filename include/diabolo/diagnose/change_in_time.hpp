@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/residual_and_noise.hpp"
+#include "diabolo/diagnose/significance.hpp"
 #include "diabolo/math/bootstrap.hpp"
 #include "diabolo/math/solve_symmetric.hpp"
 
@@ -41,26 +43,46 @@ struct WindowSeries {
   }
 };
 
+/// No window counts for more than so many times the middle one's deviations.
+inline constexpr double kFarWindowsAgree = 6.0;
+
+/// The weighted mean of a series but for windows far from its middle: one of these would make all others
+/// agree.
+inline double mean_of_most(const WindowSeries& series) {
+  const double middle = middle_of(series.value);
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < series.size(); ++i)
+    sizes.push_back(std::abs(series.value[i] - middle) * std::sqrt(series.weight[i]));
+  const double most = kFarWindowsAgree * middle_of(sizes);
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (sizes[i] > most) continue;
+    sum += series.weight[i] * series.value[i];
+    weights += series.weight[i];
+  }
+  return sum / weights;
+}
+
 /// Of kMayChange[k], from windows without events. (A mistimed catch says nothing of what lasts.)
 inline WindowSeries series_of(const std::vector<WindowFinding>& windows, std::size_t k) {
   const double scale = kMayChange[k].factor * info_of(kMayChange[k].unknown).scale;
   WindowSeries series;
-  double slopes = 0.0, curvatures = 0.0;
   for (const WindowFinding& w : windows) {
     if (w.eventful || !(w.curvature[k] > 1e-6)) continue;
     series.time.push_back(w.begin);
     series.value.push_back(scale * w.slope[k] / w.curvature[k]);
     series.weight.push_back(w.curvature[k] / (scale * scale));
     series.recording.push_back(w.recording);
-    slopes += scale * w.slope[k] * series.weight.back() / w.curvature[k];
-    curvatures += series.weight.back();
   }
-  for (double& value : series.value) value -= slopes / curvatures;
+  if (series.size() == 0) return series;
+  const double mean = mean_of_most(series);
+  for (double& value : series.value) value -= mean;
   return series;
 }
 
-/// How well neighbours agree [standard deviations], no window counting more than six times the middle one,
-/// and the root of what they agree on: the mean of their products, those counting more that know more.
+/// How well neighbours agree [standard deviations], no window counting more than kFarWindowsAgree times the
+/// middle one, and the root of what they agree on: the mean of their products, those counting more that know
+/// more.
 struct Agreement {
   double z = 0.0, size = 0.0;
 };
@@ -72,7 +94,7 @@ inline Agreement agreement_of(const WindowSeries& series) {
   if (sizes.empty()) return {};
   std::vector<double> sorted = sizes;
   std::ranges::sort(sorted);
-  const double most = 6.0 * quantile(sorted, 0.5);
+  const double most = kFarWindowsAgree * quantile(sorted, 0.5);
   int pairs = 0;
   double sum = 0.0, squares = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -195,14 +217,13 @@ inline bool is_no_step(const WindowSeries& series) {
 /// Clocks that drift apart: in a single recording a delay that changes steadily, rather than at once or to
 /// and fro, surely, and by more than it may be off by.
 inline std::optional<ChangeInTime> drifting_clocks(const WindowSeries& given, const MayChange& delay) {
-  constexpr double kSure = 6.0;         // [standard deviations]
   constexpr double kLeast = 3.0;        // of the whole of it, in the smallest change that matters
   constexpr std::size_t kWindows = 12;  // to tell
   if (given.size() < kWindows || given.recording.front() != given.recording.back()) return std::nullopt;
   const WindowSeries series = capped(given);
   const Trend trend = trend_of(series);
   const double whole = std::abs(trend.rate) * (series.time.back() - series.time.front());
-  if (!(trend.z > kSure) || !(whole > kLeast * delay.smallest)) return std::nullopt;
+  if (!(trend.z > kStrong) || !(whole > kLeast * delay.smallest)) return std::nullopt;
   ChangeInTime change;
   change.quantity = delay.name;
   change.unit = delay.unit;

@@ -55,7 +55,7 @@ inline bool is_as_told(const Fit& fit, const ActiveSet& set) {
 }
 
 /// The fit with a string that lies around no axle, from the base alone or from the physics that was found,
-/// which costs less; nothing where one with an axle does surely better, or where string or tips are not as
+/// which costs less; nothing where one with an axle does clearly better, or where string or tips are not as
 /// told all the same.
 template <class D>
 std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Model& physics, int threads,
@@ -68,7 +68,8 @@ std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Mo
     linearize<D>(*trial, physics, ActiveSet::Constant(false), threads, watch);
   if (found.cost < best.cost) best = std::move(found);
   approach<D>(best, physics, set, kMostIterations, threads, watch);
-  const double most = cost_with_noise_of(best, fit, threads) + kAsGood * best.dispersion;
+  const double most =
+      (1.0 + kSameResidual) * cost_with_noise_of(best, fit, threads) + kAsGood * best.dispersion;
   if (best.cost > most || !is_as_told(best, set)) return std::nullopt;
   best.noise_is_known = fit.noise_is_known;
   return best;
