@@ -187,6 +187,7 @@ def draw_power(path: Path, rows: list[dict[str, Any]]) -> bool:
     """The power curve as a picture; False where matplotlib is not installed."""
     try:
         from matplotlib.figure import Figure
+        from PIL import Image  # which matplotlib needs
     except ImportError:
         return False
     shown = [row for row in rows if row["total"]]
@@ -201,6 +202,9 @@ def draw_power(path: Path, rows: list[dict[str, Any]]) -> bool:
     axes.set(xscale="log", ylim=(-0.02, 1.02), xlabel="SNR of the effect", ylabel="in the answer or its tie")
     temporary = path.with_name(f".{path.name}")
     figure.savefig(temporary, dpi=80, format="png")
+    with Image.open(temporary) as image:
+        few_colours = image.convert("RGB").quantize(32, dither=Image.Dither.NONE)
+    few_colours.save(temporary, format="PNG", optimize=True)
     temporary.replace(path)
     return True
 
