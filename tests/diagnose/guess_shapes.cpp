@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "diabolo/diagnose/adequacy_words.hpp"
 
 using namespace diabolo;
 using diagnose_detail::Guesses;
@@ -69,4 +70,14 @@ TEST_CASE("what a shape begins with lies within its bounds, and a digit is kept 
   CHECK(diagnose_detail::one_digit(0.0347) == Approx(0.03));
   CHECK(diagnose_detail::one_digit(346.0) == Approx(300.0));
   CHECK(diagnose_detail::one_digit(0.0) == 1.0);
+}
+
+TEST_CASE("a learnt law says behind its number where that holds") {
+  diagnose_detail::Guesses guesses;
+  guesses.fixed(Acts::kUp, "z", ", growing with z (at 1 m)");
+  guesses.fixed(Acts::kUp, "1", ", of constant size");
+  Learnt learnt{.law = guesses.list.front().law, .value = {0.05}, .deviation = {0.005}};
+  CHECK(learnt_plainly(learnt) == "upwards, growing with z: 0.05 [0.0418, 0.0582] m/s^2 at 1 m");
+  learnt.law = guesses.list.back().law;
+  CHECK(learnt_plainly(learnt) == "upwards, of constant size: 0.05 [0.0418, 0.0582] m/s^2");
 }

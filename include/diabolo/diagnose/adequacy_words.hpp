@@ -79,17 +79,28 @@ inline std::string three_digits(double value) {
 /// A dependence is shown that strengths exchanged among the windows gain as much as so rarely.
 inline constexpr double kShownDependence = 0.05;
 
+/// Takes off a law's words where its first number holds, " (at 1 m)", and says it behind that number.
+inline std::string place_taken_off(std::string& words) {
+  const std::size_t begin = words.rfind(" (at ");
+  if (begin == std::string::npos || !words.ends_with(')')) return {};
+  const std::string place = words.substr(begin + 2, words.size() - begin - 3);
+  words.erase(begin);
+  return " " + place;
+}
+
 /// A learnt law with its size and its interval: "against the velocity, of constant size: 0.41 [0.38, 0.44]
 /// m/s^2".
 inline std::string learnt_plainly(const Learnt& learnt) {
   constexpr double kNormal90 = 1.645;
   std::string text = learnt.law.plain;
+  const std::string place = place_taken_off(text);
   for (std::size_t i = 0; i < learnt.value.size(); ++i) {
     const LawNumber& number = learnt.law.numbers[i];
     if (number.name == "phase") continue;
     const double value = learnt.value[i], reach = kNormal90 * learnt.deviation[i];
     text += (i == 0 ? ": " : ", " + number.name + " ") + three_digits(value) + " [" +
-            three_digits(value - reach) + ", " + three_digits(value + reach) + "]" + unit_behind(number.unit);
+            three_digits(value - reach) + ", " + three_digits(value + reach) + "]" +
+            unit_behind(number.unit) + (i == 0 ? place : "");
   }
   const bool sure = !learnt.dependence || learnt.dependence->p_value <= kShownDependence;
   return text + (sure ? "" : " (that it depends on this is not shown)");

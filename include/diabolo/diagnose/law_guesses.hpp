@@ -96,7 +96,7 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
                        clock + series.time.front(), clock + series.time.back());
     if (acts == Acts::kString || acts == Acts::kFriction)
       guesses.decaying(acts, begun == 0.0 ? "t" : "(t - " + shown(begun) + ")", one_digit(span / 4.0), "s",
-                       ", fading in time");
+                       ", other at the beginning");
   }
 }
 
