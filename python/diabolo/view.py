@@ -67,6 +67,8 @@ def view_html(
     Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """
     recording = recording_of("recording", recording)
+    if len(recording) == 0:
+        raise ValueError(f"recording: {recording.name} has no rows; expected at least one")
     warn_of([recording])
     goals = list_of("goals", goals, (Waypoint,))
     step = max(1, -(-len(recording) // MOST_FRAMES))

@@ -420,6 +420,13 @@ def test_the_page_of_an_odd_recording_warns(played: Recording) -> None:
     assert len(caught) == len(odd.warnings()) and caught[0].filename == __file__
 
 
+def test_there_is_no_page_of_nothing() -> None:
+    nothing = np.zeros((0, 3))
+    empty = Recording(np.zeros(0), nothing, nothing, nothing, 120.0, name="empty")
+    with pytest.raises(ValueError, match=r"^recording: empty has no rows; expected at least one$"):
+        diabolo.view_html(empty)
+
+
 def test_no_warning_comes_twice(played: Recording) -> None:
     feet = (track / 0.3048 for track in (played.left, played.right, played.diabolo))
     odd = Recording(played.time, *feet, played.rate)
