@@ -288,3 +288,18 @@ TEST_CASE("a fault that may as well be physics is told with it") {
       "The simulator leaves out a bearing that slows the spin; the measurement is off by a tilted frame (or "
       "friction of the string on the axle in place of a tilted frame).");
 }
+
+TEST_CASE("a tilt to the side may be friction where nobody saw the spin") {
+  Diagnosis d;
+  d.findings = {claim("gravity_tilt", 15.0, {})};
+  d.findings.front().estimate[index_of(Unknown::kTiltX)] = 0.04;
+  tie_tilt_with_friction(d);
+  CHECK(d.findings.front().tied_with.empty());  // to the front
+  d.findings.front().estimate[index_of(Unknown::kTiltY)] = -0.05;
+  for (int i = 0; i < 2; ++i) tie_tilt_with_friction(d);
+  CHECK(d.findings.front().tied_with == std::vector<std::string>{"string_friction"});
+  d.findings.front().tied_with.clear();
+  d.findings.push_back(claim("string_friction", 9.0, {}));
+  tie_tilt_with_friction(d);
+  CHECK(d.findings.front().tied_with.empty());
+}

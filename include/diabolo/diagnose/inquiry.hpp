@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -103,6 +104,10 @@ class Inquiry : public ClaimSearch<D> {
     return result;
   }
 
+  bool is_asked(std::string_view name) const {
+    return std::ranges::find(bank_, name, &Candidate::name) != bank_.end();
+  }
+
   void claim() {
     const Evidence evidence(fit_);
     result_.at = fit_.at;
@@ -119,6 +124,8 @@ class Inquiry : public ClaimSearch<D> {
       for (const Candidate* candidate : denied_) std::erase(f.tied_with, candidate->name);
     }
     tie_with_physics(result_, evidence, bank_, set_);
+    if (std::ranges::none_of(fit_.fit_takes, has_spin) && is_asked("string_friction"))
+      tie_tilt_with_friction(result_);
     withdraw_length_of_a_wrap(result_, estimates_of(evidence, set_));
     for (const Replacement& exchange : exchanged_)
       if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);
