@@ -209,12 +209,15 @@ class Inquiry : public ClaimSearch<D> {
                                       options_.threads, step(asking, 0.95, 0.96, kRulesShare));
   }
 
-  /// Asks each of several recordings by itself.
+  /// Asks each of several recordings by itself, of what all together deny as well: that may be since they do
+  /// not agree.
   void compare_takes() {
     const char* const comparing = "comparing recordings";
     if (fit_.fit_takes.size() < 2 || !budget_.allows(comparing, kRulesShare)) return;
     const FitWatch looking = step(comparing, 0.96, 0.965, kRulesShare);
-    result_.differing = differing_takes<D>(fit_, physics_, bank_, set_, options_.threads, looking);
+    ActiveSet asked = set_;
+    for (const Candidate* candidate : denied_) asked = with(asked, *candidate);
+    result_.differing = differing_takes<D>(fit_, physics_, bank_, asked, options_.threads, looking);
     if (looking.is_enough()) budget_.leave(comparing);
   }
 
