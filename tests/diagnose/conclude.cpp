@@ -104,6 +104,14 @@ TEST_CASE(
   CHECK(stands(helps, "stick_tip_offset"));
   CHECK_FALSE(stands(idle, "stick_tip_offset"));
   CHECK_FALSE(stands(silent, "stick_tip_offset"));
+  Diagnosis nearer, farther;
+  for (Diagnosis* d : {&nearer, &farther}) {
+    d->findings = {claim("stick_tip_offset", 20.0, {std::nullopt})};
+    d->heldout.position.base_error = {8e-3, 9e-3, std::nullopt};
+    d->heldout.position.augmented_error = {3e-3, d == &nearer ? 4e-3 : 0.1, std::nullopt};
+    CHECK(withdraw_what_left_out_data_deny(*d) == nullptr);
+    CHECK(stands(*d, "stick_tip_offset") == (d == &nearer));
+  }
   CHECK_FALSE(stands(once, "stick_tip_offset"));
 }
 

@@ -137,12 +137,22 @@ inline bool withdraw_what_explains_too_little(Diagnosis& d) {
   return true;
 }
 
+/// Whether what was found is off by less than the base, in the mean, at most of the horizons.
+inline bool is_nearer(const ErrorsByHorizon& errors) {
+  std::size_t nearer = 0;
+  for (std::size_t h = 0; h < errors.augmented_error.size(); ++h) {
+    const auto &base = errors.base_error[h], &found = errors.augmented_error[h];
+    nearer += base && found && *found < *base;
+  }
+  return 2 * nearer > errors.augmented_error.size();
+}
+
 /// No physics is claimed without which what was left out is surely predicted better, or rather better where
 /// the spin does not say otherwise. Nor are tips somewhere else, unless it is predicted worse without at half
-/// of the horizons that say anything: six numbers explain much that nobody knows. (Of other faults this
-/// is not asked: what one of them does, tips elsewhere could do as well. What acts on the spin alone is
-/// judged by the spin.) Returns the least sure physics that was withdrawn, which the model has to do without;
-/// null where there is none.
+/// of the horizons that say anything, or, where none do, what was found is nearer than the base: six numbers
+/// explain much that nobody knows. (Of other faults this is not asked: what one of them does, tips elsewhere
+/// could do as well. What acts on the spin alone is judged by the spin.) Returns the least sure physics that
+/// was withdrawn, which the model has to do without; null where there is none.
 inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
   const Finding* weakest = nullptr;
   for (Finding& f : d.findings) {
@@ -150,7 +160,8 @@ inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
         spin(f.spin_worsening_ci95, kImmaterialSpin), &says = is_of_spin(*f.candidate) ? spin : position;
     const bool physics = is_law(*f.candidate), tips = first_of(*f.candidate) == Unknown::kLeftX;
     const bool denied = physics ? says.against() || (says.leans_against() && spin.better == 0)
-                                : tips && (says.better == 0 || 2 * says.better < says.horizons);
+                                : tips && (says.horizons > 0 ? 2 * says.better < says.horizons
+                                                             : !is_nearer(d.heldout.position));
     if (!f.claimed || !denied) continue;
     f.claimed = false;
     f.reason = says.horizons > 0 ? kDenied : kNotComparable;
