@@ -20,6 +20,10 @@ namespace diabolo {
 /// well and the others not at all.
 inline constexpr double kFarWindow = 1.5, kFarWindowAtFirst = 10.0;
 
+/// What the middle window leaves counts as no less than so many times the noise, which update_noise() keeps
+/// from being none: else a window of a fit without noise could leave anything at next to no cost.
+inline constexpr double kLeastUsual = 0.5;
+
 /// Most windows that are fitted: two minutes of play. The cost of a fit grows with them, its intervals shrink
 /// with their root.
 inline constexpr std::size_t kMostWindows = 240;
@@ -122,7 +126,8 @@ inline void reweight(Fit& fit, int threads) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const WindowSystem& system = fit.systems[i];
     WindowScore& score = fit.scores[i];
-    const double far = std::max(fit.far_window * fit.usual, 1e-12), off = sizes[i] / far, square = off * off;
+    const double far = fit.far_window * std::max(fit.usual, kLeastUsual), off = sizes[i] / far,
+                 square = off * off;
     score.weight = system.failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
     // What a window cannot tell since its prediction failed, or missed a catch, costs as much as if it were
     // infinitely far off: a better fit never pays more for seeing more.
