@@ -20,9 +20,9 @@ namespace diabolo {
 /// well and the others not at all.
 inline constexpr double kFarWindow = 1.5, kFarWindowAtFirst = 10.0;
 
-/// What the middle window leaves counts as no less than so many times the noise, which update_noise() keeps
-/// from being none: else a window of a fit without noise could leave anything at next to no cost.
-inline constexpr double kLeastUsual = 0.5;
+/// The least noise of a camera [m], [rad/s]. Where none is seen, what the middle window leaves counts as no
+/// less than a part of it: else a window could leave anything at next to no cost.
+inline constexpr double kLeastPositionNoise = 2e-5, kLeastSpinNoise = 0.02, kLeastUsual = 0.5;
 
 /// Most windows that are fitted: two minutes of play. The cost of a fit grows with them, its intervals shrink
 /// with their root.
@@ -121,13 +121,15 @@ inline void reweight(Fit& fit, int threads) {
     std::ranges::sort(sorted);
     fit.usual = quantile(sorted, 0.5);
   }
+  const bool noiseless = std::ranges::all_of(
+      fit.noise, [](const CameraNoise& one) { return one.position <= kLeastPositionNoise; });
+  const double usual = std::max(fit.usual, noiseless ? kLeastUsual : 0.0);
   fit.cost = 0.0;
   double chi_square = 0.0, numbers = 0.0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const WindowSystem& system = fit.systems[i];
     WindowScore& score = fit.scores[i];
-    const double far = fit.far_window * std::max(fit.usual, kLeastUsual), off = sizes[i] / far,
-                 square = off * off;
+    const double far = std::max(fit.far_window * usual, 1e-12), off = sizes[i] / far, square = off * off;
     score.weight = system.failed ? 0.0 : off > 1.0 ? 1.0 / (square * square) : 1.0;
     // What a window cannot tell since its prediction failed, or missed a catch, costs as much as if it were
     // infinitely far off: a better fit never pays more for seeing more.
@@ -220,8 +222,8 @@ inline void update_noise(Fit& fit) {
       std::ranges::sort(values);
       return std::max(std::sqrt(quantile(values, 0.5)), least);
     };
-    fit.noise[s].position = middle(position, fit.noise[s].position, 2e-5);
-    fit.noise[s].spin = middle(spin, fit.noise[s].spin, 0.02);
+    fit.noise[s].position = middle(position, fit.noise[s].position, kLeastPositionNoise);
+    fit.noise[s].spin = middle(spin, fit.noise[s].spin, kLeastSpinNoise);
   }
 }
 
