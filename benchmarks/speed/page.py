@@ -298,8 +298,8 @@ a nominal and a calibrated arm: `{PROGRAMS}/bench_robot`. p99 is that of the wal
 
 ## Compile time
 
-Each header of the core (those at the top, and mathematics, string, paper and effects below) alone, without
-optimisation, processor time, median of three:
+Each header of the core (those at the top, and `math`, `string`, `paper`, `effects` and `batch` below)
+alone, without optimisation, processor time, median of three:
 `python -m benchmarks.speed.compile_time --core`.
 The slowest five:
 

@@ -32,6 +32,8 @@ std::vector<LawGuess> one_of_each() {
   guesses.starting(Acts::kUp, "", 3.5, 0.0, 20.0);
   guesses.decaying(Acts::kFriction, "abs(slip)", 0.3, "m/s", ", more where it slips slowly");
   guesses.close_to(Acts::kForward, "z", 0.7, 0.1);
+  guesses.off_place(Acts::kLeft, "y", -0.2);
+  guesses.beyond_place(Acts::kLeft, "y", -0.1, 0.05);
   return guesses.list;
 }
 

@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/compiled.hpp"
 
 #include "claimed.hpp"
@@ -102,4 +103,58 @@ TEST_CASE("a force near a place is learnt with its place, and beside it no turn 
   CHECK(learnt.deviation[0] < 0.03);
   CHECK(learnt.deviation[1] < 0.01);
   CHECK(learnt.deviation[2] < 0.01);
+}
+
+TEST_CASE("a force by place is learnt with the place that it is about, and is no tilt") {
+  const auto asked = [](const char* formula) {
+    AllEffects<double> effects;
+    effects.get<FormulaLaws>() =
+        FormulaLaws<double>({Law("place", "", Acts::kLeft, formula, {{"k", "m/s^2"}})});
+    effects.get<FormulaLaws>().numbers[0] = 1.0;
+    return diagnose({played(effects, 16.0, 41)});
+  };
+  const auto place_of = [](const Diagnosis& d) {
+    CAPTURE(d.sentence);
+    CHECK(claimed(d, "gravity_tilt") == nullptr);
+    REQUIRE_FALSE(d.learnt.empty());
+    const Learnt& learnt = d.learnt.front();
+    CHECK(learnt.law.acts == Acts::kLeft);
+    REQUIRE(learnt.value.size() == 2);
+    return learnt;
+  };
+  const Learnt pull = place_of(asked("-k * 2.5 * (y + 0.12)"));
+  CHECK(pull.law.formula.text().find("(y - centre)") != std::string::npos);
+  CHECK(pull.value[0] == Approx(-2.5).margin(0.4));
+  CHECK(pull.value[1] == Approx(-0.12).margin(0.05));
+  const Learnt wall = place_of(asked("-k * (1 + tanh((y - 0.03) / 0.02)) / 2"));
+  CHECK(wall.law.formula.text().find("edge") != std::string::npos);
+  CHECK(wall.value[0] == Approx(-1.0).margin(0.15));
+  CHECK(wall.value[1] == Approx(0.03).margin(0.02));
+}
+
+TEST_CASE("a drag that grows in time is learnt as that") {
+  AllEffects<double> effects;
+  effects.get<FormulaLaws>() =
+      FormulaLaws<double>({Law("ageing", "", Acts::kAgainst, "k * speed * t", {{"k", "1/s^2"}})});
+  effects.get<FormulaLaws>().numbers[0] = 0.03;
+  const Diagnosis d = diagnose({played(effects, 18.0, 42)});
+  CAPTURE(d.sentence);
+  REQUIRE_FALSE(d.learnt.empty());
+  CHECK(d.learnt.front().law.acts == Acts::kAgainst);
+  CHECK(d.learnt.front().law.formula.text().ends_with("* t"));
+}
+
+TEST_CASE("a law that has a name is claimed beside one that was learnt") {
+  AllEffects<double> effects;
+  effects.get<MagnusLift>().coefficient = 1.2e-3;
+  effects.get<FormulaLaws>() =
+      FormulaLaws<double>({Law("against", "", Acts::kAgainst, "k", {{"k", "m/s^2"}})});
+  effects.get<FormulaLaws>().numbers[0] = 0.5;
+  const Diagnosis d = diagnose({played(effects, 20.0, 43, 0.0, &hopping_hands)});
+  CAPTURE(d.sentence);
+  REQUIRE_FALSE(d.learnt.empty());
+  CHECK(d.learnt.front().value.front() == Approx(0.5).margin(0.03));
+  const Finding* lift = claimed(d, "magnus_lift");
+  REQUIRE(lift != nullptr);
+  CHECK(lift->estimate[index_of(first_of(*lift->candidate))] == Approx(1.2e-3).margin(3e-4));
 }

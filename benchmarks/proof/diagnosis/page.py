@@ -17,6 +17,11 @@ FOLDER = "benchmarks/proof/diagnosis/batches"
 INTRODUCTION = """\
 # The diagnosis on concealed data
 
+How often the diagnosis is right, on recordings whose truth it could not see. For reviewers;
+[results](diagnosis_results.md#on-concealed-data) says the same in words. An independent simulator, the
+*plant* ([data/plant](../data/plant)), made the recordings. *Sealed* means that the hash of each truth stood
+in a commit before any recording was diagnosed.
+
 `{command}` made this page.
 
 Batch {name}: {cases} recordings of the project's plant. They were drawn and sealed at commit
@@ -36,8 +41,11 @@ that no batch can be chosen. Hashes of keys and recordings, the keys and the ans
 | z | z-score of a fault in the diagnosis's own fit |
 | mode | where an effect acts: on the taut string, with a loose string, in flight |
 | gap closed | share of the error between base and oracle, held out, that the diagnosis removes |
+| taken for another | a stranger of SNR 10 beside whose other claims no more than noise is left |
+| misnamed | physics is claimed that is not there |
+| confidence | the probability that the tool itself gives for a claimed name |
 | class | a claimed name, with the names that it is tied with |
-| missed | off the bound by more than the interval |
+| missed | off the bound by more than the interval; of silence, off the bound |
 | missed, within its interval | the value is off the bound, the interval reaches it |
 
 Rates have Clopper-Pearson intervals. [Here](../benchmarks/proof/diagnosis/README.md) the arms are described.

@@ -29,7 +29,8 @@ def row_of(score: dict[str, Any]) -> list[str]:
     interval = score["interval"]
     span = "-" if interval is None else f"{show(interval[0])} to {show(interval[1])}"
     hits = f"{score['hits']} of {score['total']}" if score["hits"] is not None else str(score["total"])
-    kept = {True: "kept", None: "", False: "missed" if score["fails"] else "missed, within its interval"}
+    unsure = f"missed, {'too few cases for an' if interval is None else 'within its'} interval"
+    kept = {True: "kept", None: "", False: "missed" if score["fails"] else unsure}
     return [score["name"], show(score["value"]), span, hits, bound_of(score), kept[score["keeps"]]]
 
 

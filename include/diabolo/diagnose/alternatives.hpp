@@ -200,7 +200,7 @@ inline std::optional<bool> is_sure(const Fit& trial, const Alternative& other) {
   if (!is_in(other.set, young)) return true;
   const Estimates now = estimates_of(Evidence(trial), other.set);
   const double z = significance(young, now);
-  if ((young.positive ? z : std::abs(z)) < kMayBe) return std::nullopt;
+  if (in_favour(young, z) < kMayBe) return std::nullopt;
   if (other.name != "wind") return speaks_for(young, z);
   const Candidate& drag = candidate_of("air_drag_quadratic");  // it acts in it
   return speaks_for(young, z) && speaks_for(drag, significance(drag, now));

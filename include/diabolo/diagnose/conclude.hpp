@@ -44,13 +44,14 @@ inline const std::string& tie_of(const Diagnosis& d, const Finding& f) {
   return physics != f.tied_with.end() ? *physics : f.tied_with.front();
 }
 
-/// Faults, each with the physics that it may as well be.
+/// Faults, each with what it may as well be.
 inline std::string plainly(const Diagnosis& d, const std::vector<const Finding*>& faults) {
   std::string text = plainly(faults);
-  for (const Finding* f : faults)
+  for (const Finding* f : faults) {
     for (const std::string& other : f->tied_with)
-      if (is_physics(d, other))
-        text += " (or " + plainly(d, other) + " in place of " + std::string(f->candidate->plain) + ")";
+      text += (&other == f->tied_with.data() ? " (or " : " or ") + plainly(d, other);
+    if (!f->tied_with.empty()) text += " in place of " + std::string(f->candidate->plain) + ")";
+  }
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/refine.hpp"
 #include "diabolo/diagnose/residual_and_noise.hpp"
 #include "diabolo/diagnose/select.hpp"
@@ -55,53 +56,82 @@ Fit fitted_alone(const Fit& fit, std::size_t take, const Model& physics, const A
 
 /// What each take with enough windows says by itself; of the others nothing.
 template <class D>
-std::vector<std::optional<Estimates>> estimates_alone(const Fit& fit, const Model& physics,
-                                                      const ActiveSet& set, int threads,
-                                                      const FitWatch& watch) {
-  std::vector<std::optional<Estimates>> result(fit.fit_takes.size());
+std::vector<std::optional<Evidence>> evidence_alone(const Fit& fit, const Model& physics,
+                                                    const ActiveSet& set, int threads,
+                                                    const FitWatch& watch) {
+  std::vector<std::optional<Evidence>> result(fit.fit_takes.size());
   for (std::size_t s = 0; s < fit.fit_takes.size(); ++s) {
     if (fit.fit_takes[s].windows.size() < kStretch) continue;
-    const Fit alone = fitted_alone<D>(fit, s, physics, set, threads, watch);
+    Fit alone = fitted_alone<D>(fit, s, physics, set, threads, watch);
+    linearize<D>(alone, physics, threads, watch);
     if (watch.is_enough()) return {};
-    result[s] = estimates_of(Evidence(alone), set);
+    result[s] = Evidence(alone);
   }
   return result;
 }
 
+/// Whether a take by itself asks for a sign that the law cannot have, or for a fault farther off than any
+/// measurement: its number stands for something else then.
+inline bool has_no_sense(const Candidate& candidate, const Estimates& alone) {
+  return (candidate.positive && significance(candidate, alone) < -kMayBe) ||
+         (candidate.kind == CandidateKind::kMeasurement && !is_possible(candidate, alone));
+}
+
 /// The two takes that differ most in something; nothing where none do.
 inline std::optional<Differing> difference_of_takes(const Candidate& candidate, const Fit& fit,
-                                                    const std::vector<std::optional<Estimates>>& alone) {
+                                                    const std::vector<std::optional<Evidence>>& evidence,
+                                                    const ActiveSet& set) {
   Differing result{&candidate, 0.0, {}};
-  for (std::size_t a = 0; a < alone.size(); ++a) {
-    if (!alone[a]) continue;
-    FittedAlone one{fit.fit_takes[a].take->recording.name, alone[a]->estimate, UnknownVector::Zero()};
-    for (int u = 0; u < kUnknowns; ++u) one.deviation[u] = alone[a]->deviation(u);
+  std::vector<Estimates> others;
+  for (std::size_t s = 0; s < evidence.size(); ++s) {
+    if (!evidence[s]) continue;
+    const Estimates alone = estimates_of(*evidence[s], set);
+    if (has_no_sense(candidate, alone)) continue;
+    FittedAlone one{fit.fit_takes[s].take->recording.name, alone.estimate, UnknownVector::Zero()};
+    for (int u = 0; u < kUnknowns; ++u) one.deviation[u] = alone.deviation(u);
     result.alone.push_back(std::move(one));
-    for (std::size_t b = 0; b < a; ++b) {
-      if (!alone[b]) continue;
-      const Estimates difference = less(*alone[a], *alone[b]);
+    for (const Estimates& other : others) {
+      const Estimates difference = less(alone, other);
       const double z = std::abs(significance(candidate, difference));
       if (z > std::max(result.z, kSignificanceOfFault) &&
           differs(candidate, difference, size_of(candidate, difference.estimate, fit.systems)))
         result.z = z;
     }
+    others.push_back(alone);
   }
   return result.z > 0.0 ? std::optional(std::move(result)) : std::nullopt;
 }
 
+/// Whether takes no longer differ in a fault beside physics that one of them may have.
+inline bool may_be_physics(const Candidate& fault, const Fit& fit, const Bank& bank,
+                           const std::vector<std::optional<Evidence>>& evidence, const ActiveSet& set) {
+  return std::ranges::any_of(bank, [&](const Candidate* law) {
+    if (!is_law(*law) || is_in(set, *law)) return false;
+    const ActiveSet beside = with(set, *law);
+    const auto may_have = [&](const std::optional<Evidence>& take) {
+      return take && in_favour(*law, significance(*law, estimates_of(*take, beside))) > kMayBe;
+    };
+    return std::ranges::any_of(evidence, may_have) && !difference_of_takes(fault, fit, evidence, beside);
+  });
+}
+
 }  // namespace diagnose_detail
 
-/// Of what is free in a fit to several takes, that of which they ask for different values, the surest first.
+/// That of which several takes ask for different values, the surest first: of what is free in their fit, and
+/// of physics that all of them together do not show.
 template <class D>
 std::vector<Differing> differing_takes(const Fit& fit, const Model& physics, const Bank& bank,
                                        const ActiveSet& set, int threads, const FitWatch& watch) {
-  const std::vector<std::optional<Estimates>> alone =
-      diagnose_detail::estimates_alone<D>(fit, physics, set, threads, watch);
+  const std::vector<std::optional<Evidence>> evidence =
+      diagnose_detail::evidence_alone<D>(fit, physics, set, threads, watch);
   std::vector<Differing> result;
   for (const Candidate* candidate : bank) {
-    if (candidate->unknowns.empty() || !is_in(set, *candidate)) continue;
-    std::optional<Differing> found = diagnose_detail::difference_of_takes(*candidate, fit, alone);
-    if (found) result.push_back(std::move(*found));
+    const bool free = is_in(set, *candidate), fault = candidate->kind == CandidateKind::kMeasurement;
+    if (candidate->unknowns.empty() || (!free && !is_law(*candidate))) continue;
+    std::optional<Differing> found =
+        diagnose_detail::difference_of_takes(*candidate, fit, evidence, with(set, *candidate));
+    if (found && !(fault && diagnose_detail::may_be_physics(*candidate, fit, bank, evidence, set)))
+      result.push_back(std::move(*found));
   }
   std::ranges::stable_sort(result, std::greater(), &Differing::z);
   return result;

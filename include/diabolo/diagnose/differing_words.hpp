@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -9,10 +10,19 @@
 #include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/finding_parameters.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
 
-/// "0.104 in one.csv, 0.41 in two.csv": the least and the most of a number, where it is one.
+/// As many digits as its interval leaves sense in, and one more.
+inline std::string within_interval(const Estimate& estimate) {
+  const double half = estimate.ci90 ? 0.5 * (estimate.ci90->high - estimate.ci90->low) : 0.0;
+  if (!(half > 0.0 && std::isfinite(half))) return three_digits(estimate.value);
+  const double tens = std::pow(10.0, std::max(0.0, 1.0 - std::floor(std::log10(half))));
+  return shown(std::round(estimate.value * tens) / tens + 0.0);
+}
+
+/// "0.104 in one.csv, 0.412 in two.csv": the least and the most of a number, where it is one.
 inline std::string values_in_words(const Differing& differing, const Diagnosis& d) {
   std::vector<Estimate> values;
   for (const FittedAlone& alone : differing.alone) {
@@ -27,7 +37,7 @@ inline std::string values_in_words(const Differing& differing, const Diagnosis& 
   const auto [least, most] = std::ranges::minmax_element(values, {}, &Estimate::value);
   std::string text;
   for (const auto& value : {least, most})
-    text += (text.empty() ? ": " : ", ") + three_digits(value->value) + unit_behind(value->unit) + " in " +
+    text += (text.empty() ? ": " : ", ") + within_interval(*value) + unit_behind(value->unit) + " in " +
             differing.alone[static_cast<std::size_t>(value - values.begin())].recording;
   return text;
 }

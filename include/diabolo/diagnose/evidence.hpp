@@ -49,6 +49,13 @@ class Evidence {
     return result;
   }
 
+  /// The same, were 1 / prior variance of the scaled unknowns another.
+  Evidence with_priors(const UnknownVector& precision) const {
+    Evidence result = *this;
+    result.prior_ = precision;
+    return result;
+  }
+
   /// Best scaled unknowns where all but `free` are zero.
   UnknownVector solve(const ActiveSet& free) const { return solve(free, information_, slope_); }
 

@@ -68,12 +68,12 @@ class Guesses {
   }
 
   /// rate * factor * t.
-  void trending(Acts acts, const std::string& factor) {
+  void trending(Acts acts, const std::string& factor, const std::string& words = ", growing in time") {
     LawNumber rate = amplitude(acts);
     rate.name = "rate";
     rate.unit = per_second(acts);
     rate.usual *= 0.1;
-    const Law law = made(acts, joined("rate", joined(factor, "t")), ", growing in time", {rate});
+    const Law law = made(acts, joined("rate", joined(factor, "t")), words, {rate});
     list.push_back({law, {law}});
   }
 
@@ -119,6 +119,27 @@ class Guesses {
     list.push_back({made(acts, by("decay"), words,
                          {amplitude(acts), {"decay", unit, 0.5 * decay, decay, 0.1 * decay, 8.0 * decay}}),
                     {made(acts, by(shown(decay)), words, {amplitude(acts)})}});
+  }
+
+  /// amplitude * (place - centre): towards a plane across `place`, or away from it.
+  void off_place(Acts acts, const std::string& place, double centre) {
+    const auto off = [&](const std::string& from) { return product("(" + place + " - " + from + ")"); };
+    const std::string words = ", growing with the way from a place along " + place + " (at 1 m from it)";
+    list.push_back({made(acts, off("centre"), words,
+                         {amplitude(acts), {"centre", "m", 0.1, centre, centre - 10.0, centre + 10.0}}),
+                    {made(acts, off("(" + shown(centre) + ")"), words, {amplitude(acts)})}});
+  }
+
+  /// amplitude beyond a plane across `place`, within a width that is known no better.
+  void beyond_place(Acts acts, const std::string& place, double edge, double width) {
+    const auto step = [&](const std::string& where) {
+      return product("(1 + tanh((" + place + " - " + where + ") / " + shown(width) + ")) / 2");
+    };
+    const std::string words = ", beyond a place along " + place;
+    list.push_back(
+        {made(acts, step("edge"), words,
+              {amplitude(acts), {"edge", "m", width, edge, edge - 5.0 * width, edge + 5.0 * width}}),
+         {made(acts, step("(" + shown(edge) + ")"), words, {amplitude(acts)})}});
   }
 
   /// amplitude * exp(-((place - centre) / width)^2): near a plane across `place`.

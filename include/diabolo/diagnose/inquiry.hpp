@@ -20,6 +20,7 @@
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/heldout.hpp"
 #include "diabolo/diagnose/learn_law.hpp"
+#include "diabolo/diagnose/lone_fault.hpp"
 #include "diabolo/diagnose/next_experiment.hpp"
 #include "diabolo/diagnose/noise_trial.hpp"
 #include "diabolo/diagnose/permuted_law.hpp"
@@ -126,6 +127,7 @@ class Inquiry : public ClaimSearch<D> {
     tie_with_physics(result_, evidence, bank_, set_);
     if (std::ranges::none_of(fit_.fit_takes, has_spin) && is_asked("string_friction"))
       tie_tilt_with_friction(result_);
+    claim_lone_fault(result_, evidence, set_);
     withdraw_length_of_a_wrap(result_, estimates_of(evidence, set_));
     for (const Replacement& exchange : exchanged_)
       if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);
@@ -153,7 +155,9 @@ class Inquiry : public ClaimSearch<D> {
       result_.findings[i].worsening_ci95 = result_.heldout.position.worsening_ci95[i];
       result_.findings[i].spin_worsening_ci95 = result_.heldout.spin.worsening_ci95[i];
     }
-    return withdraw_what_left_out_data_deny(result_);
+    const Candidate* denied = withdraw_what_left_out_data_deny(result_);
+    tie_tips_with_faults(result_, Evidence(fit_), bank_, set_);
+    return denied;
   }
 
   /// Takes laws that were learnt from what is left into the model, one after the other. Returns whether what
@@ -173,6 +177,7 @@ class Inquiry : public ClaimSearch<D> {
       fit_.noise_is_known = false;  // what was not known was taken for noise
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, looking);
       fit_.noise_is_known = true;
+      add_what_it_hid(looking);
       ask_wraps_again<D>(fit_, set_, exchanged_, physics_, options_.threads, looking);
       if (looking.is_enough()) budget_.leave("learning laws");
       result_.learnt.push_back({.law = std::move(law->law),
@@ -187,6 +192,14 @@ class Inquiry : public ClaimSearch<D> {
     note_learnt(result_, physics_, fit_, set_);
     ask_dependences();
     return withdrawn;
+  }
+
+  /// Beside a law that was learnt a name may be sure that was not before.
+  void add_what_it_hid(const FitWatch& watch) {
+    const Candidate* hidden = strongest_left_out(Evidence(fit_), possible(), set_);
+    if (hidden == nullptr || watch.is_enough()) return;
+    set_ = with(set_, *hidden);
+    refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, watch);
   }
 
   /// Whether learnt laws depend on what they say.

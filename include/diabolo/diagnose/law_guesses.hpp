@@ -100,21 +100,28 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
   }
 }
 
-/// Forces near a place: at the middle of where the diabolo is, to both sides, and above and below. (Fore and
-/// aft it hardly goes, and where it stays in place it says nothing of one.)
+/// Forces that grow with the way from a place, and forces near or beyond one: at the middle of where the
+/// diabolo is, to both sides, and above and below. (Fore and aft it hardly goes, and where it stays in place
+/// it says nothing of one.)
 inline void guess_in_places(Guesses& guesses, const Fit& fit) {
   constexpr double kStays = 0.01;  // [m]
-  for (const int axis : {1, 2}) {
+  constexpr std::array kAxes{"x", "y", "z"};
+  for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
     std::vector<double> places;
     for (const FitTake& fit_take : fit.fit_takes)
-      for (const FitWindow& window : fit_take.windows) places.push_back(window.start.position[axis]);
+      for (const FitWindow& window : fit_take.windows)
+        places.push_back(window.start.position[static_cast<int>(axis)]);
     std::ranges::sort(places);
+    const auto place = [&](double part) { return std::round(100.0 * quantile(places, part)) / 100.0; };
     const double reach = quantile(places, 0.9) - quantile(places, 0.1), width = one_digit(reach / 3.0);
     if (reach < kStays) continue;
-    for (const double part : {0.1, 0.5, 0.9})
-      for (const Acts acts : {Acts::kForward, Acts::kLeft, Acts::kUp})
-        guesses.close_to(acts, axis == 1 ? "y" : "z", std::round(100.0 * quantile(places, part)) / 100.0,
-                         width);
+    for (const Acts acts : {Acts::kForward, Acts::kLeft, Acts::kUp}) {
+      guesses.off_place(acts, kAxes[axis], place(0.5));
+      if (axis == 0) continue;
+      for (const double part : {0.1, 0.5, 0.9}) guesses.close_to(acts, kAxes[axis], place(part), width);
+      for (const double part : {0.25, 0.5, 0.75})
+        guesses.beyond_place(acts, kAxes[axis], place(part), 0.3 * width);
+    }
   }
 }
 
@@ -156,8 +163,6 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   in_all(kLift, "");
   for (const Acts acts : {kForward, kLeft, kUp}) {
     guesses.fixed(acts, "taut", " while on the string, of constant size");
-    for (const char* place : {"x", "y", "z"})
-      guesses.fixed(acts, place, std::string(", growing with ") + place + " (at 1 m)");
     guesses.growing(acts, "", spin, 1.0, ", growing with the spin" + at_spin);
     guesses.growing(acts, "", tips, 1.0, ", growing with the speed of the tips" + at_tips);
   }
@@ -173,8 +178,11 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   guesses.growing(kSpin, slows, tips, 1.0, ", slowing it, growing with the speed of the tips" + at_tips);
   guesses.growing(kString, "", speed, 1.0, ", growing with the speed" + at_speed);
   guesses.growing(kString, "", spin, 1.0, ", growing with the spin" + at_spin);
-  if (fit.fit_takes.size() == 1)
+  if (fit.fit_takes.size() == 1) {
     diagnose_detail::guess_in_time(guesses, windows, fit.fit_takes.front().take->recording.clock);
+    guesses.trending(kAgainst, speed, ", growing with the speed" + at_speed + " and in time");
+    guesses.trending(kSpin, slows, ", slowing it, growing in time");
+  }
   return std::move(guesses.list);
 }
 

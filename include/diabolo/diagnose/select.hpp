@@ -58,8 +58,8 @@ inline double significance(const Candidate& candidate, const Estimates& standing
   if (own.empty()) return 0.0;
   const Eigen::VectorXd x = in_range * standing.estimate(own);
   if (own.size() == 1) return x[0] / standing.deviation(own.front());
-  return std::min(normal_equivalent(x, standing.noise(own, own)),
-                  normal_equivalent(x, standing.spread(own, own)));
+  return std::max(0.0, std::min(normal_equivalent(x, standing.noise(own, own)),
+                                normal_equivalent(x, standing.spread(own, own))));
 }
 
 /// By how many standard deviations x lies outside the box of +-half on every side: the nearest point of the
@@ -96,10 +96,13 @@ inline bool is_beyond_floor(const Candidate& candidate, const Estimates& standin
                   beyond_box(x, standing.spread(own, own), candidate.floor)) > kBeyondFloor;
 }
 
+/// A z-score as far as it speaks for a candidate: of one that cannot be negative, with its sign.
+inline double in_favour(const Candidate& candidate, double z) { return candidate.positive ? z : std::abs(z); }
+
 /// Whether a standing speaks for a candidate.
 inline bool speaks_for(const Candidate& candidate, double z) {
   const double least = candidate.kind == CandidateKind::kMeasurement ? kSignificanceOfFault : kSignificance;
-  return candidate.positive ? z > least : std::abs(z) > least;
+  return in_favour(candidate, z) > least;
 }
 
 /// From a set with everything, takes away what is least sure, one by one, until all that is left is sure, or
@@ -111,7 +114,7 @@ inline ActiveSet eliminate(const Evidence& evidence, const Bank& bank, ActiveSet
     double least = 0.0;
     for (const Candidate* candidate : bank) {
       if (is_nuisance(*candidate) || !is_in(set, *candidate)) continue;
-      const double z = significance(*candidate, now), sure = candidate->positive ? z : std::abs(z);
+      const double z = significance(*candidate, now), sure = in_favour(*candidate, z);
       if (weakest == nullptr || sure < least) weakest = candidate, least = sure;
     }
     if (weakest == nullptr || least > kSignificance) return set;
@@ -126,7 +129,7 @@ inline const Candidate* strongest_left_out(const Evidence& evidence, const Bank&
   for (const Candidate* candidate : bank) {
     if (is_in(set, *candidate)) continue;
     const double z = significance(*candidate, estimates_of(evidence, with(set, *candidate)));
-    const double sure = candidate->positive ? z : std::abs(z);
+    const double sure = in_favour(*candidate, z);
     if (sure > most) strongest = candidate, most = sure;
   }
   return strongest;

@@ -42,7 +42,7 @@ inline const Candidate* physics_instead(const Evidence& evidence, const Bank& ba
   for (const Candidate* other : bank) {
     if (!is_law(*other) || is_in(set, *other)) continue;
     const Estimates beside = estimates_of(evidence, with(set, *other));
-    const double z = significance(*other, beside), sure = other->positive ? z : std::abs(z);
+    const double sure = in_favour(*other, significance(*other, beside));
     if (sure < most || (speaks_for(fault, significance(fault, beside)) && is_beyond_floor(fault, beside)))
       continue;
     surest = other;
@@ -172,6 +172,40 @@ inline const Candidate* withdraw_what_left_out_data_deny(Diagnosis& d) {
   const Candidate* result = weakest == nullptr ? nullptr : weakest->candidate;
   claims_first(d);
   return result;
+}
+
+/// The fault that would be sure without another one, in whose place it comes: the surest; null where there is
+/// none.
+inline const Candidate* fault_instead(const Evidence& evidence, const Bank& bank, const ActiveSet& set,
+                                      const Candidate& fault) {
+  const Estimates without = estimates_of(evidence, with(set, fault, false));
+  const Candidate* surest = nullptr;
+  double most = 0.0;
+  for (const Candidate* other : bank) {
+    if (other == &fault || other->kind != CandidateKind::kMeasurement || !is_in(set, *other)) continue;
+    const double z = significance(*other, without), sure = in_favour(*other, z);
+    if (!speaks_for(*other, z) || !is_beyond_floor(*other, without) || sure < most) continue;
+    surest = other;
+    most = sure;
+  }
+  return surest;
+}
+
+/// Where another fault takes the place of tips that are elsewhere, data that were left out cannot tell, and
+/// deny nothing: the two are tied.
+inline void tie_tips_with_faults(Diagnosis& d, const Evidence& evidence, const Bank& bank,
+                                 const ActiveSet& set) {
+  for (Finding& f : d.findings) {
+    if (f.reason != kDenied || first_of(*f.candidate) != Unknown::kLeftX || !f.possible) continue;
+    const Candidate* other = fault_instead(evidence, bank, set, *f.candidate);
+    const auto stands = [&](const Finding& g) { return g.claimed && g.candidate == other; };
+    if (other == nullptr || std::ranges::any_of(d.findings, stands)) continue;
+    f.claimed = true;
+    f.reason = kMaterial;
+    f.tied_with = {std::string(other->name)};
+    f.confidence = 0.5;
+  }
+  claims_first(d);
 }
 
 /// Of physics that left-out data denied before the last fit.
