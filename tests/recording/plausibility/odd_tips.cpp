@@ -27,25 +27,13 @@ Recording tips_turned_by(Recording r, double degrees) {
   return r;
 }
 
-/// The diabolo of the row that many samples later.
-Recording shifted(const Recording& r, Eigen::Index by) {
-  Recording result = r;
-  result.diabolo = Track::missing(r.size());
-  for (Eigen::Index i = 0; i + by < r.size(); ++i) {
-    result.diabolo.position.col(i) = r.diabolo.position.col(i + by);
-    result.diabolo.valid[i] = r.diabolo.valid[i + by];
-  }
-  return result;
-}
-
 }  // namespace
 
-TEST_CASE("Shipped play is neither frozen nor shifted nor too wide, nor are tips that rest in a simulation") {
+TEST_CASE("Shipped play is neither frozen nor too wide, nor are tips that rest in a simulation") {
   for (const char* name : test::kShipped) {
     const Recording r = test::shipped(name);
     CAPTURE(name);
     CHECK(odd_still_tips(r, falls(r)).empty());
-    CHECK(odd_shift(r).empty());
     CHECK(odd_distance(r).empty());
   }
   // Tips that rest exactly while the diabolo flies over them, farther than the string reaches, and is caught.
@@ -75,21 +63,6 @@ TEST_CASE("Frozen tips are told, one or both, and from some row on") {
     CHECK(test::has(warnings(both), "the left tip and the right tip rest to the last digit for "));
     hold_still(late, late.right, late.size() / 2);
     CHECK(test::has(warnings(late), "the right tip rests to the last digit for "));
-  }
-}
-
-TEST_CASE("Tips that are half a second late are told, and early ones") {
-  for (const char* name :
-       {"circular_acceleration", "drop_and_catch", "hop", "linear_acceleration", "swing", "throw"}) {
-    const Recording r = test::shipped(name);
-    CAPTURE(name);
-    CHECK(test::has(warnings(shifted(r, 60)), "s earlier than the tips: they are shifted"));
-    Recording early = r;
-    early.left.position.leftCols(r.size() - 60) = r.left.position.rightCols(r.size() - 60);
-    early.right.position.leftCols(r.size() - 60) = r.right.position.rightCols(r.size() - 60);
-    early.left.valid.head(r.size() - 60) = r.left.valid.tail(r.size() - 60);
-    early.right.valid.head(r.size() - 60) = r.right.valid.tail(r.size() - 60);
-    CHECK(test::has(warnings(early), "s later than the tips: they are shifted"));
   }
 }
 

@@ -124,49 +124,4 @@ inline std::string odd_heading(const Recording& r) {
          "; expected y to the left";
 }
 
-/// Longest shift that is looked for [s], the least that is told, and how much oftener the string has its
-/// usual length at a shift before it is.
-inline constexpr double kLongestShift = 1.0, kLeastShift = 0.05, kClearlyOftener = 1.5;
-
-/// A clause about tips that fit the diabolo at another time; else empty. A taut string has one length: of the
-/// paths from the tips of one row over the diabolo of another, the share within 20 mm is largest where both
-/// are of the same time. At most 2000 rows are looked at.
-inline std::string odd_shift(const Recording& r) {
-  constexpr Eigen::Index kMostRows = 2000;
-  constexpr double kLeastTaut = 0.4;
-  if (static_cast<double>(r.size()) < kFewestSeconds * r.rate) return {};
-  const Eigen::Index every = std::max<Eigen::Index>(1, r.size() / kMostRows);
-  std::vector<double> lengths;
-  const auto taut = [&](Eigen::Index shift) {  // share of the rows, of all
-    lengths.clear();
-    for (Eigen::Index i = std::max<Eigen::Index>(0, -shift); i < std::min(r.size(), r.size() - shift);
-         i += every)
-      if (r.left.valid[i] && r.right.valid[i] && r.diabolo.valid[i + shift])
-        lengths.push_back((r.left.position.col(i) - r.diabolo.position.col(i + shift)).norm() +
-                          (r.right.position.col(i) - r.diabolo.position.col(i + shift)).norm());
-    if (static_cast<double>(lengths.size() * static_cast<std::size_t>(every)) < kFewestSeconds * r.rate)
-      return 0.0;
-    std::ranges::sort(lengths);
-    std::size_t most = 0;
-    for (std::size_t low = 0, high = 0; low < lengths.size(); ++low) {
-      while (high < lengths.size() && lengths[high] < lengths[low] + 0.02) ++high;
-      most = std::max(most, high - low);
-    }
-    return static_cast<double>(most) / static_cast<double>(lengths.size());
-  };
-  const double now = taut(0);
-  const Eigen::Index longest = std::lround(kLongestShift * r.rate),
-                     step = std::max<Eigen::Index>(1, std::lround(0.02 * r.rate));
-  Eigen::Index best = 0;
-  double most = now;
-  for (Eigen::Index shift = -longest; shift <= longest; shift += step)
-    if (const double share = taut(shift); share > most) most = share, best = shift;
-  if (most < kLeastTaut || most < kClearlyOftener * now ||
-      static_cast<double>(std::abs(best)) < kLeastShift * r.rate)
-    return {};
-  return "the string has its length where the diabolo is taken " +
-         shown_rounded(static_cast<double>(std::abs(best)) / r.rate) + " s " +
-         (best > 0 ? "later" : "earlier") + " than the tips: they are shifted against each other";
-}
-
 }  // namespace diabolo

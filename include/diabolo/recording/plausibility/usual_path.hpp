@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diabolo/recording/recording.hpp"
@@ -46,18 +47,23 @@ inline std::vector<double> sorted_path_lengths(const Recording& r) {
   return lengths;
 }
 
+/// The densest 20 mm of sorted path lengths: which one is the first in it, and how many are.
+inline std::pair<std::size_t, std::size_t> densest_lengths(const std::vector<double>& lengths) {
+  std::size_t best = 0, most = 0;
+  for (std::size_t low = 0, high = 0; low < lengths.size(); ++low) {
+    while (high < lengths.size() && lengths[high] < lengths[low] + 0.02) ++high;
+    if (high - low > most) most = high - low, best = low;
+  }
+  return {best, most};
+}
+
 /// The most frequent of sorted path lengths [m]; none where no length stands out. That is the string's length
 /// while it is taut.
 inline std::optional<double> usual_path_length(const std::vector<double>& lengths) {
   if (lengths.size() < 20) return std::nullopt;
-  // The densest interval of 20 mm.
-  std::size_t best = 0, best_count = 0;
-  for (std::size_t low = 0, high = 0; low < lengths.size(); ++low) {
-    while (high < lengths.size() && lengths[high] < lengths[low] + 0.02) ++high;
-    if (high - low > best_count) best_count = high - low, best = low;
-  }
-  if (best_count * 4 < lengths.size()) return std::nullopt;
-  return lengths[best + best_count / 2];
+  const auto [first, count] = densest_lengths(lengths);
+  if (count * 4 < lengths.size()) return std::nullopt;
+  return lengths[first + count / 2];
 }
 inline std::optional<double> usual_path_length(const Recording& r) {
   return usual_path_length(sorted_path_lengths(r));

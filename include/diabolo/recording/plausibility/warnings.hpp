@@ -9,6 +9,7 @@
 
 #include "diabolo/recording/plausibility/fall.hpp"
 #include "diabolo/recording/plausibility/frozen_tracks.hpp"
+#include "diabolo/recording/plausibility/odd_match.hpp"
 #include "diabolo/recording/plausibility/odd_orientations.hpp"
 #include "diabolo/recording/plausibility/odd_spin.hpp"
 #include "diabolo/recording/plausibility/odd_stretches.hpp"
@@ -57,7 +58,7 @@ inline std::vector<std::string> warnings(const Recording& recording) {
   is_odd(odd_times(recording));
   if (!is_odd(odd_still_tips(recording, fallen)) && !is_odd(odd_path_length(recording)) &&
       !is_odd(odd_distance(recording)) && !is_odd(odd_up(recording, fallen)) &&
-      !is_odd(odd_height(recording)) && !is_odd(odd_shift(recording)))
+      !is_odd(odd_height(recording)) && !is_odd(odd_shift(recording)) && !is_odd(odd_axes(recording)))
     is_odd(odd_fall(recording, fallen));
   if (!is_odd(odd_orientations(recording))) is_odd(open_spin(recording));
   is_odd(odd_heading(recording));
