@@ -11,15 +11,19 @@
 
 namespace diabolo {
 
-/// What is claimed, in plain words: "a, b and c".
-inline std::string plainly(const std::vector<const Finding*>& claims) {
+/// "a, b and c".
+inline std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < claims.size(); ++i)
-    text += (i == 0                   ? ""
-             : i + 1 == claims.size() ? " and "
-                                      : ", ") +
-            std::string(claims[i]->candidate->plain);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return text;
+}
+
+/// What is claimed, in plain words.
+inline std::string plainly(const std::vector<const Finding*>& claims) {
+  std::vector<std::string> names;
+  for (const Finding* f : claims) names.emplace_back(f->candidate->plain);
+  return listed(names);
 }
 
 /// Whether a claim says that there is less of a law than the simulator has.

@@ -44,15 +44,16 @@ inline const std::string& tie_of(const Diagnosis& d, const Finding& f) {
   return physics != f.tied_with.end() ? *physics : f.tied_with.front();
 }
 
-/// Faults, each with what it may as well be.
+/// Faults, each with what it may as well be: "a (or b or c) and d".
 inline std::string plainly(const Diagnosis& d, const std::vector<const Finding*>& faults) {
-  std::string text = plainly(faults);
+  std::vector<std::string> names;
   for (const Finding* f : faults) {
+    std::string text(f->candidate->plain);
     for (const std::string& other : f->tied_with)
       text += (&other == f->tied_with.data() ? " (or " : " or ") + plainly(d, other);
-    if (!f->tied_with.empty()) text += " in place of " + std::string(f->candidate->plain) + ")";
+    names.push_back(text + (f->tied_with.empty() ? "" : ")"));
   }
-  return text;
+  return listed(names);
 }
 
 /// Where a latent acceleration acts.
