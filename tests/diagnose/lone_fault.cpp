@@ -15,19 +15,19 @@ using namespace diabolo;
 
 namespace {
 
-constexpr int kLength = index_of(Unknown::kStringLength), kScale = index_of(Unknown::kLengthScale);
+constexpr int kLengthAt = index_of(Unknown::kStringLength), kScaleAt = index_of(Unknown::kLengthScale);
 
 /// Windows that see the string's length and the scale of lengths nearly alike, where they are off by so many
 /// of their usual sizes.
 Fit seen_alike(double length, double scale) {
   Fit fit;
   UnknownVector truth = UnknownVector::Zero();
-  truth[kLength] = length;
-  truth[kScale] = scale;
+  truth[kLengthAt] = length;
+  truth[kScaleAt] = scale;
   for (int w = 0; w < 40; ++w) {
     UnknownVector seen = UnknownVector::Zero();
-    seen[kLength] = 20.0;
-    seen[kScale] = 20.0 * (1.45 + 1e-3 * (w % 5 - 2));
+    seen[kLengthAt] = 20.0;
+    seen[kScaleAt] = 20.0 * (1.45 + 1e-3 * (w % 5 - 2));
     WindowScore score;
     score.information = seen * seen.transpose();
     score.score = score.information * truth;
@@ -75,7 +75,7 @@ TEST_CASE("of faults that share what one of them does, the one is claimed that n
   const Diagnosis scale = asked(seen_alike(0.0, 3.0));
   const Finding* found = claimed(scale, "length_scale");
   REQUIRE(found != nullptr);
-  CHECK(found->estimate[kScale] == Approx(0.03).margin(0.006));
+  CHECK(found->estimate[kScaleAt] == Approx(0.03).margin(0.006));
   CHECK(found->z > kSignificanceOfFault);
   CHECK(scale.findings.front().candidate == found->candidate);
 }
