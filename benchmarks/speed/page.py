@@ -326,10 +326,12 @@ The job: a point mass on an inextensible string between two moving tips, simulat
 def page(results: dict[str, Any]) -> str:
     return f"""# Benchmarks
 
+How fast the library is, beside other programs. A step is 1 ms of motion. Times are medians of the
+processor's time, all cores together.
+
 {opening(results)}
 
-Medians of the processor's time, all cores together. A step is 1 ms. `make bench` writes this page.
-[What else there is](../benchmarks/README.md), and how long it runs.
+`make bench` writes this page. [What else there is](../benchmarks/README.md), and how long it runs.
 
 {machine_part(results)}
 {model_part(results)}
