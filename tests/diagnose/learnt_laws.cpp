@@ -158,3 +158,21 @@ TEST_CASE("a law that has a name is claimed beside one that was learnt") {
   REQUIRE(lift != nullptr);
   CHECK(lift->estimate[index_of(first_of(*lift->candidate))] == Approx(1.2e-3).margin(3e-4));
 }
+
+TEST_CASE("a drag that grows with speed and spin is learnt with the spin's power") {
+  AllEffects<double> effects;
+  effects.get<SpinLoss>().axle = 7.0;
+  effects.get<FormulaLaws>() = FormulaLaws<double>(
+      {Law("stirring", "", Acts::kAgainst, "k * speed * (abs(spin) / 100)^0.5", {{"k", "1/s"}})});
+  effects.get<FormulaLaws>().numbers[0] = 0.6;
+  const Diagnosis d = diagnose({played(effects, 22.0, 44)});
+  CAPTURE(d.sentence);
+  CHECK(claimed(d, "axle_drag") != nullptr);
+  REQUIRE_FALSE(d.learnt.empty());
+  const Learnt& learnt = d.learnt.front();
+  CAPTURE(learnt.law.formula.text(), learnt.value);
+  CHECK(learnt.law.acts == Acts::kAgainst);
+  CHECK(learnt.law.formula.text().find("abs(spin)") != std::string::npos);
+  REQUIRE(learnt.value.size() == 2);
+  CHECK(learnt.value[1] == Approx(0.5).margin(0.2));
+}

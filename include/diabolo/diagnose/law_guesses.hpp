@@ -150,6 +150,8 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   guesses.fixed(kAgainst, "(1 - taut)", " while off the string, of constant size");
   guesses.fixed(kAgainst, "pull / 10", ", growing with the string's pull (at 10 m/s^2)");
   in_all(kAgainst, "");
+  guesses.growing(kAgainst, speed, spin, 1.0,
+                  ", growing with the speed" + at_speed + " and the spin" + at_spin, {0.0});
   for (const Acts acts : {kAlong, kAcross}) {
     guesses.fixed(acts, "taut", ", of constant size");
     guesses.fixed(acts, "taut * pull / 10", ", growing with the string's pull (at 10 m/s^2)");
