@@ -63,13 +63,13 @@ missing_packages() {
       has_fuzzer || echo libclang-rt-dev
       ;;
     mujoco)
-      ldconfig -p | grep -q 'libEGL\.so\.1' || echo libegl1 libgl1-mesa-dri
+      ldconfig -p | grep 'libEGL\.so\.1' >/dev/null || echo libegl1 libgl1-mesa-dri
       has_command xvfb-run || echo xvfb
       has_command xauth || echo xauth
       ;;
     gazebo)
       [ -e /usr/include/ignition/physics5/ignition/physics/sdf/ConstructWorld.hh ] || echo libignition-physics-sdf-dev
-      ldconfig -p | grep -q 'libignition-physics5-dartsim-plugin\.so\.5' || echo libignition-physics5-dartsim-plugin5
+      ldconfig -p | grep 'libignition-physics5-dartsim-plugin\.so\.5' >/dev/null || echo libignition-physics5-dartsim-plugin5
       ;;
     browser) has_command chromium || echo chromium ;;
     page)
