@@ -22,6 +22,7 @@ inline std::string listed(const std::vector<std::string>& names) {
 /// What is claimed, in plain words.
 inline std::string plainly(const std::vector<const Finding*>& claims) {
   std::vector<std::string> names;
+  names.reserve(claims.size());
   for (const Finding* f : claims) names.emplace_back(f->candidate->plain);
   return listed(names);
 }
