@@ -17,7 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST_HEADER = 300  # lines
 LONGEST_FUNCTION = 80  # lines of Python, with its docstring
-LARGEST_TREE = 7_900_000  # bytes of all files together
+LARGEST_TREE = 7_920_000  # bytes of all files together
 
 # The bands of include/diabolo, from the lowest. A room is a folder, or some headers of the top level, which
 # hold the words that a user types. A header includes lower bands, its own room, or a room beside it that does

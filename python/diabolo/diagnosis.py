@@ -214,7 +214,7 @@ def _asked(
     held = list_of("holdout", holdout)
     trimmed, overlaps = _core.trim_overlaps([*given, *held])
     for sentence in overlaps:
-        warnings.warn(sentence, RecordingWarning, stacklevel=4)
+        warnings.warn(sentence, RecordingWarning, stacklevel=3)
     if overlaps:
         given, held = trimmed[: len(given)], trimmed[len(given) :]
     check_distinct([*given, *held], parts=True)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import LandingRestitution, Model, State, StickArm, StickFlex, StringElasticity
-from .checks import instance_of, model_of, number, shown, whole_number
+from .checks import instance_of, is_several, model_of, number, shown, whole_number
 from .enums import StringState
 
 Pair = Sequence[ArrayLike]
@@ -240,6 +240,7 @@ def _estimate(belief: _core.Belief) -> Estimate:
 
 
 def _pair(name: str, given: Pair) -> tuple[ArrayLike, ArrayLike]:
-    if len(given) != 2:
+    sides = list(given) if is_several(given) else []
+    if len(sides) != 2:
         raise ValueError(f"{name}: {shown(given)}; expected one of the left and one of the right side")
-    return given[0], given[1]
+    return sides[0], sides[1]

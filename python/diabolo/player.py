@@ -42,6 +42,7 @@ from .checks import (
 )
 
 AnyModel: TypeAlias = Model | Parameters | str
+"""A model, one of these parameters alone, or the one of that name."""
 Solver: TypeAlias = Literal["gradient", "walk"]
 SOLVERS: tuple[str, ...] = get_args(Solver)
 

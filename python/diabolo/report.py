@@ -74,7 +74,7 @@ def report_html(
             for row in _rows(result, "nuisances")
         ],
         limits=[
-            [_named(row), words(row.get("parameter")), _limit(row, _ladder_row(result, row))]
+            [_named(row), words(row.get("parameter")), _limit(row, _ladder_row(result, row), thresholds)]
             for row in _rows(result, "upper_limits")
         ],
         experiments=[_experiment(row) for row in _rows(result, "next_experiment")],
@@ -181,6 +181,14 @@ def _rows(parent: dict[str, Any], key: str) -> list[dict[str, Any]]:
 def _named(row: dict[str, Any]) -> dict[str, str]:
     """A cell: the name in plain words beside the key."""
     return {"words": words(row.get("name")), "key": row.get("name") or ""}
+
+
+def _estimates(parent: dict[str, Any], key: str) -> list[str]:
+    """Parameters with their values and intervals."""
+    return [
+        f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
+        for row in _rows(parent, key)
+    ]
 
 
 def _joined(parts: Iterable[str]) -> str:
@@ -339,10 +347,7 @@ def _differing(item: dict[str, Any]) -> list[list[Any]]:
         [
             {"words": item.get("what") or words(item.get("name")), "key": item.get("name") or ""},
             alone.get("recording"),
-            [
-                f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
-                for row in _rows(alone, "parameters")
-            ],
+            _estimates(alone, "parameters"),
             _number(item.get("z"), 1),
         ]
         for alone in _rows(item, "recordings")
@@ -396,19 +401,13 @@ def _simulator(comparison: dict[str, Any]) -> dict[str, Any]:
         "should_not_have": "should not have it",
     }
 
-    def numbers(law: dict[str, Any], key: str) -> list[str]:
-        return [
-            f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
-            for row in _rows(law, key)
-        ] or ["none"]
-
     laws = [
         [
             {"words": law["what"], "key": law["name"]},
             verdicts[law["verdict"]],
-            numbers(law, "real"),
-            numbers(law, "simulated"),
-            [] if law["verdict"] in ("agrees", "cannot_tell") else numbers(law, "difference"),
+            _estimates(law, "real") or ["none"],
+            _estimates(law, "simulated") or ["none"],
+            [] if law["verdict"] in ("agrees", "cannot_tell") else _estimates(law, "difference") or ["none"],
             _sizes(law) or ["-"],
         ]
         for law in _rows(comparison, "laws")
@@ -445,17 +444,13 @@ def _simulator_tiles(result: dict[str, Any], comparison: dict[str, Any]) -> list
 
 
 def _effect(effect: dict[str, Any], horizons: list[float], windows: list[dict[str, Any]]) -> list[Any]:
-    parameters = [
-        f"{words(row.get('name'))} {quantity(row.get('value'), row.get('unit'), row.get('ci90'))}"
-        for row in _rows(effect, "parameters")
-    ]
     notes = [str(effect["kind"])] if effect.get("kind") else []
     notes += ["too small to matter"] if effect.get("material") is False else []
     ties = list(filter(None, effect.get("tied_with") or []))
     notes += [f"tied with {_joined(map(words, ties))}: the value may include its effect"] if ties else []
     return [
         {**_named(effect), "notes": notes},
-        parameters or ["none"],
+        _estimates(effect, "parameters") or ["none"],
         _where(effect.get("where") or {}, windows),
         _effect_sizes(effect, horizons) or ["not known"],
         probability(effect.get("p_value")),
@@ -578,9 +573,7 @@ def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[s
             "threshold": 100.0 * _threshold(row, thresholds) / longest,
             "bar": 100.0 * min(abs(row.get("z") or 0.0) / longest, 1.0),
             "beyond": abs(row.get("z") or 0.0) > longest,
-            "reason": _inseparable(row, thresholds, noise)
-            or row.get("reason")
-            or ("no reason given" if not row.get("claimed") else ""),
+            "reason": _inseparable(row, thresholds, noise) or _reason(row),
             "facts": [
                 f"{words(row.get('parameter'))} {quantity(row.get('estimate'), row.get('unit'))}",
                 *_sizes(row),
@@ -593,6 +586,10 @@ def _ladder(result: dict[str, Any], thresholds: dict[str, float]) -> list[dict[s
 
 def _threshold(row: dict[str, Any], thresholds: dict[str, float]) -> float:
     return thresholds.get(row.get("kind") or "", thresholds["physics"])
+
+
+def _reason(row: dict[str, Any]) -> str:
+    return row.get("reason") or ("" if row.get("claimed") else "no reason given")
 
 
 def _inseparable(row: dict[str, Any], thresholds: dict[str, float], noise: float) -> str:
@@ -609,15 +606,15 @@ def _ladder_row(result: dict[str, Any], limit: dict[str, Any]) -> dict[str, Any]
     return next((row for row in _rows(result, "ladder") if row.get("name") == limit.get("name")), {})
 
 
-def _limit(limit: dict[str, Any], candidate: dict[str, Any]) -> str:
+def _limit(limit: dict[str, Any], candidate: dict[str, Any], thresholds: dict[str, float]) -> str:
     """How large an effect may be that is not claimed."""
     if limit.get("limit95") is None:
         return "no limit: this data cannot show it"
     below = "below " + quantity(limit["limit95"], limit.get("unit"))
-    if abs(candidate.get("z") or 0.0) < Thresholds().physics:
+    if abs(candidate.get("z") or 0.0) < _threshold(candidate, thresholds):
         return below
     fitted = quantity(candidate.get("estimate"), candidate.get("unit"))
-    return f"{below}; {fitted} is significant in the fit, and not confirmed by held-out data"
+    return f"{below}; the fit gives {fitted} ({_reason(candidate)})"
 
 
 def _ties(result: dict[str, Any], worthwhile: float) -> list[str]:

@@ -26,7 +26,7 @@ from .checks import (
 )
 from .enums import StringState
 
-AnyModel: TypeAlias = Model | Parameters
+ModelOrParameters: TypeAlias = Model | Parameters
 AnyStringState: TypeAlias = StringState | int | str
 
 MOST_STEPS = 10**12
@@ -90,7 +90,7 @@ class RolloutGradient(NamedTuple):
 
 
 def rollout(
-    model: AnyModel | Sequence[AnyModel],
+    model: ModelOrParameters | Sequence[ModelOrParameters],
     initial: ArrayLike,
     tips: TipMotion | Sequence[TipMotion],
     *,
@@ -172,7 +172,7 @@ def rollout(
 
 
 def rollout_gradient(
-    model: AnyModel,
+    model: ModelOrParameters,
     initial: ArrayLike,
     tips: TipMotion,
     with_respect_to: Sequence[str] = ("position", "velocity", "spin"),
@@ -228,7 +228,7 @@ def rollout_gradient(
     return RolloutGradient(final, StringState(final_string_state), derivatives)
 
 
-def _model(given: AnyModel) -> Model:
+def _model(given: ModelOrParameters) -> Model:
     return Model(given) if isinstance(given, Parameters) else instance_of("model", given, Model)
 
 

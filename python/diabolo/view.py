@@ -19,7 +19,7 @@ from .evaluation import predict
 from .rollout import Rollout
 
 TEMPLATE = Path(__file__).with_name("templates") / "view.html"
-MOST_FRAMES = 40_000
+MOST_ROWS_SHOWN = 40_000
 """Longer recordings are thinned out."""
 PREDICTED_ANEW = 1.0
 """Between the starts of a replay's predictions [s]."""
@@ -71,7 +71,7 @@ def view_html(
         raise ValueError(f"recording: {recording.name} has no rows; expected at least one")
     warn_of([recording])
     goals = list_of("goals", goals, (Waypoint,))
-    step = max(1, -(-len(recording) // MOST_FRAMES))
+    step = max(1, -(-len(recording) // MOST_ROWS_SHOWN))
     rows = slice(None, None, step)
     if predictions is not None and not isinstance(predictions, Mapping):
         raise ValueError(f"predictions: {shown(predictions)}; expected positions by name")

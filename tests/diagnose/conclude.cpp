@@ -180,6 +180,27 @@ TEST_CASE("a rate that is off comes with the force that would look the same") {
   CHECK(d.sentence.find("would look the same") == std::string::npos);
 }
 
+TEST_CASE("a constant force along gravity that no play meets comes with the speed that would look the same") {
+  const auto said = [](Acts acts, const char* formula, double size) {
+    Diagnosis d;
+    d.learnt.push_back(
+        Learnt{.law = Law("learnt_1", "upwards, of constant size", acts, formula, {{"size", "m/s^2"}}),
+               .value = {size},
+               .deviation = {0.1}});
+    conclude(d);
+    return d.sentence;
+  };
+  const std::string twice =
+      " A recording played 2 times as fast would look the same as that law: check its rate.";
+  CHECK(said(Acts::kUp, "size * taut", -3.0 * kStandardGravity).ends_with(twice));
+  CHECK(said(Acts::kUp, "size", -3.0 * kStandardGravity).ends_with(twice));
+  CHECK(said(Acts::kUp, "size", 0.75 * kStandardGravity).find("played 0.5 times as fast") !=
+        std::string::npos);
+  CHECK(said(Acts::kUp, "size", -0.5).find("as fast") == std::string::npos);  // a force may do that
+  CHECK(said(Acts::kUp, "size", 20.0).find("as fast") == std::string::npos);  // and no rate that
+  CHECK(said(Acts::kLeft, "size", -30.0).find("as fast") == std::string::npos);
+}
+
 TEST_CASE("what was not done ends the sentence") {
   Diagnosis d;
   d.not_done = {"this"};

@@ -274,12 +274,18 @@ TEST_CASE("a budget holds by what is predicted, and what it leaves is told") {
   const double wanted = watch.clock();
   CHECK(whole.not_done.empty());
   CHECK(whole.windows.size() == whole.windows_seen);
-  for (const double share : {0.5, 0.2}) {
+  REQUIRE(whole.adequacy.adequate);
+  for (const double share : {0.9, 0.8, 0.7, 0.5, 0.2}) {
     const double budget = share * wanted;
     const Diagnosis hurried = diagnosed(budget);
     CAPTURE(share, wanted);
     CHECK(watch.clock() < 1.2 * budget);
     CHECK_FALSE(hurried.not_done.empty());
+    // What was begun and not ended is not told.
+    const bool judged = std::ranges::none_of(
+        hurried.not_done, [](const std::string& left) { return left.starts_with("asking what noise"); });
+    CHECK(judged == hurried.adequacy.adequate.has_value());
+    CHECK(judged == std::isfinite(hurried.windows.front().residual_noise));
   }
   const Diagnosis nothing = diagnosed(1e-6);
   CHECK(nothing.headline == Headline::kInsufficientData);

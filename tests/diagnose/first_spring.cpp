@@ -74,3 +74,42 @@ TEST_CASE("no spring is promised where none is at work") {
   const Fit stiff = ended_stiff(played({}, 18.0, 6, 0.0, &hopping_hands), base);
   CHECK_FALSE(diagnose_detail::another_spring<D>(stiff, with_spring(), base, 0, {}));
 }
+
+TEST_CASE("of string and sticks that gave together the one that is left gives as much alone") {
+  constexpr int kString = index_of(Unknown::kCompliance), kSticks = index_of(Unknown::kStickCompliance);
+  Fit fit;
+  fit.at[kString] = 4e-3;
+  fit.at[kSticks] = 3e-3;
+  ActiveSet free = nuisances();
+  free[kString] = free[kSticks] = true;
+  CHECK_FALSE(diagnose_detail::giving_alone(fit, free));  // none is dropped
+  free[kSticks] = false;
+  const std::optional<Fit> string = diagnose_detail::giving_alone(fit, free);
+  REQUIRE(string);
+  CHECK(string->at[kString] == Approx(1e-2));
+  CHECK(string->at[kSticks] == 0.0);
+  free[kString] = false;
+  CHECK_FALSE(diagnose_detail::giving_alone(fit, free));  // none is left
+  free[kSticks] = true;
+  const std::optional<Fit> sticks = diagnose_detail::giving_alone(fit, free);
+  REQUIRE(sticks);
+  CHECK(sticks->at[kString] == 0.0);
+  CHECK(sticks->at[kSticks] == Approx(5e-3));  // of each of two
+}
+
+TEST_CASE("what two fits cost is compared where neither misses a catch nor is far off") {
+  Fit one, other;
+  one.scores.resize(4);
+  one.systems.resize(4);
+  for (std::size_t i = 0; i < 4; ++i) one.scores[i].cost = 10.0;
+  one.cost = 41.0;  // a prior's, too
+  other = one;
+  other.scores[1].cost = other.scores[2].cost = other.scores[3].cost = 500.0;
+  other.cost = 1511.0;
+  other.scores[1].weight = 0.2;
+  other.systems[2].lost = 3;
+  one.systems[3].lost = 1;
+  const auto [a, b] = diagnose_detail::costs_where_both_fit(one, other);
+  CHECK(a == Approx(11.0));
+  CHECK(b == Approx(11.0));
+}

@@ -90,3 +90,12 @@ TEST_CASE("bodies that were exchanged are told, although nothing is unknown of t
   CHECK(result.ladder.at(0).parameter == "frames");
   CHECK(result.upper_limits.empty());
 }
+
+TEST_CASE("of what cannot be negative and comes out so, what is unsure is the limit") {
+  Diagnosis d;
+  d.windows = windows();
+  d.findings = {finding("air_drag_linear", Unknown::kLinearDrag, -0.05, 0.01, false)};
+  const DiagnosisResult result = result_of(d, std::vector<Recording>(2));
+  REQUIRE(result.upper_limits.size() == 1);
+  CHECK(result.upper_limits[0].limit95 == Approx(1.645 * 0.01).epsilon(1e-3));
+}

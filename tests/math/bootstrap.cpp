@@ -2,6 +2,8 @@
 #include "diabolo/math/bootstrap.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "catch.hpp"
@@ -22,6 +24,14 @@ std::vector<double> moving_sums(std::size_t size, std::size_t span, std::mt19937
 }
 
 }  // namespace
+
+TEST_CASE("A median is of those values that are numbers") {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  CHECK(median_of({3.0, kNone, 1.0, std::numeric_limits<double>::infinity(), 2.0}) == 2.0);
+  CHECK(median_of({1.0, 4.0}) == 2.5);
+  CHECK(std::isnan(median_of({kNone})));
+  CHECK(median_of({kNone}, 7.0) == 7.0);
+}
 
 TEST_CASE("The 95 % interval holds the true mean of dependent series about as often as it says") {
   const std::uint32_t seed = test::fresh_seed();

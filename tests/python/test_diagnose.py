@@ -223,8 +223,9 @@ def test_recordings_of_other_set_ups_are_warned_of(played: Recording) -> None:
     )
     with pytest.warns(
         RecordingWarning, match="'lighter' and 'played' differ in mass .kg., 0.1415 and 0.2845"
-    ):
+    ) as caught:
         diagnose([played, other], bank=["string_friction"])
+    assert {one.filename for one in caught} == {__file__}
 
 
 def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
@@ -247,8 +248,9 @@ def test_the_same_samples_do_not_count_twice(played: Recording) -> None:
         with pytest.raises(ValueError, match=r'"played" and recording "copy" hold the same [0-9]+ samples'):
             diagnose(takes, holdout=held)
     assert diagnose([played.cut(0, 40), copy.cut(40, 80)]).headline == "INSUFFICIENT_DATA"
-    with pytest.warns(diabolo.RecordingWarning, match="'copy' overlaps 'played' by 11 samples"):
+    with pytest.warns(diabolo.RecordingWarning, match="'copy' overlaps 'played' by 11 samples") as caught:
         diagnose([played.cut(0, 40), copy.cut(30, 80)])
+    assert {one.filename for one in caught} == {__file__}
 
 
 def test_a_holdout_that_shows_its_axle_judges_it(plant: list[Recording]) -> None:

@@ -98,11 +98,14 @@ def test_what_cannot_be_used_is_refused_in_a_sentence():
         estimator(spread=Spread(position=math.nan))
     with pytest.raises(ValueError, match="history"):
         estimator(history=-1)
-    with pytest.raises(ValueError, match="tips"):
-        Estimator(MODEL, HANGING, (LEFT,))
+    for tips in ((LEFT,), None, 0.3, np.array(0.3), "lr"):
+        with pytest.raises(ValueError, match=r"tips: .*; expected one of the left and one of the right side"):
+            Estimator(MODEL, HANGING, tips)  # type: ignore[arg-type]
     one = held(estimator(history=3), 5)
     with pytest.raises(ValueError, match="dt"):
         one.step(LEFT, RIGHT, dt=0.0, velocities=STILL)
+    with pytest.raises(ValueError, match="velocities: None; expected one of the left"):
+        one.step(LEFT, RIGHT, dt=0.002, velocities=None)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="camera, noise"):
         one.camera(0.01, [0.0, 0.0, 0.0], noise=0.0)
     with pytest.raises(ValueError, match="position"):

@@ -561,16 +561,17 @@ def test_a_tied_effect_has_no_chance_of_its_own() -> None:
     assert "one of a tie" in text and "97 %" not in text and "93 %" in text
 
 
-def test_a_limit_of_what_held_out_data_deny_says_that_it_fits() -> None:
-    row = candidate("wind", 36.9, 3.98, "m/s", "wind_x", "denied")
+def test_a_limit_of_what_is_beyond_the_threshold_says_why_it_is_not_claimed() -> None:
+    row = candidate("wind", 6.0, 3.98, "m/s", "wind_x", "too small to matter")
     limit = {"name": "wind", "parameter": "wind_x", "limit95": 4.16, "unit": "m/s"}
 
-    def text_of(z: float) -> str:
-        return Page(report_html(invented(ladder=[row | {"z": z}], upper_limits=[limit]))).text
+    def text_of(threshold: float, reason: str | None = row["reason"]) -> str:
+        result = invented(ladder=[row | {"reason": reason}], upper_limits=[limit])
+        return Page(report_html(result | {"thresholds": {"physics": threshold}})).text
 
-    denied = "; 3.98 m/s is significant in the fit, and not confirmed by held-out data"
-    assert f"below 4.16 m/s{denied}" in text_of(36.9)
-    assert "below 4.16 m/s" in text_of(1.2) and denied not in text_of(1.2)
+    assert "below 4.16 m/s; the fit gives 3.98 m/s (too small to matter)" in text_of(4.0)
+    assert "below 4.16 m/s; the fit gives 3.98 m/s (no reason given)" in text_of(4.0, None)
+    assert "below 4.16 m/s" in text_of(6.5) and "the fit gives" not in text_of(6.5)
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@
 
 #include "diabolo/diagnose/adequacy.hpp"
 #include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/significance.hpp"
 #include "diabolo/math/fields.hpp"
 #include "diabolo/parameters.hpp"
 #include "diabolo/text/shown.hpp"
@@ -91,13 +92,12 @@ inline std::string place_taken_off(std::string& words) {
 /// A learnt law with its size and its interval: "against the velocity, of constant size: 0.41 [0.38, 0.44]
 /// m/s^2".
 inline std::string learnt_plainly(const Learnt& learnt) {
-  constexpr double kNormal90 = 1.645;
   std::string text = learnt.law.plain;
   const std::string place = place_taken_off(text);
   for (std::size_t i = 0; i < learnt.value.size(); ++i) {
     const LawNumber& number = learnt.law.numbers[i];
     if (number.name == "phase") continue;
-    const double value = learnt.value[i], reach = kNormal90 * learnt.deviation[i];
+    const double value = learnt.value[i], reach = kNormal95 * learnt.deviation[i];
     text += (i == 0 ? ": " : ", " + number.name + " ") + three_digits(value) + " [" +
             three_digits(value - reach) + ", " + three_digits(value + reach) + "]" +
             unit_behind(number.unit) + (i == 0 ? place : "");

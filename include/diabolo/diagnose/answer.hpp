@@ -176,13 +176,17 @@ struct Learnt {
   std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
 };
 
+inline const char* text_of(StringState state) {
+  return state == StringState::kOnString ? "ON_STRING" : state == StringState::kLoose ? "LOOSE" : "FLYING";
+}
+
 /// What was seen in a window before anything was added, and what is left.
 struct WindowFinding {
   std::size_t recording;
   double begin, end;  ///< [s]
   StringState mode;
-  double residual_before, residual_after;  ///< root mean square, position [m]
-  std::array<double, 7> z, z_after;        ///< of the latent accelerations; NaN where they say nothing
+  double residual_before, residual_after;   ///< root mean square, position [m]
+  std::array<double, kLatents> z, z_after;  ///< of the latent accelerations; NaN where they say nothing
   /// Of kMayChange with what was found: half the slope and half the curvature of -chi^2, in the scales of
   /// kUnknownInfos.
   std::array<double, kMayChange.size()> slope{}, curvature{};

@@ -8,16 +8,9 @@
 
 #include "diabolo/diagnose/adequacy_words.hpp"
 #include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/text/shown.hpp"
 
 namespace diabolo {
-
-/// "a, b and c".
-inline std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
-}
 
 /// What is claimed, in plain words.
 inline std::string plainly(const std::vector<const Finding*>& claims) {

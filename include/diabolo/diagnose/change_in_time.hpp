@@ -21,7 +21,7 @@
 namespace diabolo {
 
 /// Neighbouring windows that agree so much better than chance [standard deviations] see something that lasts.
-/// By a normal distribution noise makes one of eleven unknowns seem so in a recording of three thousand.
+/// By a normal distribution noise makes one of twelve unknowns seem so in a recording of some 2600.
 inline constexpr double kAgreement = 4.0;
 
 /// The fastest oscillation that windows of half a second tell [Hz].
@@ -49,11 +49,11 @@ inline constexpr double kFarWindowsAgree = 6.0;
 /// The weighted mean of a series but for windows far from its middle: one of these would make all others
 /// agree.
 inline double mean_of_most(const WindowSeries& series) {
-  const double middle = middle_of(series.value);
+  const double middle = median_of(series.value);
   std::vector<double> sizes;
   for (std::size_t i = 0; i < series.size(); ++i)
     sizes.push_back(std::abs(series.value[i] - middle) * std::sqrt(series.weight[i]));
-  const double most = kFarWindowsAgree * middle_of(sizes);
+  const double most = kFarWindowsAgree * median_of(sizes);
   double sum = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < series.size(); ++i) {
     if (sizes[i] > most) continue;
@@ -92,9 +92,7 @@ inline Agreement agreement_of(const WindowSeries& series) {
   for (std::size_t i = 0; i < series.size(); ++i)
     sizes.push_back(std::abs(series.value[i]) * std::sqrt(series.weight[i]));
   if (sizes.empty()) return {};
-  std::vector<double> sorted = sizes;
-  std::ranges::sort(sorted);
-  const double most = kFarWindowsAgree * quantile(sorted, 0.5);
+  const double most = kFarWindowsAgree * median_of(sizes);
   int pairs = 0;
   double sum = 0.0, squares = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < series.size(); ++i) {

@@ -133,9 +133,7 @@ class ClaimSearch {
     set_ = eliminate(Evidence(fit_), bank_, set_);
     for (int round = 0;; ++round) {
       const double begin = (again ? 0.7 : 0.4) + 0.03 * round;
-      put_at_rest(fit_, set_);
-      refine<D>(fit_, physics_, set_, kMostIterations, options_.threads,
-                step("refitting what is sure", begin, begin + 0.03, kFitsShare));
+      refit(step("refitting what is sure", begin, begin + 0.03, kFitsShare));
       const Evidence evidence(fit_);
       ActiveSet next = eliminate(evidence, bank_, set_);
       if (const Candidate* candidate = strongest_left_out(evidence, bank_, next))
@@ -146,10 +144,23 @@ class ClaimSearch {
     }
   }
 
+  /// Fits what is in the set. Where a spring loses most of what gave on the way, it is begun again with all
+  /// of it.
+  void refit(const FitWatch& watch) {
+    const double together = added_give(fit_.at);
+    std::optional<Fit> alone = giving_alone(fit_, set_);
+    put_at_rest(fit_, set_);
+    refine<D>(fit_, physics_, set_, kMostIterations, options_.threads, watch);
+    if (!alone || added_give(fit_.at) > kLostGive * together) return;
+    refine<D>(*alone, physics_, set_, kMostIterations, options_.threads, watch);
+    const auto [theirs, ours] = costs_where_both_fit(with_noise_of(fit_, *alone, options_.threads), fit_);
+    if (theirs < ours) fit_ = *std::move(alone);
+  }
+
   /// Whether the recordings are rather of a string that lies around no axle; the fit is moved to it then.
   bool try_thin_axle() {
     const char* const trying = "trying a string around no axle";
-    if (!may_be_thin(fit_, physics_) || !budget_.allows(trying, kFitsShare)) return false;
+    if (!may_be_thin(fit_, set_, physics_) || !budget_.allows(trying, kFitsShare)) return false;
     const FitWatch watched = step(trying, 0.49, 0.5, kFitsShare);
     std::optional<Fit> trial = with_thin_axle<D>(fit_, set_, physics_, options_.threads, watched);
     if (watched.is_enough()) budget_.leave(trying);

@@ -147,10 +147,7 @@ inline std::string listed(const std::vector<ComparedLaw>& laws, const Diagnosis&
       names.back() += (i == 0 ? " (or " : ", ") + plainly(real, law.tied_with[i]) +
                       (i + 1 == law.tied_with.size() ? ")" : "");
   }
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
+  return diabolo::listed(names);
 }
 
 /// Whether something without a name is left that `camera`'s noise would not hide: a simulator has none of its

@@ -95,8 +95,22 @@ inline std::string too_far_in_words(const Diagnosis& d) {
   return {};
 }
 
+/// How many times as fast a recording was played whose gravity seems stronger by that of a learnt law, which
+/// is a constant force along it; nothing where the law is another, or so weak that it may well be one.
+inline std::optional<double> speed_like(const Learnt& learnt) {
+  constexpr double kLeast = 0.1;
+  const std::string formula = learnt.law.formula.text();
+  if (learnt.law.acts != Acts::kUp || (formula != "size" && formula != "size * taut")) return std::nullopt;
+  const double speed = std::sqrt(std::max(0.0, 1.0 - learnt.value.front() / kStandardGravity));
+  return speed > 0.0 && std::abs(speed - 1.0) > kLeast ? std::optional(speed) : std::nullopt;
+}
+
 /// A rate of the frames that is off acts as a constant force along gravity does: a sentence.
 inline std::string force_like_rate_in_words(const Diagnosis& d) {
+  for (const Learnt& learnt : d.learnt)
+    if (const std::optional<double> speed = speed_like(learnt))
+      return " A recording played " + three_digits(*speed) +
+             " times as fast would look the same as that law: check its rate.";
   for (const Finding& f : d.findings) {
     const double down = f.estimate[index_of(Unknown::kGravity)];
     if (f.claimed && f.candidate->name == "frame_rate")

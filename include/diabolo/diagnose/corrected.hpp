@@ -24,8 +24,7 @@ inline FormulaLaws<double> fitted_laws(const FormulaLaws<double>& laws, const Un
   laws.each([&](const Law& law, std::size_t first) {
     const auto value = [&](std::size_t i) {
       const LawNumber& number = law.numbers[i];
-      return std::clamp(laws.numbers[first + i] + number.usual * at[index_of(own_number(first + i))],
-                        number.minimum, number.maximum);
+      return number.within(laws.numbers[first + i] + number.usual * at[index_of(own_number(first + i))]);
     };
     if (value(0) == 0.0) return;
     kept.push_back(law);

@@ -87,7 +87,7 @@ struct DiagnosisResult {
     visit("schema", &DiagnosisResult::schema, "diabolo.diagnosis/1.");
     visit("headline", &DiagnosisResult::headline,
           "The first that holds of INSUFFICIENT_DATA, TIE, NAMED, MEASUREMENT_FAULT, NUMERICAL, "
-          "UNNAMED_STRUCTURE and NOTHING_MISSING.");
+          "UNNAMED_STRUCTURE and NOTHING_MISSING; NAMED of laws of the axle alone just before the last.");
     visit("sentence", &DiagnosisResult::sentence, "The answer in words.");
     visit("base", &DiagnosisResult::base, "Name of the simulator that was asked about.");
     visit("effects", &DiagnosisResult::effects, "What is claimed, the surest first.");

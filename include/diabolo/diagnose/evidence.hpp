@@ -59,16 +59,18 @@ class Evidence {
   /// Best scaled unknowns where all but `free` are zero.
   UnknownVector solve(const ActiveSet& free) const { return solve(free, information_, slope_); }
 
-  /// chi^2 of all windows there, less a constant.
+  /// chi^2 of all windows there and what the priors cost, less a constant. What is not free has no prior.
   double cost(const ActiveSet& free) const {
-    const UnknownVector x = solve(free);
-    return -slope_.dot(x);
+    const UnknownVector x = solve(free), expected = dispersion_ * prior_.cwiseProduct(centre_);
+    const UnknownVector centre = centre_.cwiseProduct(free.cast<double>().matrix());
+    return expected.dot(centre) - (slope_ + expected).dot(x);
   }
 
   /// Two covariances of the scaled free unknowns: what the noise makes of them, and what the windows' own
   /// disagreement does (the jackknife that leaves out one window at a time), which also knows of correlated
   /// noise and of what no unknown explains. (White's sandwich comes out too narrow where unknowns are not
-  /// far fewer than windows.)
+  /// far fewer than windows.) Both hold what the priors leave open: the windows agree on a prior's mean,
+  /// wherever the truth is.
   struct Covariances {
     UnknownMatrix noise, spread;
   };
@@ -79,7 +81,10 @@ class Evidence {
         solve_symmetric(precision(f, information_), Eigen::MatrixXd::Identity(n, n));
     Covariances result{UnknownMatrix::Zero(kUnknowns, kUnknowns), UnknownMatrix::Zero(kUnknowns, kUnknowns)};
     result.noise(f, f) = dispersion_ * inverse;
-    result.spread(f, f) = jackknife(f, solve(free)(f));
+    // x moves by A^-1 (dispersion P) dc with the prior's mean c, whose covariance is P^-1.
+    const Eigen::VectorXd prior = prior_(f);
+    result.spread(f, f) =
+        jackknife(f, solve(free)(f)) + dispersion_ * dispersion_ * (inverse * prior.asDiagonal() * inverse);
     return result;
   }
 

@@ -16,8 +16,6 @@ namespace diabolo {
 
 namespace diagnose_detail {
 
-inline constexpr double kNormal95 = 1.6448536269514722;  ///< beyond it lie 5 % of a normal variable
-
 inline Estimate with_deviation(std::string name, double value, double deviation, std::string unit) {
   return {std::move(name), value, std::move(unit),
           Interval{value - kNormal95 * deviation, value + kNormal95 * deviation}};
@@ -36,7 +34,7 @@ inline std::vector<Estimate> own_numbers_of(const Finding& f) {
   std::vector<Estimate> result;
   for (const Unknown u : unknowns) {
     const OwnNumber own = own_number_of(*f.candidate, u);
-    result.push_back(with_deviation(own.number->name, own.value(f.estimate[index_of(u)]),
+    result.push_back(with_deviation(own.number->name, own.number->within(own.value(f.estimate[index_of(u)])),
                                     own.number->usual * f.deviation[index_of(u)], own.number->unit));
   }
   return result;

@@ -22,8 +22,6 @@
 
 namespace diabolo {
 
-inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent), kLatents = 7, kLatentForces = 5;
-
 /// What a window says of the latent accelerations that are not in the fit, in standard deviations; NaN where
 /// it says nothing.
 inline std::array<double, kLatents> latent_z(const WindowScore& score) {
@@ -123,8 +121,10 @@ inline bool is_possible(const Candidate& candidate, const Estimates& standing) {
   });
 }
 
-/// Whether a force without a name is told.
-inline bool stands_out(double z, double size) { return std::abs(z) > 5.0 && size > 2.0 * kSmallestReach; }
+/// Whether a force without a name is told: it needs no less than a fault does, and twice the size.
+inline bool stands_out(double z, double size) {
+  return std::abs(z) > kSignificanceOfFault && size > 2.0 * kSmallestReach;
+}
 
 /// Claims first.
 inline void surest_first(std::vector<Finding>& findings) {
@@ -193,8 +193,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
 inline double left_over(const Fit& fit) {
   std::vector<double> sizes;
   for (const WindowSystem& system : fit.systems) sizes.push_back(system.position_residual());
-  std::ranges::sort(sizes);
-  return quantile(sizes, 0.5);
+  return median_of(sizes);
 }
 
 /// Which share of what the base leaves over beside what was found its numerical rules make: one less the

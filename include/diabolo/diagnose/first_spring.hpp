@@ -43,13 +43,31 @@ inline double mean_usual_tension(const std::vector<FitTake>& fit_takes, const Mo
   return sum / static_cast<double>(std::max<std::size_t>(1, window_count(fit_takes)));
 }
 
-/// What `fit` costs with another one's noise.
-inline double cost_with_noise_of(const Fit& other, Fit fit, int threads) {
+/// A fit as it stands to another one's noise.
+inline Fit with_noise_of(const Fit& other, Fit fit, int threads) {
   fit.noise = other.noise;
   fit.usual = other.usual;
   fit.noise_is_known = true;
   reweight(fit, threads);
-  return fit.cost;
+  return fit;
+}
+
+/// What `fit` costs with another one's noise.
+inline double cost_with_noise_of(const Fit& other, const Fit& fit, int threads) {
+  return with_noise_of(other, fit, threads).cost;
+}
+
+/// What two fits of the same windows cost, but for windows in which either misses a catch or is far off: by
+/// how much it is says little.
+inline std::pair<double, double> costs_where_both_fit(const Fit& a, const Fit& b) {
+  std::pair<double, double> costs{a.cost, b.cost};
+  for (std::size_t i = 0; i < a.scores.size(); ++i) {
+    const auto fits = [i](const Fit& fit) { return fit.scores[i].weight == 1.0 && fit.systems[i].lost == 0; };
+    if (fits(a) && fits(b)) continue;
+    costs.first -= a.scores[i].cost;
+    costs.second -= b.scores[i].cost;
+  }
+  return costs;
 }
 
 /// The fit with the spring in place of its own that costs least, all else as it is, the string shorter by
@@ -76,6 +94,22 @@ std::optional<Fit> another_spring(const Fit& fit, const ActiveSet& set, const Mo
     }
   if (best) best->noise_is_known = fit.noise_is_known;
   return best;
+}
+
+/// A fit that ended with less than this share of the give that it began with may have lost its bounce.
+inline constexpr double kLostGive = 0.5;
+
+/// Of a fit in which string and sticks gave together, and of which one is left free: the same where that
+/// gives as much alone. (With less of a spring a bounce may be out of step, and no derivative shows the way
+/// back.)
+inline std::optional<Fit> giving_alone(Fit fit, const ActiveSet& free) {
+  const double together = added_give(fit.at);
+  put_at_rest(fit, free);
+  const double lost = together - added_give(fit.at);
+  const std::optional<AskedSpring> left = asked_spring(free);
+  if (!left || !is_dynamic(together) || !(lost > 0.0)) return std::nullopt;
+  fit.at[left->give] += left->give == index_of(Unknown::kCompliance) ? lost : 0.5 * lost;
+  return fit;
 }
 
 }  // namespace diabolo::diagnose_detail

@@ -115,12 +115,8 @@ inline void reweight(Fit& fit, int threads) {
   });
   std::vector<double> sizes;
   for (const WindowScore& score : fit.scores)
-    sizes.push_back(std::sqrt(score.chi_square / std::max(1, score.numbers)));
-  if (!fit.noise_is_known && !sizes.empty()) {
-    std::vector<double> sorted = sizes;
-    std::ranges::sort(sorted);
-    fit.usual = quantile(sorted, 0.5);
-  }
+    sizes.push_back(score.numbers > 0 ? std::sqrt(score.chi_square / score.numbers) : kNaN);
+  if (!fit.noise_is_known) fit.usual = median_of(sizes, fit.usual);
   const bool noiseless = std::ranges::all_of(
       fit.noise, [](const CameraNoise& one) { return one.position <= kLeastPositionNoise; });
   const double usual = std::max(fit.usual, noiseless ? kLeastUsual : 0.0);
@@ -217,10 +213,8 @@ inline void update_noise(Fit& fit) {
         position.push_back(system.position_square / (system.position_numbers - 6));
       if (system.spin_numbers > 5) spin.push_back(system.spin_square / (system.spin_numbers - 1));
     }
-    const auto middle = [](std::vector<double>& values, double otherwise, double least) {
-      if (values.empty()) return otherwise;
-      std::ranges::sort(values);
-      return std::max(std::sqrt(quantile(values, 0.5)), least);
+    const auto middle = [](const std::vector<double>& squares, double otherwise, double least) {
+      return squares.empty() ? otherwise : std::max(std::sqrt(median_of(squares)), least);
     };
     fit.noise[s].position = middle(position, fit.noise[s].position, kLeastPositionNoise);
     fit.noise[s].spin = middle(spin, fit.noise[s].spin, kLeastSpinNoise);

@@ -38,11 +38,6 @@ inline constexpr std::size_t kResidualAlike = 10;
 /// Sizes of weights that are tried [m/s^2].
 inline constexpr std::array<double, 4> kResidualSizes{0.01, 0.03, 0.1, 0.3};
 
-inline double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values.empty() ? 0.0 : quantile(values, 0.5);
-}
-
 /// Windows and folds of recordings, and what is fitted to them. Folds are fitted with the ranges of all: of
 /// those nothing is known but where the diabolo was.
 class ResidualProblem {
@@ -58,7 +53,7 @@ class ResidualProblem {
     std::vector<double> sizes;
     for (const ResidualWindow& window : at_rest_)
       if (window.numbers > 0) sizes.push_back(window.size());
-    scatter_ = std::max(median_of(std::move(sizes)), kSeenWithin);
+    scatter_ = std::max(median_of(std::move(sizes), 0.0), kSeenWithin);
   }
 
   const Model& base() const { return base_; }
@@ -198,7 +193,7 @@ inline ResidualErrors errors_held_out(const ResidualProblem& problem, double usu
     }
     const std::vector<double> own(errors.gain.begin() + static_cast<std::ptrdiff_t>(before),
                                   errors.gain.end());
-    if (!own.empty()) errors.least_gain = std::min(errors.least_gain, median_of(own));
+    if (!own.empty()) errors.least_gain = std::min(errors.least_gain, median_of(own, 0.0));
   }
   return errors;
 }
@@ -220,14 +215,14 @@ inline ResidualFit fit_residual(const std::vector<Recording>& recordings, const 
   diagnose_detail::ResidualErrors best;
   for (const double usual : diagnose_detail::kResidualSizes) {
     diagnose_detail::ResidualErrors errors = diagnose_detail::errors_held_out(problem, usual, threads, watch);
-    const double error = diagnose_detail::median_of(errors.with);
+    const double error = median_of(errors.with, 0.0);
     if (result.usual > 0.0 && !(error < result.error)) continue;
     result.usual = usual;
     result.error = error;
     best = std::move(errors);
   }
   result.windows = best.gain.size();
-  result.base_error = diagnose_detail::median_of(best.base);
+  result.base_error = median_of(best.base, 0.0);
   if (best.gain.empty()) return result;
   std::mt19937_64 generator(1);
   result.gain_ci95 = mean_interval(best.gain, diagnose_detail::kResidualAlike, generator);

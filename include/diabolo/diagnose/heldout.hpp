@@ -36,7 +36,7 @@ inline double unseen_spin(const Fit& fit) {
       if (!has_spin(fit_take)) unseen.push_back(window.start.spin);
     }
   const std::vector<double>& spins = unseen.empty() ? all : unseen;
-  return spins.empty() ? 0.0 : diagnose_detail::middle_of(spins);
+  return median_of(spins, 0.0);
 }
 
 /// Scaled unknowns in SI units, within their bounds, with those that are tried and never free.
@@ -119,7 +119,7 @@ struct WithoutAndWith {
   /// More without it, see kFarAhead.
   std::vector<double> losses() const {
     if (with.empty()) return {};
-    const double most = kFarAhead * std::max(middle_of(without), middle_of(with));
+    const double most = kFarAhead * std::max(median_of(without), median_of(with));
     std::vector<double> result;
     for (std::size_t i = 0; i < with.size(); ++i)
       result.push_back(std::min(without[i], most) - std::min(with[i], most));
@@ -242,8 +242,7 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     diagnose_detail::add_horizon(errors.position, result.position, interval_of);
     diagnose_detail::add_horizon(errors.spin, result.spin, interval_of);
     const std::vector<double>& distances = errors.position.found.with;
-    result.augmented_median.push_back(
-        distances.empty() ? std::nullopt : std::optional(diagnose_detail::middle_of(distances)));
+    result.augmented_median.push_back(distances.empty() ? std::nullopt : std::optional(median_of(distances)));
     if (horizon < kAhead) continue;
     std::optional<ResidualAndNoise> left =
         diagnose_detail::residual_and_noise_of(errors.compared, kImmaterialAhead, kStartsAlike);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/window_system.hpp"
@@ -37,8 +38,7 @@ inline double third_difference_size(const WindowSystem* systems, std::size_t cou
   }
   constexpr double kThird = 20.0;  // sum of the squares of the third difference
   if (sizes.size() < 30) return 0.0;
-  std::ranges::sort(sizes);
-  return recording_detail::kMedianToDeviation * quantile(sizes, 0.5) / std::sqrt(kThird);
+  return kMedianToDeviation * median_of(std::move(sizes)) / std::sqrt(kThird);
 }
 
 /// Over how many rows third differences of what windows leave do not grow with the time as those of forces

@@ -218,8 +218,13 @@ class Inquiry : public ClaimSearch<D> {
   void judge() {
     const char* const asking = "asking what noise alone would leave";
     if (!budget_.allows(asking, kRulesShare)) return;
-    result_.adequacy = adequacy_of<D>(result_.windows, fit_, physics_, result_.heldout.ahead, options_.seed,
-                                      options_.threads, step(asking, 0.95, 0.96, kRulesShare));
+    const FitWatch looking = step(asking, 0.95, 0.96, kRulesShare);
+    std::vector<WindowFinding> windows = result_.windows;
+    Adequacy found = adequacy_of<D>(windows, fit_, physics_, result_.heldout.ahead, options_.seed,
+                                    options_.threads, looking);
+    if (looking.is_enough()) return budget_.leave(asking);
+    result_.windows = std::move(windows);
+    result_.adequacy = std::move(found);
   }
 
   /// Asks each of several recordings by itself, of what all together deny as well: that may be since they do
@@ -230,8 +235,9 @@ class Inquiry : public ClaimSearch<D> {
     const FitWatch looking = step(comparing, 0.96, 0.965, kRulesShare);
     ActiveSet asked = set_;
     for (const Candidate* candidate : denied_) asked = with(asked, *candidate);
-    result_.differing = differing_takes<D>(fit_, physics_, bank_, asked, options_.threads, looking);
-    if (looking.is_enough()) budget_.leave(comparing);
+    auto found = differing_takes<D>(fit_, physics_, bank_, asked, options_.threads, looking);
+    if (looking.is_enough()) return budget_.leave(comparing);
+    result_.differing = std::move(found);
   }
 
   /// Asks what turns the axle, with place and spin as they were found.
@@ -256,16 +262,23 @@ class Inquiry : public ClaimSearch<D> {
     result_.heldout.axle = axle_.ahead;
   }
 
+  /// Asks how much of what is left the base's numerical rules make.
+  void compare_numerical_rules() {
+    const char* const comparing = "comparing rules";
+    if (!budget_.allows(comparing, kRulesShare)) return;
+    const FitWatch looking = step(comparing, 0.967, 0.97, kRulesShare);
+    Model rules = options_.base;
+    rules.parameters.catch_slack = physics_.parameters.catch_slack;
+    rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
+    const auto share = compare_rules<D>(fit_, rules, physics_, options_.threads, looking);
+    if (looking.is_enough()) return budget_.leave(comparing);
+    result_.numerical = share;
+  }
+
   /// Where it was before and after, the numerical rules' share, the noise, and what to record next.
   void finish() {
     remember_directions(result_, before_, fit_);
-    if (numerical_ && budget_.allows("comparing rules", kRulesShare)) {
-      Model rules = options_.base;
-      rules.parameters.catch_slack = physics_.parameters.catch_slack;
-      rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
-      result_.numerical =
-          compare_rules<D>(fit_, rules, physics_, options_.threads, step("comparing rules", 0.967, 0.97));
-    }
+    if (numerical_) compare_numerical_rules();
     for (std::size_t s = 0; s < fit_.fit_takes.size(); ++s)
       result_.noise.push_back({fit_.fit_takes[s].take->recording.name, fit_.noise[s]});
     const char* const proposing = "proposing what to record next";

@@ -55,7 +55,7 @@ inline std::string leading_direction(const Windows& windows) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const WindowFinding* w : windows) values.push_back(w->beyond_noise[axis]);
-    beyond[axis] = std::max(0.0, middle_of(values));
+    beyond[axis] = std::max(0.0, median_of(values));
   }
   constexpr std::array<const char*, 3> kNames{"forward", "left", "up"};
   const std::size_t most = static_cast<std::size_t>(std::ranges::max_element(beyond) - beyond.begin());
@@ -67,7 +67,7 @@ inline std::optional<ResidualAndNoise> residual_and_noise_in(const Windows& wind
   Compared compared;
   Windows seen;
   for (const WindowFinding* w : windows) {
-    if (!std::isfinite(w->*channel.left) || !std::isfinite(w->*channel.noise)) continue;
+    if (!std::isfinite(w->*channel.base + w->*channel.left + w->*channel.noise)) continue;
     seen.push_back(w);
     compared.add(w->*channel.base, w->*channel.left, w->*channel.noise);
   }
@@ -85,10 +85,7 @@ inline std::optional<double> explained_of(const ResidualAndNoise& left) {
   return std::min(1.0, (left.base - left.left) / (left.base - left.noise));
 }
 
-inline const char* mode_of(const WindowFinding& w) {
-  if (w.eventful) return "EVENT";
-  return w.mode == StringState::kOnString ? "ON_STRING" : w.mode == StringState::kLoose ? "LOOSE" : "FLYING";
-}
+inline const char* mode_of(const WindowFinding& w) { return w.eventful ? "EVENT" : text_of(w.mode); }
 
 /// Stretches of time without events in which more is left than noise leaves, joined where they touch.
 inline std::vector<ResidualAndNoise> stretches_beyond(const Windows& windows, const Channel& channel,
@@ -158,7 +155,7 @@ inline std::vector<ResidualAndNoise> moments_beyond(Windows windows, const Chann
     const auto middle = [&](const auto& number) {
       std::vector<double> values;
       for (const WindowFinding* w : moment) values.push_back(number(*w));
-      return middle_of(std::move(values));
+      return median_of(std::move(values));
     };
     ResidualAndNoise left;
     left.quantity = channel.quantity;

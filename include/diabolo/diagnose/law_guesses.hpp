@@ -34,11 +34,7 @@ inline UsualSizes usual_sizes(const Fit& fit) {
       const Tips<double> now = fit_take.take->motion->at(fit_take.take->times[window.first]);
       tips.push_back(now.left_velocity.norm() + now.right_velocity.norm());
     }
-  const auto middle = [](std::vector<double>& values) {
-    std::ranges::sort(values);
-    return one_digit(quantile(values, 0.5));
-  };
-  return {middle(speeds), middle(spins), middle(tips)};
+  return {one_digit(median_of(speeds)), one_digit(median_of(spins)), one_digit(median_of(tips))};
 }
 
 /// Whether the axle's surface turns towards the right tip (1), against the string, or away from it (-1).

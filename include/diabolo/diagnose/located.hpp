@@ -13,20 +13,16 @@
 
 namespace diabolo {
 
-inline const char* text_of(StringState state) {
-  return state == StringState::kOnString ? "ON_STRING" : state == StringState::kLoose ? "LOOSE" : "FLYING";
-}
-
 namespace diagnose_detail {
 
 /// Where base and recording part, window by window.
 inline Location located(const Diagnosis& d, const std::vector<Recording>& recordings) {
   Location location;
   for (int k = 0; k < kLatents; ++k) {
-    const UnknownInfo& info = info_of(static_cast<Unknown>(kLatentFirst + k));
-    const bool on_string = k < 2 || k == 5;
+    const Unknown latent = static_cast<Unknown>(kLatentFirst + k);
+    const UnknownInfo& info = info_of(latent);
     location.directions.push_back(
-        {std::string(info.name), on_string ? "ON_STRING" : "FLYING", std::string(info.unit)});
+        {std::string(info.name), acts_on_string(latent) ? "ON_STRING" : "FLYING", std::string(info.unit)});
   }
   for (const WindowFinding& w : d.windows) {
     const auto where_seen = [](double value) {

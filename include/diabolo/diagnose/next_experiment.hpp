@@ -88,7 +88,7 @@ std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const
                                        const ActiveSet& set, int threads, const FitWatch& watch = {}) {
   std::vector<Proposal> result;
   for (const Finding& f : d.findings) {
-    if (!f.claimed || f.tied_with.empty() || watch.is_enough()) continue;
+    if (!f.claimed || f.tied_with.empty()) continue;
     Proposal best{nullptr, f.tied_with, std::nullopt};
     best.parts.insert(best.parts.begin(), std::string(f.candidate->name));
     const std::string_view fixed = diagnose_detail::motion_for_measurement(f.candidate->name);
@@ -119,6 +119,7 @@ std::vector<Proposal> next_experiments(const Diagnosis& d, const Fit& fit, const
         if (*best.odds == kLongOdds) break;
       }
     }
+    if (watch.is_enough()) return result;
     result.push_back(std::move(best));
   }
   return result;

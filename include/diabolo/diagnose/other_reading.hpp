@@ -68,8 +68,8 @@ std::optional<OtherReading> other_reading(Diagnosis& as_given, bool sticks_are_k
     reversed =
         answer_as<D>(Reading::kTimeReversed, recordings, options, watch, options.budget - budget.elapsed());
   if (budget.spent()) {
-    const char* const left =
-        "asking whether sticks are exchanged, or time runs backwards (beyond the budget)";
+    const std::string left =
+        TimeBudget::beyond("asking whether sticks are exchanged, or time runs backwards");
     as_given.not_done.emplace_back(left);
     conclude(as_given);
     if (exchanged) {

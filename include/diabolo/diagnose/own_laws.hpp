@@ -72,7 +72,8 @@ inline void note_learnt(Diagnosis& d, const Model& physics, const Fit& fit, cons
     learnt.first = first;
     for (std::size_t i = 0; i < law.numbers.size(); ++i) {
       const int u = index_of(own_number(first + i));
-      learnt.value.push_back(own.numbers[first + i] + law.numbers[i].usual * fit.at[u]);
+      learnt.value.push_back(
+          law.numbers[i].within(own.numbers[first + i] + law.numbers[i].usual * fit.at[u]));
       learnt.deviation.push_back(law.numbers[i].usual * now.deviation(u));
     }
   });

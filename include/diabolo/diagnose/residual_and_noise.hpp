@@ -20,11 +20,6 @@ inline constexpr std::size_t kStretch = 8;
 
 namespace diagnose_detail {
 
-inline double middle_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return quantile(values, 0.5);
-}
-
 /// The chance that at least `heads` of `throws` fair coins show heads.
 inline double chance_of(std::size_t heads, std::size_t throws) {
   double sum = 0.0;
@@ -62,10 +57,10 @@ inline std::optional<ResidualAndNoise> residual_and_noise_of(const Compared& com
   ResidualAndNoise result;
   result.mode = "ANY";
   result.windows = count;
-  result.base = middle_of(compared.base);
-  result.left = middle_of(compared.left);
-  result.noise = middle_of(compared.noise);
-  result.times_noise = middle_of(times);
+  result.base = median_of(compared.base);
+  result.left = median_of(compared.left);
+  result.noise = median_of(compared.noise);
+  result.times_noise = median_of(times);
   result.p_value = chance_of(above / overlap, count / overlap);
   return result;
 }

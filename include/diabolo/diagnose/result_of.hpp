@@ -160,7 +160,10 @@ inline std::optional<UpperLimit> limit_of(const Finding& f) {
   const UnknownInfo& info = info_of(f.candidate->unknowns.front());
   const int u = index_of(f.candidate->unknowns.front());
   if (!(f.deviation[u] > 0.0)) return {};
-  const double limit = std::max(0.0, std::abs(f.estimate[u]) + kNormal95 * f.deviation[u]);
+  // What the data put below zero, of what cannot be, is none.
+  const bool positive = f.candidate->positive && !is_of_axle(*f.candidate);
+  const double size = positive ? std::max(0.0, f.estimate[u]) : std::abs(f.estimate[u]);
+  const double limit = size + kNormal95 * f.deviation[u];
   if (f.candidate->law != nullptr) {
     const LawNumber& own = f.candidate->law->numbers.front();
     return UpperLimit{std::string(f.candidate->name), own.name, limit * own.usual, own.unit};
@@ -266,12 +269,13 @@ inline DiagnosisResult result_of(const Diagnosis& d, const std::vector<Recording
   return result;
 }
 
-/// Starts from which a recording that is held out can be compared, as compare_held_out() would take them.
+/// Starts from which a recording that is held out can be compared, as compare_held_out() would take them at
+/// their least distance.
 /// Throws RecordingError where the recording is none.
 inline std::size_t comparable_windows(const Recording& recording, const Model& base) {
   check_recording(recording);
   HorizonOptions options;
-  options.starts_every = 0.2;
+  options.starts_every = kStartsEvery;
   options.horizons = HeldOut{}.horizons;
   return HorizonTask(recording, base, options).size();
 }

@@ -11,6 +11,9 @@ inline constexpr double kStrong = 10.0;
 /// the nuisances.
 inline constexpr double kSignificance = 4.0, kSignificanceOfFault = 5.0;
 
+/// Beyond so many standard deviations lie 5 % of a normal variable.
+inline constexpr double kNormal95 = 1.6448536269514722;
+
 /// The base's numerical rules count beyond this share of what is left over.
 inline constexpr double kNumericalShare = 0.1;
 

@@ -96,12 +96,9 @@ inline HeldOutErrors simulator_errors(const std::vector<TakeToPlay>& takes, cons
   result.heldout = "stretches";
   result.horizons_s = horizons;
   std::mt19937_64 generator(seed);
-  const auto mean = [](const std::vector<double>& values) {
-    return values.empty() ? std::nullopt : std::optional(mean_of(values));
-  };
   for (const diagnose_detail::SimulatorErrors& at : errors) {
-    result.base_error_m.push_back(mean(at.alone));
-    result.augmented_error_m.push_back(mean(at.corrected));
+    result.base_error_m.push_back(diagnose_detail::mean_if_any(at.alone));
+    result.augmented_error_m.push_back(diagnose_detail::mean_if_any(at.corrected));
     result.start_error_m.emplace_back();
     const std::optional<ErrorSummary> summary = summarize(at.gain, 1, generator);
     result.improvement_ci95_m.push_back(summary ? summary->mean_ci95 : std::nullopt);

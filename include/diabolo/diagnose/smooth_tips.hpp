@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "diabolo/math/bootstrap.hpp"
 #include "diabolo/math/solve_symmetric.hpp"
 #include "diabolo/recording/recording.hpp"
 
@@ -27,9 +29,7 @@ inline double white_noise(const Track& track) {
     for (int k = 0; k < 3; ++k) sizes.push_back(std::abs(third[k]));
   }
   if (sizes.size() < 30) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / (0.6745 * std::sqrt(20.0));
+  return kMedianToDeviation * median_of(std::move(sizes)) / std::sqrt(20.0);
 }
 
 /// Half width of the window in rows at which the noise [m] becomes kTipNoiseAcceleration. The second

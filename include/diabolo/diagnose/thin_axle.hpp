@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -18,10 +19,18 @@
 // string were longer than told, or the tips elsewhere.
 namespace diabolo::diagnose_detail {
 
+/// Whether string and tips are as they were told, within what any measurement is off by.
+inline bool is_as_told(const Fit& fit, const ActiveSet& set) {
+  const Estimates now = estimates_of(Evidence(fit), set);
+  return std::ranges::none_of(std::array{"string_length", "stick_tip_offset"}, [&](const char* name) {
+    const Candidate& fault = candidate_of(name);
+    return speaks_for(fault, significance(fault, now)) && is_beyond_floor(fault, now);
+  });
+}
+
 /// Whether the usual path from tip to tip is nearer the string's length than what of it is not around the
 /// axle, in each recording where a path stands out.
-inline bool may_be_thin(const Fit& fit, const Model& physics) {
-  if (!physics.effects.get<FiniteAxle>().neutral()) return false;
+inline bool is_as_long_as_the_string(const Fit& fit, const Model& physics) {
   const double around = kUsualContact * fit.centre[index_of(Unknown::kAxleRadius)];
   bool any = false;
   for (const FitTake& fit_take : fit.fit_takes) {
@@ -32,6 +41,13 @@ inline bool may_be_thin(const Fit& fit, const Model& physics) {
     any = true;
   }
   return any;
+}
+
+/// Whether a string around no axle is worth a fit: the path is as long as it, or string or tips are not as
+/// they were told around one.
+inline bool may_be_thin(const Fit& fit, const ActiveSet& set, const Model& physics) {
+  return physics.effects.get<FiniteAxle>().neutral() &&
+         (is_as_long_as_the_string(fit, physics) || !is_as_told(fit, set));
 }
 
 /// Where the base alone is, its string around no axle. That lies on the axle itself.
@@ -45,18 +61,9 @@ inline Fit begun_thin(Fit fit, const Model& physics) {
   return fit;
 }
 
-/// Whether string and tips are as they were told, within what any measurement is off by.
-inline bool is_as_told(const Fit& fit, const ActiveSet& set) {
-  const Estimates now = estimates_of(Evidence(fit), set);
-  return std::ranges::none_of(std::array{"string_length", "stick_tip_offset"}, [&](const char* name) {
-    const Candidate& fault = candidate_of(name);
-    return speaks_for(fault, significance(fault, now)) && is_beyond_floor(fault, now);
-  });
-}
-
 /// The fit with a string that lies around no axle, from the base alone or from the physics that was found,
-/// which costs less; nothing where one with an axle does clearly better, or where string or tips are not as
-/// told all the same.
+/// which costs less. It needs to do no worse than one with an axle where string and tips are as told, and
+/// clearly better where they are not all the same; else nothing.
 template <class D>
 std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Model& physics, int threads,
                                   const FitWatch& watch) {
@@ -68,9 +75,9 @@ std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Mo
     linearize<D>(*trial, physics, ActiveSet::Constant(false), threads, watch);
   if (found.cost < best.cost) best = std::move(found);
   approach<D>(best, physics, set, kMostIterations, threads, watch);
-  const double most =
-      (1.0 + kSameResidual) * cost_with_noise_of(best, fit, threads) + kAsGood * best.dispersion;
-  if (best.cost > most || !is_as_told(best, set)) return std::nullopt;
+  const auto [thin, around] = costs_where_both_fit(best, with_noise_of(best, fit, threads));
+  const double alike = kSameResidual * around + kAsGood * best.dispersion;
+  if (thin > around + (is_as_told(best, set) ? alike : -alike)) return std::nullopt;
   best.noise_is_known = fit.noise_is_known;
   return best;
 }

@@ -63,7 +63,8 @@ class TimeBudget {
   }
 
   /// Notes what is not done, or not to its end.
-  void leave(const std::string& what) { left_.push_back(what + " (beyond the budget)"); }
+  void leave(const std::string& what) { left_.push_back(beyond(what)); }
+  static std::string beyond(const std::string& what) { return what + " (beyond the budget)"; }
   const std::vector<std::string>& left() const { return left_; }
 
  private:

@@ -79,6 +79,18 @@ enum class Unknown : int {
 inline constexpr int kUnknowns = static_cast<int>(Unknown::kCount);
 constexpr int index_of(Unknown u) { return static_cast<int>(u); }
 
+/// The latent accelerations, one after the other, those of the place before those of the spin.
+inline constexpr int kLatentFirst = index_of(Unknown::kStringTangent),
+                     kLatents = index_of(Unknown::kSpinFree) + 1 - kLatentFirst,
+                     kLatentForces = index_of(Unknown::kSpinString) - kLatentFirst;
+static_assert(kLatents == 7 && kLatentForces == 5);
+
+/// Whether a latent acceleration acts while the diabolo is on the string; else it acts off it.
+constexpr bool acts_on_string(Unknown latent) {
+  return latent == Unknown::kStringTangent || latent == Unknown::kStringBinormal ||
+         latent == Unknown::kSpinString;
+}
+
 /// What makes the recorded diabolo late against the sticks, beside the time offset.
 enum class Delay {
   kClock,   ///< nothing

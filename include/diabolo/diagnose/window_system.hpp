@@ -34,8 +34,10 @@ struct WindowSystem {
   double spin = 0.0;                                 ///< size of the spin [rad/s]
   bool failed = false;                               ///< the prediction left the world
 
-  /// Root mean square of the position's residuals, one coordinate [m].
-  double position_residual() const { return std::sqrt(position_square / std::max(1, position_numbers)); }
+  /// Root mean square of the position's residuals, one coordinate [m]; NaN where none is compared.
+  double position_residual() const {
+    return position_numbers > 0 ? std::sqrt(position_square / position_numbers) : kNaN;
+  }
 };
 
 namespace diagnose_detail {

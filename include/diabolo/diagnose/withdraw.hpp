@@ -125,8 +125,10 @@ inline bool withdraw_what_does_not_help(Diagnosis& d, const HeldOut& heldout) {
 inline bool withdraw_what_explains_too_little(Diagnosis& d) {
   const Adequacy& a = d.adequacy;
   if (a.overall.empty() || a.overall.front().quantity != "position" || !a.explained) return false;
+  const auto ahead =
+      static_cast<std::size_t>(std::ranges::find(d.heldout.horizons, kAhead) - d.heldout.horizons.begin());
   const std::optional<double> half =
-      d.heldout.augmented_median.size() > 2 ? d.heldout.augmented_median[2] : std::nullopt;
+      ahead < d.heldout.augmented_median.size() ? d.heldout.augmented_median[ahead] : std::nullopt;
   const bool far = a.overall.front().times_noise > kFarOff || half.value_or(0.0) > kFarOffAnyway;
   if (!far || *a.explained >= kHalfOpen || a.adequate.value_or(true)) return false;
   for (Finding& f : d.findings) {

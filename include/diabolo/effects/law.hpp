@@ -86,6 +86,8 @@ struct LawNumber {
   double expected = 0.0;  ///< what a fit begins with; zero of an amplitude
   double minimum = -1e6, maximum = 1e6;
 
+  double within(double value) const { return std::clamp(value, minimum, maximum); }
+
   bool operator==(const LawNumber&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "diabolo/evaluate/start_state.hpp"
@@ -51,10 +52,8 @@ inline StartNoise start_noise(const Recording& recording) {
     }
   }
   if (positions.empty()) return {};
-  constexpr double kMedianOfNormal = 0.6745;
-  std::ranges::sort(positions);
-  std::ranges::sort(velocities);
-  return {quantile(positions, 0.5) / kMedianOfNormal, quantile(velocities, 0.5) / kMedianOfNormal};
+  return {kMedianToDeviation * median_of(std::move(positions)),
+          kMedianToDeviation * median_of(std::move(velocities))};
 }
 
 /// A start that is as likely as the given one.

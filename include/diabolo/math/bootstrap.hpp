@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -28,6 +29,18 @@ inline double quantile(std::span<const double> sorted, double level) {
   const std::size_t below = static_cast<std::size_t>(at);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+/// The standard deviation of a normal variable is so many times its median absolute value.
+inline constexpr double kMedianToDeviation = 1.4826;
+
+/// Median of those values that are numbers; `otherwise` where none is.
+inline double median_of(std::vector<double> values,
+                        double otherwise = std::numeric_limits<double>::quiet_NaN()) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return otherwise;
+  std::ranges::sort(values);
+  return quantile(values, 0.5);
 }
 
 /// How far apart two values of a series still depend on each other, twice: the block length of Politis and

@@ -44,10 +44,13 @@ inline bool normalize_quaternion(Eigen::Ref<Eigen::Vector4d> quaternion) {
   return true;
 }
 
-/// Whether times, in a unit [s], step at that rate [Hz]: to 5 % in the median, or in the step that leaves no
-/// row out.
+/// Largest departure of the rate of the times from the one that is stated, as a share of it.
+inline constexpr double kRateTolerance = 0.05;
+
+/// Whether times, in a unit [s], step at that rate [Hz]: within kRateTolerance in the median, or in the step
+/// that leaves no row out.
 inline bool steps_at(double rate, const Eigen::VectorXd& time, double unit = 1.0) {
-  const auto fits = [&](double step) { return std::abs(step * unit * rate - 1.0) <= 0.05; };
+  const auto fits = [&](double step) { return std::abs(step * unit * rate - 1.0) <= kRateTolerance; };
   return fits(median_step(time)) || fits(usual_step(time));
 }
 

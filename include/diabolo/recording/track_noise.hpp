@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "diabolo/math/bootstrap.hpp"
 #include "diabolo/recording/recording.hpp"
 
 namespace diabolo {
@@ -24,9 +25,6 @@ namespace recording_detail {
 /// Of the differences that noise is measured by: (1 - z)^6. What moves below a twentieth of the rate is
 /// nearly gone from them.
 inline constexpr std::array<double, 7> kDifference{1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0};
-
-/// The standard deviation of a normal variable is so many times its median absolute value.
-inline constexpr double kMedianToDeviation = 1.4826;
 
 /// Variance of the difference over frames that are `stride` apart, of noise of variance one.
 inline double difference_variance(double correlation, int stride) {

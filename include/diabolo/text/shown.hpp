@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "diabolo/text/utf8.hpp"
 
@@ -46,5 +47,13 @@ inline std::string shown(double value) {
 
 /// The same to three digits after the point, such as millimetres of metres: for people.
 inline std::string shown_rounded(double value) { return shown(std::round(value * 1e3) / 1e3); }
+
+/// "a, b and c".
+inline std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
 
 }  // namespace diabolo

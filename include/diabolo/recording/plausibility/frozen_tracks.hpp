@@ -25,14 +25,11 @@ inline constexpr double kNoisyTrack = 1e-5;
 /// Rows of a track that repeat the one before for longer than kLongestRest.
 inline Marks repeated_rows(const Recording& r, const Track& track, Stretches& found) {
   Marks marks = Marks::Constant(r.size(), false);
-  for (Eigen::Index first = 0, i = 1; i <= r.size(); ++i) {
-    if (i < r.size() && track.valid[i] && track.position.col(i) == track.position.col(first)) continue;
-    if (r.time[i - 1] - r.time[first] > kLongestRest) {
-      found.add(r.time[first], r.time[i - 1]);
-      marks.segment(first + 1, i - 1 - first).setConstant(true);
-    }
-    first = i;
-  }
+  for_each_rest(track, [&](Eigen::Index first, Eigen::Index last) {
+    if (r.time[last] - r.time[first] <= kLongestRest) return;
+    found.add(r.time[first], r.time[last]);
+    marks.segment(first + 1, last - first).setConstant(true);
+  });
   return marks;
 }
 

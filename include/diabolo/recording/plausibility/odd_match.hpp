@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diabolo/recording/plausibility/swapped_bodies.hpp"
 #include "diabolo/recording/plausibility/usual_path.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/shown.hpp"
@@ -70,7 +71,7 @@ inline std::string odd_shift(const Recording& r) {
 
 /// A clause about one body whose axes are others than those of the other two; else empty.
 inline std::string odd_axes(const Recording& r) {
-  constexpr std::array kBodies{"left tip", "right tip", "diabolo"};
+  using recording_plausibility_detail::kBodies;
   constexpr std::array kAxes{"x", "y", "z"};
   const double now = share_of_one_length(r, 0, as_recorded());
   double most = std::max(kLeastTaut, kClearlyOftener * now);

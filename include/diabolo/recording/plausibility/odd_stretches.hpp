@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "diabolo/recording/plausibility/regular_times.hpp"
 #include "diabolo/recording/recording.hpp"
 #include "diabolo/text/shown.hpp"
 
@@ -48,13 +49,24 @@ struct MissingRows {
     double missing = 0.0;
     for (Eigen::Index i = 0; i + 1 < r.size(); ++i) {
       const double periods = (r.time[i + 1] - r.time[i]) * r.rate;
-      if (periods <= 1.5) continue;
+      if (periods <= kGapInPeriods) continue;
       stretches.add(r.time[i], r.time[i + 1]);
       missing += periods - 1.0;
     }
     share = missing / (missing + static_cast<double>(std::max<Eigen::Index>(1, r.size())));
   }
 };
+
+/// Calls visit(first, last) with the rows of each stretch in which a track repeats its position to the last
+/// digit, one after the other; a dropout, and a row that none repeats, is one of its own.
+template <class Visit>
+void for_each_rest(const Track& track, const Visit& visit) {
+  const Eigen::Index size = track.valid.size();
+  for (Eigen::Index first = 0, next = 1; first < size; first = next++) {
+    while (next < size && track.valid[next] && track.position.col(next) == track.position.col(first)) ++next;
+    visit(first, next - 1);
+  }
+}
 
 /// How far a frozen body jumps at least [m], and how many times farther than it goes in the row beside; and
 /// how far a tip goes at least while a diabolo that rests to the last digit is thought to be frozen.
@@ -80,15 +92,12 @@ inline Stretches frozen(const Recording& r, const Track& track, double longest,
     return false;
   };
   Stretches found;
-  for (Eigen::Index first = 0, i = 1; i <= r.size(); ++i) {
-    if (i < r.size() && track.valid[i] && track.position.col(i) == track.position.col(first)) continue;
-    const Eigen::Index last = i - 1;
+  for_each_rest(track, [&](Eigen::Index first, Eigen::Index last) {
     if (r.time[last] - r.time[first] > longest &&
         (jumps(first - 1, first - 2) || jumps(last, last + 1) || moves(tips[0], first, last) ||
          moves(tips[1], first, last)))
       found.add(r.time[first], r.time[last]);
-    first = i;
-  }
+  });
   return found;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "diabolo/recording/plausibility/fall.hpp"
+#include "diabolo/recording/plausibility/odd_stretches.hpp"
 #include "diabolo/recording/plausibility/swapped_bodies.hpp"
 #include "diabolo/recording/plausibility/usual_path.hpp"
 #include "diabolo/recording/recording.hpp"
@@ -32,11 +33,9 @@ inline std::string odd_still_tips(const Recording& r, const std::vector<Fall>& f
   double longest = 0.0;
   for (const auto& [name, tip] : {std::pair{"left", &r.left}, std::pair{"right", &r.right}}) {
     std::pair<Eigen::Index, Eigen::Index> still{0, 0};  // first and last row of the longest rest
-    for (Eigen::Index first = 0, i = 1; i <= r.size(); ++i) {
-      if (i < r.size() && tip->valid[i] && tip->position.col(i) == tip->position.col(first)) continue;
-      if (i - 1 - first > still.second - still.first) still = {first, i - 1};
-      first = i;
-    }
+    for_each_rest(*tip, [&still](Eigen::Index first, Eigen::Index last) {
+      if (last - first > still.second - still.first) still = {first, last};
+    });
     if (r.size() == 0 || !(r.time[still.second] - r.time[still.first] > kFewestSeconds)) continue;
     Eigen::Index fitted = 0, unexplained = 0;
     for (const Fall& fall : falls) {

@@ -129,9 +129,9 @@ inline bool regularise_times(Recording& r) {
   for (Eigen::Index i = 0; i < size && !uneven; ++i) uneven = steps_unevenly(r, i);
   if (!uneven) return false;
   const double measured = rate_of(r.time),  // unless the stamps are too far off
-      usual = 1.0 / (std::abs(measured / r.rate - 1.0) <= 0.05 ? measured : r.rate);
+      usual = 1.0 / (std::abs(measured / r.rate - 1.0) <= kRateTolerance ? measured : r.rate);
   const auto [period, even] = recording_plausibility_detail::even_times(r.time, usual);
-  if (!(std::abs(period * r.rate - 1.0) <= 0.05)) return false;  // as check_rate() has it
+  if (!(std::abs(period * r.rate - 1.0) <= kRateTolerance)) return false;
   const Eigen::VectorXd moved = even - r.time;
   const auto far = (moved.array().abs() > kFarthestStamp * period).count();
   if (static_cast<double>(far) > kMostUneven * static_cast<double>(size)) return false;
@@ -153,7 +153,7 @@ inline constexpr double kAnotherRate = 5e-3;
 inline std::optional<double> another_rate(const Recording& r) {
   if (r.size() < 20) return std::nullopt;
   const double measured = rate_of(r.time), off = std::abs(measured / r.rate - 1.0);
-  const bool agree = off <= kAnotherRate || off > 0.05;  // as check_rate() has it
+  const bool agree = off <= kAnotherRate || off > kRateTolerance;
   if (agree || share_between_places(r.time, measured) > kMostUneven) return std::nullopt;
   return measured;
 }

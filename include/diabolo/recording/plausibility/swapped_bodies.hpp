@@ -60,8 +60,7 @@ inline constexpr double kFarthestMove = 0.15;
 inline Swaps unswap(Recording& r) {
   using recording_plausibility_detail::Assignment;
   const Eigen::Index size = r.size();
-  const Recording given = r;
-  Recording source = given;
+  Recording source = r;
   const std::array<Track*, 3> from = recording_plausibility_detail::tracks_of(source);
   std::vector<std::size_t> chosen(static_cast<std::size_t>(size), 0);
   std::array<Eigen::Vector3d, 3> last;
