@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "diabolo/diagnose/candidates.hpp"
@@ -94,6 +95,15 @@ inline bool is_beyond_floor(const Candidate& candidate, const Estimates& standin
     return std::abs(x[0]) - kBeyondFloor * standing.deviation(own.front()) > candidate.floor;
   return std::min(beyond_box(x, standing.noise(own, own), candidate.floor),
                   beyond_box(x, standing.spread(own, own), candidate.floor)) > kBeyondFloor;
+}
+
+/// Whether the string may be as long as it was told, one turn of it being on the axle.
+inline bool is_as_long_with_a_wrap(const Estimates& standing) {
+  const std::vector<int> own{index_of(Unknown::kStringLength), index_of(Unknown::kAxleRadius)};
+  const Eigen::Vector2d turn(1.0, 2.0 * std::numbers::pi), at = standing.estimate(own);
+  const auto variance = [&](const Eigen::MatrixXd& of) { return turn.dot(of(own, own) * turn); };
+  const double deviation = std::sqrt(std::max(variance(standing.noise), variance(standing.spread)));
+  return std::abs(turn.dot(at)) - kBeyondFloor * deviation <= candidate_of("string_length").floor;
 }
 
 /// A z-score as far as it speaks for a candidate: of one that cannot be negative, with its sign.

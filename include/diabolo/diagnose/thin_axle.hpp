@@ -20,8 +20,7 @@
 namespace diabolo::diagnose_detail {
 
 /// Whether string and tips are as they were told, within what any measurement is off by.
-inline bool is_as_told(const Fit& fit, const ActiveSet& set) {
-  const Estimates now = estimates_of(Evidence(fit), set);
+inline bool is_as_told(const Estimates& now) {
   return std::ranges::none_of(std::array{"string_length", "stick_tip_offset"}, [&](const char* name) {
     const Candidate& fault = candidate_of(name);
     return speaks_for(fault, significance(fault, now)) && is_beyond_floor(fault, now);
@@ -44,10 +43,12 @@ inline bool is_as_long_as_the_string(const Fit& fit, const Model& physics) {
 }
 
 /// Whether a string around no axle is worth a fit: the path is as long as it, or string or tips are not as
-/// they were told around one.
+/// they were told around one, and a turn of the string is not why.
 inline bool may_be_thin(const Fit& fit, const ActiveSet& set, const Model& physics) {
-  return physics.effects.get<FiniteAxle>().neutral() &&
-         (is_as_long_as_the_string(fit, physics) || !is_as_told(fit, set));
+  if (!physics.effects.get<FiniteAxle>().neutral()) return false;
+  if (is_as_long_as_the_string(fit, physics)) return true;
+  const Estimates now = estimates_of(Evidence(fit), set);
+  return !is_as_told(now) && !is_as_long_with_a_wrap(now);
 }
 
 /// Where the base alone is, its string around no axle. That lies on the axle itself.
@@ -77,7 +78,7 @@ std::optional<Fit> with_thin_axle(const Fit& fit, const ActiveSet& set, const Mo
   approach<D>(best, physics, set, kMostIterations, threads, watch);
   const auto [thin, around] = costs_where_both_fit(best, with_noise_of(best, fit, threads));
   const double alike = kSameResidual * around + kAsGood * best.dispersion;
-  if (thin > around + (is_as_told(best, set) ? alike : -alike)) return std::nullopt;
+  if (thin > around + (is_as_told(estimates_of(Evidence(best), set)) ? alike : -alike)) return std::nullopt;
   best.noise_is_known = fit.noise_is_known;
   return best;
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,15 +86,9 @@ inline void withdraw_length_of_a_wrap(Diagnosis& d, const Estimates& now) {
     return f.claimed && std::ranges::find(f.tied_with, "string_wrap") != f.tied_with.end();
   };
   if (std::ranges::none_of(d.findings, wrapped)) return;
-  // By how much the string is longer than told, one turn of it being on the axle.
-  const std::vector<int> own{index_of(Unknown::kStringLength), index_of(Unknown::kAxleRadius)};
-  const Eigen::Vector2d turn(1.0, 2.0 * std::numbers::pi), at = now.estimate(own);
-  const auto variance = [&](const Eigen::MatrixXd& of) { return turn.dot(of(own, own) * turn); };
-  const double longer = std::abs(turn.dot(at)),
-               deviation = std::sqrt(std::max(variance(now.noise), variance(now.spread)));
+  if (!is_as_long_with_a_wrap(now)) return;
   for (Finding& f : d.findings) {
     if (!f.claimed || f.candidate->name != "string_length") continue;
-    if (longer - kBeyondFloor * deviation > f.candidate->floor) continue;
     f.claimed = false;
     f.reason = "may as well be " + std::string(candidate_of("string_wrap").plain);
   }
