@@ -36,7 +36,7 @@ bool covers(const std::vector<Estimate>& numbers, double truth) {
 /// Within four standard deviations: intervals of what turns the axle are of the camera's noise alone.
 bool is_near(const std::vector<Estimate>& numbers, double truth) {
   const Estimate& number = numbers.at(0);
-  const double deviation = (number.ci90->high - number.ci90->low) / (2.0 * diagnose_detail::kNormal95);
+  const double deviation = (number.ci90->high - number.ci90->low) / (2.0 * kNormal95);
   return std::abs(number.value - truth) < 4.0 * deviation;
 }
 
