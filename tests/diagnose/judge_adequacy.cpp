@@ -69,6 +69,15 @@ TEST_CASE("a slight force that windows do not show is told by predictions of dat
   CHECK(told.places.front().times_noise == Approx(3.0));
   CHECK(left_in_words(told) == "12 mm 1 s ahead, where the start's noise makes 4 mm");
   CHECK_FALSE(judge_adequacy({}, kNames, {ahead_of(0.012)}).adequate.has_value());
+
+  Adequacy slight;
+  CHECK(share_of_gap(slight).empty());
+  slight.spin_explained = 0.5;
+  CHECK(share_of_gap(slight) == "50 % of the gap in the spin");
+  slight.overall = {ahead_of(0.0041)};
+  CHECK(share_of_gap(slight) == "99 % of the gap after 1 s");
+  slight.explained = 0.93;
+  CHECK(share_of_gap(slight) == "93 % of the gap");
 }
 
 TEST_CASE("a camera that wanders as much as it flickers is no stranger") {

@@ -10,6 +10,7 @@
 
 #include "diabolo/diagnose/adequacy.hpp"
 #include "diabolo/diagnose/answer.hpp"
+#include "diabolo/diagnose/residual_and_noise.hpp"
 #include "diabolo/diagnose/significance.hpp"
 #include "diabolo/math/fields.hpp"
 #include "diabolo/parameters.hpp"
@@ -106,15 +107,26 @@ inline std::string learnt_plainly(const Learnt& learnt) {
   return text + (sure ? "" : " (that it depends on this is not shown)");
 }
 
+/// "93 % of the gap": of windows of half a second where these show one, else of the farthest prediction that
+/// does, else of the spin.
+inline std::string share_of_gap(const Adequacy& adequacy) {
+  std::optional<double> share = adequacy.explained;
+  std::string of;
+  for (auto left = adequacy.overall.rbegin(); !share && left != adequacy.overall.rend(); ++left) {
+    if (left->quantity != "position" || !left->ahead_s) continue;
+    share = diagnose_detail::explained_of(*left);
+    of = " after " + shown(*left->ahead_s) + " s";
+  }
+  if (!share) share = adequacy.spin_explained, of = " in the spin";
+  if (!share) return {};
+  return std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" + of;
+}
+
 /// How much of the gap what was found explains, and what it leaves: sentences after the answer's.
 inline std::string explained_in_words(const Adequacy& adequacy, bool named) {
-  const bool by_spin = !adequacy.explained;
-  const std::optional<double> share = by_spin ? adequacy.spin_explained : adequacy.explained;
-  std::string text;
-  if (share)
-    text = (named ? " This explains " : " What is fitted along, and not claimed, explains ") +
-           std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" +
-           (by_spin ? " in the spin." : ".");
+  std::string text = share_of_gap(adequacy);
+  if (!text.empty())
+    text = (named ? " This explains " : " What is fitted along, and not claimed, explains ") + text + ".";
   if (!adequacy.places.empty()) text += " No explanation has been found of " + left_in_words(adequacy) + ".";
   if (!adequacy.changes.empty())
     text += " Something changes in time: " + change_in_words(adequacy.changes.front()) + ".";

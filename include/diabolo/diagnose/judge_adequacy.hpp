@@ -79,12 +79,6 @@ inline std::optional<ResidualAndNoise> residual_and_noise_in(const Windows& wind
   return result;
 }
 
-/// The share of the gap beyond noise that was closed; nothing where there is none.
-inline std::optional<double> explained_of(const ResidualAndNoise& left) {
-  if (!(left.base > kTimesNoise * left.noise)) return std::nullopt;
-  return std::min(1.0, (left.base - left.left) / (left.base - left.noise));
-}
-
 inline const char* mode_of(const WindowFinding& w) { return w.eventful ? "EVENT" : text_of(w.mode); }
 
 /// Stretches of time without events in which more is left than noise leaves, joined where they touch.

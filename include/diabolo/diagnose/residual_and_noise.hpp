@@ -65,6 +65,12 @@ inline std::optional<ResidualAndNoise> residual_and_noise_of(const Compared& com
   return result;
 }
 
+/// The share of the gap beyond noise that was closed; nothing where there is none.
+inline std::optional<double> explained_of(const ResidualAndNoise& left) {
+  if (!(left.base > kTimesNoise * left.noise)) return std::nullopt;
+  return std::min(1.0, (left.base - left.left) / (left.base - left.noise));
+}
+
 inline bool is_beyond_noise(const ResidualAndNoise& left) {
   return left.times_noise > kTimesNoise && left.p_value < kNoiseMayDoIt;
 }
