@@ -267,12 +267,14 @@ TEST_CASE(
   const std::string nothing = "Nothing is missing that this recording could show.";
   CHECK(sentence(d, -0.15, true) == nothing);
   CHECK(sentence(d, -0.15, std::nullopt) == nothing);
-  CHECK(sentence(d, -0.15, false) == nothing +
-                                         " Calibration makes the difference: the string does not drive the "
-                                         "spin, as the simulator's does by 0.15 1/s.");
-  CHECK(sentence(d, 0.25, false) == nothing +
-                                        " Calibration makes the difference: the string drives the spin by "
-                                        "0.4 1/s, not by 0.15 1/s.");
+  CHECK(sentence(d, -0.15, false) ==
+        nothing +
+            " A setting of the simulator makes the difference: the string does not drive the "
+            "spin, as the simulator's does by 0.15 1/s.");
+  CHECK(sentence(d, 0.25, false) ==
+        nothing +
+            " A setting of the simulator makes the difference: the string drives the spin by "
+            "0.4 1/s, not by 0.15 1/s.");
   CHECK(sentence(d, 4e-3, false) == nothing);  // sure, and too small to matter
   d.deviation[drive] = 0.01;
   CHECK(sentence(d, 0.04, false) == nothing);  // not sure

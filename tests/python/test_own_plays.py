@@ -52,7 +52,7 @@ def test_nothing_is_missing_from_a_play_of_the_base(motion: str, tmp_path: Path)
     answer = diagnose([play(tmp_path, motion)])
     assert answer.headline == "NOTHING_MISSING", answer.sentence
     assert answer.effects == []
-    assert "Calibration" not in answer.sentence
+    assert "makes the difference" not in answer.sentence
 
 
 def friction_of(answer: Diagnosis) -> tuple[float, float, float]:

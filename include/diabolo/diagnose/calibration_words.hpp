@@ -27,8 +27,8 @@ inline std::string spin_drive_in_words(const Diagnosis& d) {
              : "the string drives the spin by " + size_in_words(after, "1/s") + ", not by " + given;
 }
 
-/// Of a simulator that is off where nothing is claimed: which calibration, fitted along, makes the
-/// difference. A sentence.
+/// Of a simulator that is off where nothing is claimed: which setting of it, or which calibration that was
+/// fitted along, makes the difference. A sentence.
 inline std::string calibration_in_words(const Diagnosis& d) {
   if (d.adequacy.base_adequate.value_or(true)) return {};
   std::vector<const Finding*> faults;
@@ -37,7 +37,8 @@ inline std::string calibration_in_words(const Diagnosis& d) {
       faults.push_back(&f);
   const std::string drive = spin_drive_in_words(d);
   if (drive.empty() && faults.empty()) return {};
-  return " Calibration makes the difference: " + drive + (drive.empty() || faults.empty() ? "" : "; ") +
+  return (faults.empty() ? " A setting of the simulator" : " Calibration") +
+         std::string(" makes the difference: ") + drive + (drive.empty() || faults.empty() ? "" : "; ") +
          (faults.empty() ? "" : "fitted along: " + plainly(faults)) + ".";
 }
 
