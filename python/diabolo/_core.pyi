@@ -1835,7 +1835,7 @@ class DiagnosisResult:
     """Errors on data that was not fitted."""
   @property
   def headline(self) -> str:
-    """The first that holds of INSUFFICIENT_DATA, TIE, NAMED, MEASUREMENT_FAULT, NUMERICAL, UNNAMED_STRUCTURE and NOTHING_MISSING."""
+    """The first that holds of INSUFFICIENT_DATA, TIE, NAMED, MEASUREMENT_FAULT, NUMERICAL, UNNAMED_STRUCTURE and NOTHING_MISSING; NAMED of laws of the axle alone just before the last."""
   @property
   def inputs(self) -> list[InputFile]:
     """Files that were diagnosed, where its caller said so."""
