@@ -288,6 +288,11 @@ def play(program: Path, motion: str, number: int, first: int, folder: Path) -> t
     return read_truth(folder / "truth.csv"), model, int(generator.integers(2**31))
 
 
+def axle_turned(truth: Truth) -> float:
+    """How far the axle has turned from where it was at first, after the last step [degrees]."""
+    return math.degrees(math.acos(min(1.0, max(-1.0, float(truth.axle[-1] @ truth.axle[0])))))
+
+
 def act(arguments: argparse.Namespace) -> int:
     plant.check(arguments.plant)
     print(
@@ -295,6 +300,7 @@ def act(arguments: argparse.Namespace) -> int:
         "| worst [%] | intervals [%] | taut or not [%] |\n|" + "---|" * 9
     )
     everything: dict[str, Any] = {}
+    turned: dict[str, list[float]] = {}
     all_runs: dict[str, list[tuple[Truth, Run]]] = {sensors: [] for sensors in SENSORS}
     with tempfile.TemporaryDirectory() as name:
         for motion in MOTIONS:
@@ -302,6 +308,7 @@ def act(arguments: argparse.Namespace) -> int:
                 play(arguments.plant, motion, number, arguments.seed, Path(name))
                 for number in range(arguments.plays)
             ]
+            turned[motion] = [axle_turned(truth) for truth, _, _ in plays]
             frames = 1e3 * np.concatenate([held_frames(truth, seed) for truth, _, seed in plays])
             middle, most = np.percentile(frames, [50, 95])
             print(f"| {motion} | last frame | {middle:.1f} | {most:.1f} | | | | | |")
@@ -311,6 +318,9 @@ def act(arguments: argparse.Namespace) -> int:
                 everything[f"{motion}, {sensors}"] = show(motion, sensors, figures(runs))
     for sensors, runs in all_runs.items():
         everything[sensors] = show("all", sensors, figures(runs))
+    print("\nDegrees by which each play's axle has turned at its end: ", end="")
+    print("; ".join(f"{motion} {', '.join(f'{a:.0f}' for a in angles)}" for motion, angles in turned.items()))
+    everything["axle turned [degrees]"] = turned
     if arguments.json:
         arguments.json.write_text(json.dumps(everything, indent=2) + "\n", encoding="utf-8")
     return 0

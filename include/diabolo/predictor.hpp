@@ -220,7 +220,9 @@ class Predictor {
             .compliance = string.compliance,
             .damping_time = string.damping_time,
             .plane = plane,
-            .restitution = string.restitution};
+            .restitution = string.restitution,
+            .inertia = string.inertia,
+            .resting = select(is(state.string_state, StringState::kOnString), Scalar(0), string.inertia)};
   }
 
   static bool elastic(const StringNow<Scalar>& string) {

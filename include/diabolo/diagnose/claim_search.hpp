@@ -133,7 +133,10 @@ class ClaimSearch {
     set_ = eliminate(Evidence(fit_), bank_, set_);
     for (int round = 0;; ++round) {
       const double begin = (again ? 0.7 : 0.4) + 0.03 * round;
-      refit(step("refitting what is sure", begin, begin + 0.03, kFitsShare));
+      const FitWatch refitting = step("refitting what is sure", begin, begin + 0.03, kFitsShare);
+      const Fit before = fit_;
+      refit(refitting);
+      take_spring_back(before, refitting);
       const Evidence evidence(fit_);
       ActiveSet next = eliminate(evidence, bank_, set_);
       if (const Candidate* candidate = strongest_left_out(evidence, bank_, next))
@@ -155,6 +158,25 @@ class ClaimSearch {
     refine<D>(*alone, physics_, set_, kMostIterations, options_.threads, watch);
     const auto [theirs, ours] = costs_where_both_fit(with_noise_of(fit_, *alone, options_.threads), fit_);
     if (theirs < ours) fit_ = *std::move(alone);
+  }
+
+  /// A spring that was let go is taken back where all that is left cannot do what it did. (How sure one is of
+  /// it is said by the slope at the fit with it; without it a fit lies in another valley.)
+  void take_spring_back(const Fit& before, const FitWatch& watch) {
+    if (!is_dynamic(added_give(before.at)) || asked_spring(set_)) return;
+    const ActiveSet rigid = set_;
+    for (const Candidate* candidate : bank_) {
+      const ActiveSet set = with(rigid, *candidate);
+      if (!asked_spring(set) || watch.is_enough()) continue;
+      Fit trial = giving_alone(before, set).value_or(before);
+      put_at_rest(trial, set);
+      refine<D>(trial, physics_, set, kMostIterations, options_.threads, watch);
+      const auto [cost, least] = costs_where_both_fit(with_noise_of(fit_, trial, options_.threads), fit_);
+      const double needed = asked_spring(set_) ? 0.0 : kSignificance * kSignificance * fit_.dispersion;
+      if (least - cost <= needed) continue;
+      fit_ = std::move(trial);
+      set_ = set;
+    }
   }
 
   /// Whether the recordings are rather of a string that lies around no axle; the fit is moved to it then.

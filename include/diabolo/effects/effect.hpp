@@ -10,6 +10,7 @@
 #include "diabolo/parameters.hpp"
 #include "diabolo/state.hpp"
 #include "diabolo/sticks.hpp"
+#include "diabolo/string/spring.hpp"
 #include "diabolo/string/string_path.hpp"
 #include "diabolo/string/string_step.hpp"
 
@@ -23,29 +24,6 @@ struct TipShift {
   void move(Tips<Scalar>& tips) const {
     tips.left = tips.left + left;
     tips.right = tips.right + right;
-  }
-};
-
-/// A spring in series with the string.
-template <class Scalar>
-struct Spring {
-  Scalar compliance{0};    ///< extension of the path length per tension [m/N]
-  Scalar damping_time{0};  ///< damping over stiffness [s]
-};
-
-/// The string as a step sees it.
-template <class Scalar>
-struct StringNow {
-  Scalar length;           ///< in the strands [m]
-  Scalar compliance{0};    ///< extension of the path length per tension/mass [s^2]
-  Scalar damping_time{0};  ///< damping over stiffness [s]
-  Scalar restitution{0};   ///< share of the path's rate that a catch gives back
-
-  void add(const Spring<Scalar>& spring, const Scalar& mass) {
-    const Scalar own = spring.compliance * mass, sum = compliance + own;
-    damping_time =
-        (compliance * damping_time + own * spring.damping_time) / maximum(sum, Scalar(tiny<Scalar>()));
-    compliance = sum;
   }
 };
 

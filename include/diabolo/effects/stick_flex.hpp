@@ -15,9 +15,8 @@ namespace diabolo {
 /// plastic sticks: 60 to 600 N/m at the tip.
 ///
 /// A tip moves with the string on it, and has a mass of its own (8 to 15 g): with e_j the part of strand j
-/// that is square to its stick, tip_mass / (e_1^2 + e_2^2) is added to the inertia of a change of path
-/// length. The bounce on such sticks is slower than their stiffness alone makes it, by some 3 %. Its weight
-/// bends the stick as well.
+/// that is square to its stick, tip_mass / (e_1^2 + e_2^2) is the spring's inertia. The bounce on such sticks
+/// is slower than their stiffness alone makes it, by some 3 %. Its weight bends the stick as well.
 template <class Scalar>
 struct StickFlex : NeutralEffect<Scalar> {
   static constexpr std::string_view kName = "stick_flex";
@@ -37,30 +36,8 @@ struct StickFlex : NeutralEffect<Scalar> {
 
   Spring<Scalar> spring_at(const State<Scalar>& state, const Tips<Scalar>& tips) const {
     const StringPath<Scalar> path(state.position, tips);
-    return {compliance * give(path, tips), compliance * damping};
-  }
-
-  /// What the tips' mass takes from the change of the diabolo's velocity. A tip whose string was slack is at
-  /// rest; where the step does not resolve the bending, the tips do not move.
-  Contact<Scalar> contact(const State<Scalar>& state, const Tips<Scalar>& tips,
-                          const StringStepResult<Scalar>& result, const Scalar& dt,
-                          const Parameters<Scalar>& parameters, const Scalar& /*friction*/) const {
-    if (is_constant_zero(tip_mass)) return {};
-    Tips<Scalar> earlier = tips;
-    earlier.left -= tips.left_velocity * dt;
-    earlier.right -= tips.right_velocity * dt;
-    const StringPath<Scalar> path(result.position, tips);
-    const Vector3<Scalar> gradient = path.gradient();
-    const Scalar square = squared_norm(gradient), moving = give(path, tips);
-    const Scalar before =
-        select(is(state.string_state, StringState::kOnString),
-               dot(StringPath<Scalar>(state.position, earlier).gradient(), state.velocity), Scalar(0));
-    const Scalar share = tip_mass / (parameters.mass * maximum(moving, Scalar(0.05)));
-    const Scalar resolved = minimum(Scalar(1), Scalar(Scalar(4) * compliance * moving * parameters.mass /
-                                                      (dt * dt * square + tiny<Scalar>())));
-    const Scalar change =
-        (dot(gradient, result.velocity) - before) * share * resolved / (Scalar(1) + share * square);
-    return {gradient * Scalar(-select(result.taut, change, Scalar(0))), Scalar(0)};
+    const Scalar moving = give(path, tips);
+    return {compliance * moving, compliance * damping, tip_mass / maximum(moving, Scalar(0.05))};
   }
 
   /// Bends and directions of the strands depend on each other, and are brought together in a few turns. What

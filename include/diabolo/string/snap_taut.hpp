@@ -39,16 +39,17 @@ Scalar taut_fraction(const StringStep<Scalar>& step, const Mask<Scalar>& where) 
 
 /// Velocity after the catch of a string that has just come taut, an impulse at both tips. Newton's law of
 /// impact along the string: the outward rate of the path length becomes -restitution times what it was,
-/// unless a resolved spring takes it up. With resting tips the kinetic energy loses (1 - restitution^2)
-/// rate^2 / (2 |gradient|^2), never less than nothing.
+/// unless a resolved spring takes it up; of that rate what was `resting` takes its share. With resting tips
+/// the kinetic energy loses (1 - restitution^2) rate^2 / (2 |gradient|^2), never less than nothing.
 template <class Scalar>
 Vector3<Scalar> velocity_after_catch(const StringStep<Scalar>& step, const Vector3<Scalar>& position,
                                      const Vector3<Scalar>& arriving, const Tips<Scalar>& tips) {
   const StringPath<Scalar> path(position, tips);
   const Vector3<Scalar> gradient = step.plane(path.gradient());
   const Scalar rate = path.rate(arriving, tips.left_velocity, tips.right_velocity);
-  const Scalar rigidity = Scalar(1) - step.resolution(squared_norm(gradient));
-  const Scalar lost = rigidity * (Scalar(1) + step.restitution);
+  const Scalar square = squared_norm(gradient), resolution = step.resolution(square);
+  const Scalar taken = step.resting * square / (Scalar(1) + step.resting * square);
+  const Scalar lost = (Scalar(1) - resolution) * (Scalar(1) + step.restitution) + resolution * taken;
   return without_path_rate<Scalar>(arriving, gradient, maximum(rate, Scalar(0)) * lost);
 }
 

@@ -34,6 +34,8 @@ struct StringStep {
   Scalar damping_time;  ///< string damping over its stiffness [s]
   const PlaneProjector<Scalar>& plane;
   Scalar restitution{0};  ///< of a catch: share of the path's rate that is given back
+  Scalar inertia{0};      ///< of what moves with the string, over the diabolo's mass
+  Scalar resting{0};      ///< of what is at rest until the string comes taut
 
   /// Position of the free motion after the time `t` [s].
   [[gnu::always_inline]] inline Vector3<Scalar> free_position(const Scalar& t) const {
@@ -48,8 +50,9 @@ struct StringStep {
   [[gnu::always_inline]] inline StringStep rest(const Vector3<Scalar>& position_there,
                                                 const Vector3<Scalar>& velocity_there,
                                                 const Tips<Scalar>& tips_there, const Scalar& left) const {
-    return {position_there, velocity_there,      acceleration, tips_there,   end,   left,
-            string_length,  string_acceleration, compliance,   damping_time, plane, restitution};
+    return {
+        position_there,      velocity_there, acceleration, tips_there, end,         left,    string_length,
+        string_acceleration, compliance,     damping_time, plane,      restitution, inertia, resting};
   }
 
   /// Whether the string is straight from tip to tip at the end, or shorter than their distance.

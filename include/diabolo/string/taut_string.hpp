@@ -22,6 +22,8 @@ struct TautSearch {
   Scalar half_square = Scalar(0.5) * step.dt * step.dt;
   // The spring's extension counts with these weights at the end and at the beginning of the step.
   Scalar resolution{0}, end_weight{1}, begin_part{0}, spring{0};
+  // What moves with the string pulls against the change of the diabolo's rate along it.
+  Scalar inertia{0}, rate{0};
 
   /// `gradient` of the path length near the end of the step.
   [[gnu::always_inline]] inline void resolve_spring(const Vector3<Scalar>& gradient) {
@@ -29,6 +31,8 @@ struct TautSearch {
     end_weight = Scalar(1) - Scalar(0.5) * resolution + step.damping_time / step.dt;
     begin_part = (Scalar(1) - end_weight) * (begin.length() - step.string_length);
     spring = step.compliance / half_square;
+    inertia = spring * resolution * step.inertia;
+    rate = dot(step.plane(begin.gradient()), step.velocity);
   }
 
   /// A diabolo that begins outside a rigid string is put back without being thrown.
@@ -65,10 +69,12 @@ struct TautIterate {
     slope = dot(gradient, direction);
     const Scalar steep = maximum(slope, Scalar(1e-9));
     const Scalar extension = path.length() - step.string_length - dot(gradient, last);
-    if constexpr (kElastic)
-      pull =
-          (search.end_weight * extension + search.begin_part) / (search.end_weight * steep + search.spring);
-    else
+    if constexpr (kElastic) {
+      const Scalar sped_up =
+          Scalar(0.5) * step.dt * (dot(gradient, step.free_velocity(step.dt)) - search.rate);
+      pull = (search.end_weight * extension + search.begin_part + search.inertia * sped_up) /
+             ((search.end_weight + search.inertia) * steep + search.spring);
+    } else
       pull = extension / steep;
     pull = select(may_pull, maximum(pull, Scalar(0)), Scalar(0));
     shift = direction * Scalar(-pull);
@@ -202,7 +208,7 @@ template <bool kElastic, class Scalar>
 /// it does no work; then the velocity loses what is left of the rate of S, which can only take energy away.
 /// Second order in dt. A string that comes taut within the step is located; its catch is inelastic but
 /// for `restitution`. An elastic string extends by `compliance` per tension/mass, less
-/// `damping_time` times its rate.
+/// `damping_time` times its rate; what it moves has `inertia`.
 ///
 /// `kElastic` false leaves the spring out; the result is the same, bit for bit, as with a compliance of zero.
 template <bool kElastic, class Scalar>
