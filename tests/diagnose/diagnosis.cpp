@@ -227,6 +227,7 @@ TEMPLATE_TEST_CASE("by the unknowns that are carried, derivatives are as by all;
   for (std::size_t w = 0; w < few.systems.size(); ++w) {
     const WindowSystem &a = few.systems[w], &b = fit.systems[w];
     double off = 0.0, beside = 0.0;
+    CHECK((a.positions.allFinite() && a.spins.allFinite() && b.positions.allFinite() && b.spins.allFinite()));
     for (const auto& [own, all] : {std::pair{&a.positions, &b.positions}, {&a.spins, &b.spins}})
       for (Eigen::Index i = 0; i < kWindowColumns; ++i)
         for (Eigen::Index j = 0; j < kWindowColumns; ++j) {

@@ -97,6 +97,23 @@ TEST_CASE("of string and sticks that gave together the one that is left gives as
   CHECK(sticks->at[kSticks] == Approx(5e-3));  // of each of two
 }
 
+TEST_CASE("a spring that was let go is taken back where a string rings, and nowhere else") {
+  const Model base = consistent_model();
+  const Bank bank = bank_for(base.parameters, {});
+  const auto again = [&](const Recording& recording, const ActiveSet& set) {
+    const Fit stiff = ended_stiff(recording, base);
+    Fit before = stiff;
+    before.at[index_of(Unknown::kCompliance)] = before.at[index_of(Unknown::kStickCompliance)] = 1e-3;
+    return diagnose_detail::with_spring_again<D>(stiff, before, set, bank, base, 0, {});
+  };
+  const auto found = again(hopped(300.0, 12), nuisances());
+  REQUIRE(found);
+  CHECK(diagnose_detail::added_give(found->first.at) == Approx(1.0 / 300.0).epsilon(0.05));
+  CHECK(diagnose_detail::asked_spring(found->second));
+  CHECK_FALSE(again(hopped(300.0, 12), with_spring()));  // none was let go
+  CHECK_FALSE(again(played(AllEffects<double>(), 9.0, 13, 0.0, &hopping_hands), nuisances()));
+}
+
 TEST_CASE("what two fits cost is compared where neither misses a catch nor is far off") {
   Fit one, other;
   one.scores.resize(4);

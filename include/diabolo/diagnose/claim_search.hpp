@@ -160,23 +160,10 @@ class ClaimSearch {
     if (theirs < ours) fit_ = *std::move(alone);
   }
 
-  /// A spring that was let go is taken back where all that is left cannot do what it did. (How sure one is of
-  /// it is said by the slope at the fit with it; without it a fit lies in another valley.)
+  /// Takes a spring back that was let go, where it costs clearly less.
   void take_spring_back(const Fit& before, const FitWatch& watch) {
-    if (!is_dynamic(added_give(before.at)) || asked_spring(set_)) return;
-    const ActiveSet rigid = set_;
-    for (const Candidate* candidate : bank_) {
-      const ActiveSet set = with(rigid, *candidate);
-      if (!asked_spring(set) || watch.is_enough()) continue;
-      Fit trial = giving_alone(before, set).value_or(before);
-      put_at_rest(trial, set);
-      refine<D>(trial, physics_, set, kMostIterations, options_.threads, watch);
-      const auto [cost, least] = costs_where_both_fit(with_noise_of(fit_, trial, options_.threads), fit_);
-      const double needed = asked_spring(set_) ? 0.0 : kSignificance * kSignificance * fit_.dispersion;
-      if (least - cost <= needed) continue;
-      fit_ = std::move(trial);
-      set_ = set;
-    }
+    auto sprung = with_spring_again<D>(fit_, before, set_, bank_, physics_, options_.threads, watch);
+    if (sprung) std::tie(fit_, set_) = *std::move(sprung);
   }
 
   /// Whether the recordings are rather of a string that lies around no axle; the fit is moved to it then.

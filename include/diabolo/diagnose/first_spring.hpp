@@ -7,7 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "diabolo/diagnose/candidates.hpp"
+#include "diabolo/diagnose/evidence.hpp"
 #include "diabolo/diagnose/refine.hpp"
+#include "diabolo/diagnose/select.hpp"
 
 namespace diabolo::diagnose_detail {
 
@@ -110,6 +113,33 @@ inline std::optional<Fit> giving_alone(Fit fit, const ActiveSet& free) {
   if (!left || !is_dynamic(together) || !(lost > 0.0)) return std::nullopt;
   fit.at[left->give] += left->give == index_of(Unknown::kCompliance) ? lost : 0.5 * lost;
   return fit;
+}
+
+/// The fit with string or sticks giving again, and what is free in it, where both were let go from `before`,
+/// in which a string rang: of those that are sure of a spring the one that costs least, and less than
+/// kPromising of the stiff `fit`; else nothing. (The stiff fit lies in another valley, which no slope at
+/// `before` tells.)
+template <class D>
+std::optional<std::pair<Fit, ActiveSet>> with_spring_again(const Fit& fit, const Fit& before,
+                                                           const ActiveSet& set, const Bank& bank,
+                                                           const Model& physics, int threads,
+                                                           const FitWatch& watch) {
+  std::optional<std::pair<Fit, ActiveSet>> best;
+  if (!is_dynamic(added_give(before.at)) || asked_spring(set)) return best;
+  double least = kPromising * fit.cost;
+  for (const Candidate* candidate : bank) {
+    const ActiveSet free = with(set, *candidate);
+    if (!asked_spring(free) || watch.is_enough()) continue;
+    Fit trial = giving_alone(before, free).value_or(before);
+    put_at_rest(trial, free);
+    refine<D>(trial, physics, free, kMostIterations, threads, watch);
+    const double cost = cost_with_noise_of(fit, trial, threads);
+    const double z = significance(*candidate, estimates_of(Evidence(trial), free));
+    if (!(cost < least) || !speaks_for(*candidate, z)) continue;
+    least = cost;
+    best.emplace(std::move(trial), free);
+  }
+  return best;
 }
 
 }  // namespace diabolo::diagnose_detail

@@ -48,8 +48,9 @@ Vector3<Scalar> velocity_after_catch(const StringStep<Scalar>& step, const Vecto
   const Vector3<Scalar> gradient = step.plane(path.gradient());
   const Scalar rate = path.rate(arriving, tips.left_velocity, tips.right_velocity);
   const Scalar square = squared_norm(gradient), resolution = step.resolution(square);
-  const Scalar taken = step.resting * square / (Scalar(1) + step.resting * square);
-  const Scalar lost = (Scalar(1) - resolution) * (Scalar(1) + step.restitution) + resolution * taken;
+  const Scalar resting = step.beside(step.resting, square) * square;
+  const Scalar lost =
+      (Scalar(1) - resolution) * (Scalar(1) + step.restitution) + resting / (Scalar(1) + resting);
   return without_path_rate<Scalar>(arriving, gradient, maximum(rate, Scalar(0)) * lost);
 }
 

@@ -20,15 +20,14 @@ struct StringNow {
   Scalar compliance{0};    ///< extension of the path length per tension/mass [s^2]
   Scalar damping_time{0};  ///< damping over stiffness [s]
   Scalar restitution{0};   ///< share of the path's rate that a catch gives back
-  Scalar inertia{0};       ///< of what a change of the path length moves, over the diabolo's mass
+  Scalar inertia{0};       ///< sum of inertia over the diabolo's mass times compliance^2 [s^4]
 
-  /// In a row each spring extends by its share of the compliance, and its inertia counts with that squared.
+  /// In a row. Of an extension each spring takes its share of the compliance.
   void add(const Spring<Scalar>& spring, const Scalar& mass) {
     const Scalar own = spring.compliance * mass, sum = compliance + own;
-    const Scalar per_sum = Scalar(1) / maximum(sum, Scalar(tiny<Scalar>()));
-    const Scalar before = compliance * per_sum, added = own * per_sum;
-    damping_time = before * damping_time + added * spring.damping_time;
-    inertia = before * before * inertia + added * added * spring.inertia / mass;
+    damping_time =
+        (compliance * damping_time + own * spring.damping_time) / maximum(sum, Scalar(tiny<Scalar>()));
+    inertia += own * own * spring.inertia / mass;
     compliance = sum;
   }
 };

@@ -34,8 +34,8 @@ struct StringStep {
   Scalar damping_time;  ///< string damping over its stiffness [s]
   const PlaneProjector<Scalar>& plane;
   Scalar restitution{0};  ///< of a catch: share of the path's rate that is given back
-  Scalar inertia{0};      ///< of what moves with the string, over the diabolo's mass
-  Scalar resting{0};      ///< of what is at rest until the string comes taut
+  Scalar inertia{0};      ///< of what moves with the string; see StringNow [s^4]
+  Scalar resting{0};      ///< that of what is at rest until the string comes taut
 
   /// Position of the free motion after the time `t` [s].
   [[gnu::always_inline]] inline Vector3<Scalar> free_position(const Scalar& t) const {
@@ -79,6 +79,13 @@ struct StringStep {
   /// string into none.
   Scalar resolution(const Scalar& gradient_squared) const {
     return minimum(Scalar(1), Scalar(Scalar(4) * compliance / (dt * dt * gradient_squared + tiny<Scalar>())));
+  }
+  /// The mass beside the diabolo's [1] that an inertia is to a change of the path length, where the spring is
+  /// resolved; else less, to nothing of a rigid string's.
+  Scalar beside(const Scalar& of, const Scalar& gradient_squared) const {
+    const Scalar stiffness = Scalar(4) / maximum(Scalar(Scalar(4) * compliance),
+                                                 Scalar(dt * dt * gradient_squared + tiny<Scalar>()));
+    return of * stiffness * stiffness;
   }
 };
 

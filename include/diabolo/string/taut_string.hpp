@@ -27,11 +27,12 @@ struct TautSearch {
 
   /// `gradient` of the path length near the end of the step.
   [[gnu::always_inline]] inline void resolve_spring(const Vector3<Scalar>& gradient) {
-    resolution = step.resolution(squared_norm(gradient));
+    const Scalar square = squared_norm(gradient);
+    resolution = step.resolution(square);
     end_weight = Scalar(1) - Scalar(0.5) * resolution + step.damping_time / step.dt;
     begin_part = (Scalar(1) - end_weight) * (begin.length() - step.string_length);
     spring = step.compliance / half_square;
-    inertia = spring * resolution * step.inertia;
+    inertia = spring * step.beside(step.inertia, square);
     rate = dot(step.plane(begin.gradient()), step.velocity);
   }
 
