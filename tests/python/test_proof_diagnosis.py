@@ -49,7 +49,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BATCHES = ROOT / "benchmarks" / "proof" / "diagnosis" / "batches"
 PLACE = {"quantity": "position", "mode": "ON_STRING", "direction": "left"}
 # Of the file that was published when the batch was sealed, as SHA-256.
-DIGEST_OF_TWELFTH = "5cf58cb8252ad8706c027cd1678d7243f83b0e012f2160b85a9335fc20dcb40a"
+DIGEST_OF_THIRTEENTH = "32edeba57cb9245f2a21687e0a0baa932b7ce3b978a83cff4075a7894b2b10f3"
 
 SILENT = "strangers met with silence, SNR >= 10"
 SWING = load_recording(ROOT / "data" / "recordings" / "swing.csv")
@@ -508,14 +508,14 @@ def test_intervals_of_rates() -> None:
         (["quick", "--cases", "0"], "--cases: 0; expected a whole number from 1 to 9999"),
         (["quick", "--tool", "guess"], "--tool guess: expected one of diagnose, no_faults"),
         (["run", "never-sealed"], "never-sealed.json: there is no such file; expected a sealed batch"),
-        (["run", "twelfth"], "twelfth.jsonl.xz: the keys of batch twelfth are open; seal a fresh one"),
-        (["seal", "twelfth"], "twelfth.jsonl.xz: batch twelfth is scored already; choose another name"),
+        (["run", "thirteenth"], "the keys of batch thirteenth are open; seal a fresh one"),
+        (["seal", "thirteenth"], "batch thirteenth is scored already; choose another name"),
         (["score", "never-sealed"], "never-sealed.jsonl.xz: there is no such file; `score` writes it"),
-        (["score", "twelfth", "--tool", "parameter_fit"], "twelfth.jsonl.xz: no answers of parameter_fit"),
+        (["score", "thirteenth", "--tool", "parameter_fit"], "no answers of parameter_fit"),
         (["seal", "../elsewhere"], "expected a name of letters"),
-        (["run", "twelfth", "--minutes", "nan"], "--minutes: nan; expected more than 0"),
-        (["run", "twelfth", "--minutes", "-1"], "--minutes: -1.0; expected more than 0"),
-        (["page", "twelfth", "--out", "nowhere/page.md"], "nowhere/page.md: there is no folder"),
+        (["run", "thirteenth", "--minutes", "nan"], "--minutes: nan; expected more than 0"),
+        (["run", "thirteenth", "--minutes", "-1"], "--minutes: -1.0; expected more than 0"),
+        (["page", "thirteenth", "--out", "nowhere/page.md"], "nowhere/page.md: there is no folder"),
     ],
 )
 def test_the_command_says_what_is_missing(
@@ -539,45 +539,45 @@ def test_the_product_does_not_know_the_proof() -> None:
 
 
 @pytest.fixture
-def twelfth(tmp_path: Path) -> commands.Places:
+def thirteenth(tmp_path: Path) -> commands.Places:
     """Of a copy of the batches."""
     shutil.copytree(BATCHES, tmp_path / "batches")
     return commands.Places(tmp_path, tmp_path / "build", tmp_path / "no plant", run.silent)
 
 
 def test_the_last_batch_scored_again_from_its_record_gives_its_page(
-    twelfth: commands.Places, tmp_path: Path
+    thirteenth: commands.Places, tmp_path: Path
 ) -> None:
-    assert commands.write_page(twelfth, "twelfth", tmp_path / "proof.md") == 0
+    assert commands.write_page(thirteenth, "thirteenth", tmp_path / "proof.md") == 0
     assert (tmp_path / "proof.md").read_text() == (ROOT / "docs" / "proof.md").read_text()
 
 
 def test_a_record_that_is_not_what_was_sealed_is_told(
-    twelfth: commands.Places, capsys: pytest.CaptureFixture[str]
+    thirteenth: commands.Places, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = record.read(twelfth.record("twelfth"))
+    found = record.read(thirteenth.record("thirteenth"))
     closed = set(found.not_as_sealed())
     assert len(closed) < 60  # none, but where the processor rounds otherwise
     changed = [key for key in found.keys if key["case"] not in closed and key["parameters"]][:2]
     changed[0]["names"] = [*changed[0]["names"], "wind"]
     next(iter(changed[1]["parameters"].values())).clear()
     assert set(found.not_as_sealed()) == closed | {key["case"] for key in changed}
-    found.write(twelfth.record("twelfth"))
-    commands.score_batch(twelfth, "twelfth", "diagnose", 1, None)
+    found.write(thirteenth.record("thirteenth"))
+    commands.score_batch(thirteenth, "thirteenth", "diagnose", 1, None)
     told = capsys.readouterr().out.splitlines()[0]
     assert told == f"{238 - len(closed)} of 240 keys, drawn again, are those sealed"
 
 
-def test_a_retired_batch_keeps_its_scores(twelfth: commands.Places) -> None:
-    scores = record.read(twelfth.record("twelfth")).summary("diagnose")["scores"]
-    assert commands.retire_batch(twelfth, "twelfth") == 0
-    assert [path.name for path in twelfth.earlier.parent.iterdir()] == ["earlier.jsonl.xz"]
-    batches = earlier.read(twelfth.earlier)
-    assert [*batches][-2:] == ["eleventh", "twelfth"]
-    assert batches["twelfth"]["seal"] == DIGEST_OF_TWELFTH
-    assert [score["hits"] for score in batches["twelfth"]["scores"]] == [score["hits"] for score in scores]
-    with pytest.raises(ValueError, match=r"twelfth\.jsonl\.xz: there is no such file"):
-        commands.score_batch(twelfth, "twelfth", "diagnose", 1, None)
+def test_a_retired_batch_keeps_its_scores(thirteenth: commands.Places) -> None:
+    scores = record.read(thirteenth.record("thirteenth")).summary("diagnose")["scores"]
+    assert commands.retire_batch(thirteenth, "thirteenth") == 0
+    assert [path.name for path in thirteenth.earlier.parent.iterdir()] == ["earlier.jsonl.xz"]
+    batches = earlier.read(thirteenth.earlier)
+    assert [*batches][-2:] == ["twelfth", "thirteenth"]
+    assert batches["thirteenth"]["seal"] == DIGEST_OF_THIRTEENTH
+    assert [score["hits"] for score in batches["thirteenth"]["scores"]] == [score["hits"] for score in scores]
+    with pytest.raises(ValueError, match=r"thirteenth\.jsonl\.xz: there is no such file"):
+        commands.score_batch(thirteenth, "thirteenth", "diagnose", 1, None)
 
 
 def test_scoring_opens_a_batch_once_and_records_it(
