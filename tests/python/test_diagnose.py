@@ -74,7 +74,8 @@ def test_the_friction_of_the_plant_is_named_and_helps(found: Diagnosis) -> None:
     at = fit["horizons_s"].index(0.5)
     assert fit["augmented_error_m"][at] < 0.25 * fit["base_error_m"][at]
     assert fit["improvement_ci95_m"][0][0] > 0.0
-    assert 0.0 < fit["start_error_m"][at] < fit["augmented_error_m"][at]
+    # What is left are the starts: an expectation beside one draw.
+    assert fit["start_error_m"][at] == pytest.approx(fit["augmented_error_m"][at], rel=0.15)
 
 
 def test_the_spin_is_predicted_better_and_the_takes_agree(found: Diagnosis) -> None:
