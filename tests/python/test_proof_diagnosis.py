@@ -39,7 +39,7 @@ from benchmarks.proof.diagnosis import (
 from benchmarks.proof.diagnosis.answer import kept
 from benchmarks.proof.diagnosis.names import (
     MEASUREMENT,
-    NEVER_AT_WORK,
+    NEVER_DRAWN,
     PHYSICS,
     faults_among,
     physics_among,
@@ -334,7 +334,7 @@ def test_arms_have_their_shares(keys: list[dict[str, Any]]) -> None:
     assert arms.SHARES["strangers"] >= 120 and arms.allot(16)["strangers"] >= 2
     assert {key["outside"] for key in keys if key["arm"] == "strangers"} == {*strangers.KINDS}
     assert sum(key["structure"] == "chain" for key in keys) >= 150
-    assert {name for key in keys for name in key["names"]} == {*PHYSICS, *MEASUREMENT} - {*NEVER_AT_WORK}
+    assert {name for key in keys for name in key["names"]} == {*PHYSICS, *MEASUREMENT} - {*NEVER_DRAWN}
 
 
 def test_arms_leak_into_neither_names_nor_lengths_nor_noise(keys: list[dict[str, Any]]) -> None:

@@ -11,7 +11,7 @@ from . import answer as answers
 from . import strangers, told
 from .answer import Answer
 from .material import is_material
-from .names import ANY_MODE, LOOSE, ON_STRING, PHYSICS, faults_among, physics_among
+from .names import ANY_MODE, AT_WORK_ANYWAY, LOOSE, ON_STRING, PHYSICS, faults_among, physics_among
 
 Key = dict[str, Any]
 HORIZON = 1.0  # after which the gap is compared [s]
@@ -167,7 +167,7 @@ def _met(key: Key, answer: Answer, oracle: Answer | None) -> Met | None:
     frequency = scenario.get("air", {}).get("gust_frequency")
     is_placed = told.is_placed(told.words(answer), law, acts, frequency, scenario["duration"])
     forms = law.names if law.is_form else ()
-    beside = [name for name in key["names"] if name not in forms]
+    beside = [name for name in (*key["names"], *AT_WORK_ANYWAY) if name not in forms]
     return Met(told.verdict(answer, beside), snr, is_placed)
 
 
@@ -205,7 +205,7 @@ def judge(key: Key, answer: Answer, oracle: Answer | None, other: Answer | None 
     `oracle` is the answer of who was told what is at work, `other` of who was told a tie's other name.
     """
     physics = physics_among(key["names"])
-    claimed = answers.claims(answer, "physics")
+    claimed = [one for one in answers.claims(answer, "physics") if one["name"] not in AT_WORK_ANYWAY]
     faults = answers.claims(answer, "measurement")
     snr = {name: answers.significance(oracle, name) for name in physics} if oracle else {}
     z = {name: answers.significance(answer, name) for name in faults_among(key["names"])}

@@ -24,8 +24,10 @@ PHYSICS: dict[str, tuple[str, ...]] = {
     "gravity_magnitude": ANY_MODE,
 }
 
-# Of these, what no plant conceals: to claim it is wrong.
-NEVER_AT_WORK = ("landing_restitution", "spin_coupling", "gravity_magnitude")
+# Of these, what is never drawn.
+NEVER_DRAWN = ("landing_restitution", "spin_coupling", "gravity_magnitude")
+# And what is at work all the same: catches bounce on both plants. To claim it is neither right nor wrong.
+AT_WORK_ANYWAY = ("landing_restitution",)
 
 MEASUREMENT = (
     "gravity_tilt",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -234,7 +235,7 @@ inline bool is_of_spin(const Candidate& candidate) {
 /// How far unknowns like these move the diabolo within half a second in the most affected tenth of the
 /// windows [m]; of spin effects the share of the spin that goes within kSpinTime.
 inline double size_of(const Candidate& candidate, const UnknownVector& at,
-                      const std::vector<WindowSystem>& systems) {
+                      std::span<const WindowSystem> systems) {
   std::vector<double> sizes;
   for (const WindowSystem& system : systems) {
     if (system.failed) continue;

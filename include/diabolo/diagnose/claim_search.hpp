@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diabolo/diagnose/alternatives.hpp"
+#include "diabolo/diagnose/catch_bounce.hpp"
 #include "diabolo/diagnose/diagnosis_options.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/first_fit.hpp"
@@ -101,6 +102,7 @@ class ClaimSearch {
         return;
       }
       keep_what_is_sure(again);
+      if (!is_delayed()) try_bounce(again);
       if (!again && try_thin_axle()) {
         ask_again(false);
         continue;
@@ -110,7 +112,7 @@ class ClaimSearch {
       exchange(again);
       const bool soft = !fit_.bounces && is_bouncy(fit_.at);
       if ((clock() == before && !soft) || !budget_.allows("asking all again with what was found", kFitsShare))
-        return;
+        return try_bounce(again);
       ask_again(soft);
     }
   }
@@ -178,6 +180,32 @@ class ClaimSearch {
     Fit base = begun_thin(fit_, physics_);
     begin_with(base, step(trying, 0.5, 0.5));
     return true;
+  }
+
+  /// Whether the diabolo is late, which makes a catch look like a bounce.
+  bool is_delayed() const {
+    const Candidate& late = candidate_of("time_offset");
+    return speaks_for(late, significance(late, estimates_of(Evidence(fit_), set_)));
+  }
+
+  /// Has catches bounce where that explains more, and stays with all else that is sure.
+  void try_bounce(bool again) {
+    const char* const trying = "trying catches that bounce";
+    const Candidate& bounce = candidate_of("landing_restitution");
+    if (std::ranges::find(bank_, &bounce) == bank_.end() || is_in(set_, bounce) ||
+        std::ranges::none_of(result_.windows, &WindowFinding::eventful) ||
+        !budget_.allows(trying, kFitsShare))
+      return;
+    const double begin = again ? 0.8 : 0.5;
+    const FitWatch watched = step(trying, begin, begin, kFitsShare);
+    auto trial = bouncing<D>(fit_, set_, physics_, options_.threads, watched);
+    if (watched.is_enough()) budget_.leave(trying);
+    if (!trial) return;
+    std::swap(fit_, trial->first);
+    std::swap(set_, trial->second);
+    fit_.noise_is_known = false;
+    keep_what_is_sure(again);
+    if (!is_in(set_, bounce)) std::tie(fit_, set_) = *std::move(trial);
   }
 
   void exchange(bool again) {

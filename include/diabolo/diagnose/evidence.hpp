@@ -56,14 +56,14 @@ class Evidence {
     return result;
   }
 
-  /// Best scaled unknowns where all but `free` are zero.
+  /// Best scaled unknowns where all but `free` are as expected.
   UnknownVector solve(const ActiveSet& free) const { return solve(free, information_, slope_); }
 
   /// chi^2 of all windows there and what the priors cost, less a constant. What is not free has no prior.
   double cost(const ActiveSet& free) const {
-    const UnknownVector x = solve(free), expected = dispersion_ * prior_.cwiseProduct(centre_);
-    const UnknownVector centre = centre_.cwiseProduct(free.cast<double>().matrix());
-    return expected.dot(centre) - (slope_ + expected).dot(x);
+    const UnknownVector x = solve(free);
+    return x.dot(information_ * x) - 2.0 * slope_.dot(x) +
+           dispersion_ * prior_.dot((x - centre_).cwiseAbs2());  // what is not free is as expected
   }
 
   /// Two covariances of the scaled free unknowns: what the noise makes of them, and what the windows' own
@@ -84,7 +84,7 @@ class Evidence {
     // x moves by A^-1 (dispersion P) dc with the prior's mean c, whose covariance is P^-1.
     const Eigen::VectorXd prior = prior_(f);
     result.spread(f, f) =
-        jackknife(f, solve(free)(f)) + dispersion_ * dispersion_ * (inverse * prior.asDiagonal() * inverse);
+        jackknife(f, solve(free)) + dispersion_ * dispersion_ * (inverse * prior.asDiagonal() * inverse);
     return result;
   }
 
@@ -135,21 +135,22 @@ class Evidence {
                       const UnknownVector& slope) const {
     const std::vector<int> f = indices(free);
     const UnknownVector expected = dispersion_ * prior_.cwiseProduct(centre_);
-    const Eigen::VectorXd sums = slope(f) + expected(f);
-    UnknownVector result = UnknownVector::Zero();
+    UnknownVector result = centre_;
+    result(f).setZero();
+    const Eigen::VectorXd sums = (slope + expected - information * result)(f);
     result(f) = solve_symmetric(precision(f, information), sums).col(0);
     return result;
   }
 
   /// Sum of the outer products of what the estimate x moves by without each window.
-  Eigen::MatrixXd jackknife(const std::vector<int>& f, const Eigen::VectorXd& x) const {
+  Eigen::MatrixXd jackknife(const std::vector<int>& f, const UnknownVector& x) const {
     const Eigen::Index n = static_cast<Eigen::Index>(f.size());
     const Eigen::MatrixXd all = precision(f, information_);
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
     for (const Part& part : parts_) {
       // (A - A_w) dx = -(b_w - A_w x) from A x = b.
-      const Eigen::MatrixXd own = part.information(f, f);
-      const Eigen::VectorXd rest = own * x - part.slope(f), move = solve_symmetric(all - own, rest);
+      const Eigen::VectorXd rest = (part.information * x - part.slope)(f),
+                            move = solve_symmetric(all - part.information(f, f), rest);
       sum += move * move.transpose();
     }
     const double count = static_cast<double>(parts_.size());

@@ -45,6 +45,7 @@ inline void remember_before(Diagnosis& result, const Fit& fit) {
       found.begin = fit.fit_takes[s].take->times[window.first];
       found.end = fit.fit_takes[s].take->times[window.last];
       found.mode = window.start.string_state;
+      found.eventful = changes_state(*fit.fit_takes[s].take, window);
       found.residual_before = system.position_residual();
       if (system.spin_numbers > 0) found.spin_before = std::sqrt(system.spin_square / system.spin_numbers);
       found.z.fill(kNaN);
@@ -156,7 +157,7 @@ inline void find(Diagnosis& result, const Fit& fit, const Evidence& evidence, co
     f.size = size_of(candidate, f.estimate, fit.systems);
     const double smallest = is_of_spin(candidate) ? kSmallestSpinShare : kSmallestReach;
     for (std::size_t w = 0; w < fit.systems.size(); ++w)
-      if (size_of(candidate, f.estimate, {fit.systems[w]}) > smallest) f.windows.push_back(w);
+      if (size_of(candidate, f.estimate, {&fit.systems[w], 1}) > smallest) f.windows.push_back(w);
     f.sure = speaks_for(candidate, f.z);
     f.material = candidate.floor == 0.0 ? f.size > smallest : is_beyond_floor(candidate, own);
     f.possible = candidate.kind == CandidateKind::kPhysics || is_possible(candidate, own);

@@ -65,7 +65,6 @@ inline WindowScore without_start(const WindowSystem& system, const CameraNoise& 
 struct Fit {
   UnknownVector at = UnknownVector::Zero();      ///< the unknowns, SI units
   UnknownVector centre = UnknownVector::Zero();  ///< what is expected of them
-  ActiveSet active = ActiveSet::Constant(false);
   Delay delay = Delay::kClock;
   double far_window = kFarWindow;
   bool noise_is_known = false;              ///< else it is estimated again as a fit goes on

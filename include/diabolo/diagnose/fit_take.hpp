@@ -66,6 +66,12 @@ struct FitTake {
 /// Whether anybody saw the diabolo turn.
 inline bool has_spin(const FitTake& fit_take) { return fit_take.take->has_spin; }
 
+/// Whether the string goes from one state to another in a window.
+inline bool changes_state(const Take& take, const FitWindow& window) {
+  const auto begin = take.states.begin() + window.first, end = take.states.begin() + window.last + 1;
+  return std::any_of(begin, end, [&](StringState state) { return state != *begin; });
+}
+
 /// Length of a window [s].
 inline constexpr double kFitWindow = 0.5;
 /// Longest step of the simulation in a diagnosis [s].

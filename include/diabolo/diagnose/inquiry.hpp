@@ -91,7 +91,8 @@ class Inquiry : public ClaimSearch<D> {
       for (const Candidate* candidate : denied_) say_denied(result_, *candidate);
       if (denied == nullptr) return;
       denied_.push_back(denied);
-      set_ = with(set_, *denied, false);
+      const ActiveSet before = std::exchange(set_, with(set_, *denied, false));
+      if ((set_ == before).all()) return;  // a wrap is not free, and stays
       put_at_rest(fit_, set_);
       refine<D>(fit_, physics_, set_, kMostIterations, options_.threads,
                 step("refitting what is left", 0.85, 0.9, kTrialsShare));
@@ -125,9 +126,9 @@ class Inquiry : public ClaimSearch<D> {
       for (const Candidate* candidate : denied_) std::erase(f.tied_with, candidate->name);
     }
     tie_with_physics(result_, evidence, bank_, set_);
+    claim_lone_fault(result_, evidence, set_);
     if (std::ranges::none_of(fit_.fit_takes, has_spin) && is_asked("string_friction"))
       tie_tilt_with_friction(result_);
-    claim_lone_fault(result_, evidence, set_);
     withdraw_length_of_a_wrap(result_, estimates_of(evidence, set_));
     for (const Replacement& exchange : exchanged_)
       if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);
@@ -217,6 +218,7 @@ class Inquiry : public ClaimSearch<D> {
   /// Compares what is left with what noise alone would leave.
   void judge() {
     const char* const asking = "asking what noise alone would leave";
+    result_.adequacy = {};  // of another fit
     if (!budget_.allows(asking, kRulesShare)) return;
     const FitWatch looking = step(asking, 0.95, 0.96, kRulesShare);
     std::vector<WindowFinding> windows = result_.windows;
@@ -251,10 +253,10 @@ class Inquiry : public ClaimSearch<D> {
     std::ranges::copy_if(options_.holdout, std::back_inserter(showing),
                          [](const Recording& r) { return !r.diabolo_orientation.empty(); });
     const Fit held = fit_starts<D>(showing, fit_, physics_, options_.threads, looking);
-    axle_ = AxleInquiry(AxleStretches(fit_), AxleStretches(held),
-                        augmented_model(physics_, fit_.at, "diagnosed", bank_), axle_bank(options_.bank),
-                        radius_share, options_.threads, looking)
-                .answer(options_.seed);
+    axle_ =
+        AxleInquiry(AxleStretches(fit_), AxleStretches(held), augmented_model(physics_, fit_.at, "diagnosed"),
+                    axle_bank(options_.bank), radius_share, options_.threads, looking)
+            .answer(options_.seed);
     if (looking.is_enough()) budget_.leave(asking);
     std::ranges::move(axle_.findings, std::back_inserter(result_.findings));
     surest_first(result_.findings);
@@ -270,6 +272,7 @@ class Inquiry : public ClaimSearch<D> {
     Model rules = options_.base;
     rules.parameters.catch_slack = physics_.parameters.catch_slack;
     rules.effects.template get<UnnamedForce>() = physics_.effects.template get<UnnamedForce>();
+    rules.effects.template get<FormulaLaws>() = physics_.effects.template get<FormulaLaws>();
     const auto share = compare_rules<D>(fit_, rules, physics_, options_.threads, looking);
     if (looking.is_enough()) return budget_.leave(comparing);
     result_.numerical = share;

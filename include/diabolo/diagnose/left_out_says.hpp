@@ -31,7 +31,7 @@ struct LeftOutSays {
         leaning += (interval->low + interval->high) / width;
     }
   }
-  bool against() const { return worse > 0 && better == 0; }
+  bool against() const { return worse > better; }
   bool leans_against() const { return horizons > 1 && better == 0 && leaning < 0.0; }
 };
 

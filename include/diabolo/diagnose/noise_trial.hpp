@@ -76,12 +76,6 @@ double size_of_seen(const Series& series) {
   return count > 0.0 ? std::sqrt(sum / count) : kNaN;
 }
 
-/// Whether the string goes from one state to another in a window.
-inline bool changes_state(const Take& take, const FitWindow& window) {
-  const auto begin = take.states.begin() + window.first, end = take.states.begin() + window.last + 1;
-  return std::any_of(begin, end, [&](StringState state) { return state != *begin; });
-}
-
 }  // namespace diagnose_detail
 
 /// The fit to takes as its own prediction and the camera's noise would make them: what it leaves, noise alone
@@ -115,7 +109,6 @@ inline void note_noise(std::vector<WindowFinding>& windows, const Fit& fit, cons
         found.slope[k] = fit.scores[i - 1].score[u];
         found.curvature[k] = fit.scores[i - 1].information(u, u);
       }
-      found.eventful = diagnose_detail::changes_state(*fit_take.take, window);
       found.residual_noise = noise.position_residual();
       found.spin_after = size_of_seen(system.spin_residuals);
       found.spin_noise = size_of_seen(noise.spin_residuals);

@@ -71,7 +71,6 @@ inline Fit put_aside(Fit& fit) {
 template <class D>
 void descend(Fit& fit, const Model& base, const ActiveSet& active, int most_iterations, int threads,
              const FitWatch& watch) {
-  fit.active = active;
   double damping = 0.0;
   for (int iteration = 0; iteration < most_iterations && !watch.is_enough(); ++iteration) {
     ++fit.iterations;

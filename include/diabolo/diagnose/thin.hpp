@@ -58,28 +58,34 @@ inline UnknownVector usual_information(const std::vector<UnknownVector>& informa
 
 }  // namespace diagnose_detail
 
-/// Which `most` of the windows decide together, in order: of every `most`-th part of them the one that adds
-/// most, in logarithms, to what those before it say of each unknown. So all takes, times and modes stay, and
-/// an unknown that few windows show gets these.
+/// So many windows stay together, one after the other: what comes and goes shows between neighbours.
+inline constexpr std::size_t kInARow = 4;
+
+/// Which `most` of the windows decide together, in order, or up to kInARow fewer: of every part of them the
+/// neighbours that add most, in logarithms, to what those before say of each unknown. So all takes, times and
+/// modes stay, and an unknown that few windows show gets these.
 inline std::vector<std::size_t> windows_that_decide(const std::vector<UnknownVector>& information,
                                                     std::size_t most) {
-  const std::size_t count = information.size(), parts = std::min(most, count);
+  const std::size_t count = information.size(), row = most < count ? std::min(kInARow, most) : 1,
+                    parts = std::min(most, count) / row;
   std::vector<std::size_t> result;
   const UnknownVector usual = diagnose_detail::usual_information(information);
   UnknownVector known = prior_precision().array() + 1.0;
-  const auto says = [&](std::size_t i) -> UnknownVector {
-    if (!information[i].allFinite()) return UnknownVector::Zero();
-    return information[i].cwiseMin(usual).cwiseMax(0.0);
+  const auto says = [&](std::size_t first) {
+    UnknownVector sum = UnknownVector::Zero();
+    for (std::size_t i = first; i < first + row; ++i)
+      if (information[i].allFinite()) sum += information[i].cwiseMin(usual).cwiseMax(0.0);
+    return sum;
   };
   for (std::size_t part = 0; part < parts; ++part) {
     std::size_t best = part * count / parts;
     double most_gain = -1.0;
-    for (std::size_t i = best; i < (part + 1) * count / parts; ++i) {
+    for (std::size_t i = best; i + row <= (part + 1) * count / parts; ++i) {
       const double gain = (says(i).array() / known.array()).log1p().sum();
       if (gain > most_gain) most_gain = gain, best = i;
     }
     known += says(best);
-    result.push_back(best);
+    for (std::size_t i = best; i < best + row; ++i) result.push_back(i);
   }
   return result;
 }

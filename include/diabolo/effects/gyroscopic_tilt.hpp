@@ -42,8 +42,9 @@ struct GyroscopicTilt : NeutralEffect<Scalar> {
     const auto [left, right] = StringPath<Scalar>(result.position, tips).directions();
     // Mean tension over mass; the sum of both directions has the square 2 + 2 left.right.
     const Scalar both = maximum(Scalar(2) + Scalar(2) * dot<Scalar>(left, right), Scalar(4e-4));
-    const Scalar pull = select(
-        result.taut, positive_sqrt<Scalar>(squared_norm(result.string_acceleration) / both), Scalar(0));
+    const Scalar pull =
+        select(result.taut || result.snapped_taut,
+               positive_sqrt<Scalar>(squared_norm(result.string_acceleration) / both), Scalar(0));
     const auto [left_lever, right_lever] =
         levers(Scalar(dot<Scalar>(state.axis, left)), Scalar(dot<Scalar>(state.axis, right)));
     const Vector3<Scalar> torque =

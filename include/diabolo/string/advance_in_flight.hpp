@@ -54,7 +54,9 @@ template <bool kMayStretch, class Scalar>
   assign_where(caught, state.string_state, StringState::kLoose);
   StringStepResult<Scalar> result =
       advance_captured<kMayStretch>(rest, !is(state.string_state, StringState::kFlying));
-  result.string_acceleration = result.string_acceleration * Scalar(rest.dt / step.dt);
+  const Scalar share = rest.dt / step.dt;  // of the step, over which both are means
+  result.string_acceleration = result.string_acceleration * share;
+  result.tension = result.tension * share;
   return result;
 }
 
