@@ -98,25 +98,23 @@ Fit noise_trial(const Fit& fit, const Model& physics, std::uint64_t seed, int th
 /// Notes in each window what the fit leaves and what noise alone leaves.
 inline void note_noise(std::vector<WindowFinding>& windows, const Fit& fit, const Fit& trial) {
   using diagnose_detail::size_of_seen;
-  std::size_t i = 0;
-  for (const FitTake& fit_take : fit.fit_takes)
-    for (const FitWindow& window : fit_take.windows) {
-      const WindowSystem &system = fit.systems[i], &noise = trial.systems[i];
-      WindowFinding& found = windows[i++];
-      for (std::size_t k = 0; k < kMayChange.size(); ++k) {
-        const int u = index_of(kMayChange[k].unknown);
-        if (kMayChange[k].unknown == Unknown::kFriction && fit.at[u] == 0.0) continue;  // none, none changes
-        found.slope[k] = fit.scores[i - 1].score[u];
-        found.curvature[k] = fit.scores[i - 1].information(u, u);
-      }
-      found.residual_noise = noise.position_residual();
-      found.spin_after = size_of_seen(system.spin_residuals);
-      found.spin_noise = size_of_seen(noise.spin_residuals);
-      for (int axis = 0; axis < 3; ++axis)
-        found.beyond_noise[static_cast<std::size_t>(axis)] =
-            std::pow(size_of_seen(system.residuals.row(axis)), 2) -
-            std::pow(size_of_seen(noise.residuals.row(axis)), 2);
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const WindowSystem &system = fit.systems[i], &noise = trial.systems[i];
+    WindowFinding& found = windows[i];
+    for (std::size_t k = 0; k < kMayChange.size(); ++k) {
+      const int u = index_of(kMayChange[k].unknown);
+      if (kMayChange[k].unknown == Unknown::kFriction && fit.at[u] == 0.0) continue;  // none, none changes
+      found.slope[k] = fit.scores[i].score[u];
+      found.curvature[k] = fit.scores[i].information(u, u);
     }
+    found.residual_noise = noise.position_residual();
+    found.spin_after = size_of_seen(system.spin_residuals);
+    found.spin_noise = size_of_seen(noise.spin_residuals);
+    for (int axis = 0; axis < 3; ++axis)
+      found.beyond_noise[static_cast<std::size_t>(axis)] =
+          std::pow(size_of_seen(system.residuals.row(axis)), 2) -
+          std::pow(size_of_seen(noise.residuals.row(axis)), 2);
+  }
 }
 
 /// What is left of a fit against what noise alone would leave; notes both in the windows. `ahead` is of
