@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "diabolo/diagnose/candidates.hpp"
 #include "diabolo/diagnose/evidence.hpp"
@@ -16,6 +19,8 @@ namespace diabolo::diagnose_detail {
 /// it, since it stays taut at any slight change; and whether the next catch comes in time leaves many
 /// valleys.
 inline constexpr double kTriedRestitutions[] = {0.2, 0.4, 0.6, 0.8};
+/// Fits that end as near to each other are one.
+inline constexpr double kSameValley = 0.03;
 
 /// Without a spring that gives: its own bounce would take that of a catch's place.
 inline ActiveSet with_bounce(const ActiveSet& set) {
@@ -35,19 +40,24 @@ std::optional<std::pair<Fit, ActiveSet>> bouncing(const Fit& fit, const ActiveSe
     return speaks_for(bounce, significance(bounce, estimates_of(Evidence(trial), free)));
   };
   std::optional<Fit> best;
+  std::vector<double> valleys;
   for (const double tried : kTriedRestitutions) {
     Fit trial = fit;
     put_at_rest(trial, free);
-    trial.at[index_of(Unknown::kRestitution)] = tried;
+    double& share = trial.at[index_of(Unknown::kRestitution)];
+    share = tried;
     trial.noise_is_known = true;  // lest it is taken from what the trial leaves
     refine<D>(trial, physics, alone, kMostIterations, threads, watch);
+    const auto is_there = [&](double valley) { return std::abs(valley - share) < kSameValley; };
+    if (!is_sure(trial) || std::ranges::any_of(valleys, is_there)) continue;
+    valleys.push_back(share);
+    refine<D>(trial, physics, free, kMostIterations, threads, watch);
     if (watch.is_enough()) return std::nullopt;
     if ((!best || trial.cost < best->cost) && is_sure(trial)) best = std::move(trial);
   }
   if (!best) return std::nullopt;
-  refine<D>(*best, physics, free, kMostIterations, threads, watch);
   const double gain = fit.cost - cost_with_noise_of(fit, *best, threads);
-  if (watch.is_enough() || !is_sure(*best) || gain < kSignificance * kSignificance * fit.dispersion ||
+  if (gain < kSignificance * kSignificance * fit.dispersion ||
       !(size_of(bounce, best->at, best->systems) > kSmallestReach))
     return std::nullopt;
   best->noise_is_known = fit.noise_is_known;

@@ -101,26 +101,30 @@ TEST_CASE("Where rows are left out, and stamps lie far off now and then, each ro
   const std::uint32_t seed = test::fresh_seed();
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < given.size(); ++i)
-    if (share(generator) > 0.3) kept.push_back(i);
-  Recording r = given;
-  r.time = given.time(kept);
-  r.frame.assign(kept.begin(), kept.end());
-  for (Track* track : {&r.left, &r.right, &r.diabolo}) *track = Track::missing(std::ssize(kept));
-  const Eigen::VectorXd even = r.time;
-  r = with_jitter(std::move(r), 1.0e-3, seed);
-  std::ranges::sort(r.time);
-  CHECK(steps_at(120.0, r.time));
-  CHECK_FALSE(steps_at(60.0, r.time));
-  CHECK_FALSE(steps_at(240.0, r.time));
-  REQUIRE(regularise_times(r));
-  const Eigen::VectorXd off = r.time - even;
-  const double shift = off.mean();  // of what the jitter makes of the whole
-  CHECK(((off.array() - shift).abs() > 4e-3).count() <= 4);
-  Eigen::Index uneven = 0;
-  for (Eigen::Index i = 0; i + 1 < r.size(); ++i) uneven += steps_unevenly(r, i);
-  CHECK(uneven == 0);
+  Eigen::Index misplaced = 0;  // rarely a few rows in a row; of five plays
+  for (std::uint32_t play = 0; play < 5; ++play) {
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < given.size(); ++i)
+      if (share(generator) > 0.3) kept.push_back(i);
+    Recording r = given;
+    r.time = given.time(kept);
+    r.frame.assign(kept.begin(), kept.end());
+    for (Track* track : {&r.left, &r.right, &r.diabolo}) *track = Track::missing(std::ssize(kept));
+    const Eigen::VectorXd even = r.time;
+    r = with_jitter(std::move(r), 1.0e-3, seed + play);
+    std::ranges::sort(r.time);
+    CHECK(steps_at(120.0, r.time));
+    CHECK_FALSE(steps_at(60.0, r.time));
+    CHECK_FALSE(steps_at(240.0, r.time));
+    REQUIRE(regularise_times(r));
+    const Eigen::VectorXd off = r.time - even;
+    const double shift = off.mean();  // of what the jitter makes of the whole
+    misplaced += ((off.array() - shift).abs() > 4e-3).count();
+    Eigen::Index uneven = 0;
+    for (Eigen::Index i = 0; i + 1 < r.size(); ++i) uneven += steps_unevenly(r, i);
+    CHECK(uneven == 0);
+  }
+  CHECK(misplaced <= 20);
 }
 
 TEST_CASE("Jitter of a seventh of the period is put right") {
