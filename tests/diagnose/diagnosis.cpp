@@ -47,28 +47,6 @@ TEST_CASE("friction is named, sized and placed, and predicts what was left out")
   CHECK(d.model.effects.get<StringFriction>().coefficient == Approx(friction->estimate[u]).margin(0.01));
 }
 
-// A stiff string leaves nothing that leads to such a spring: the diabolo bounces on it after each catch.
-// (Valleys of the cost lie close to each other there: what gives, string or sticks, is not always told apart,
-// and a size may be off by more than its interval.)
-TEST_CASE("a string that rings too fast to be seen on it is found by its bounces, and sized") {
-  for (const double stiffness : {4000.0, 5500.0}) {
-    AllEffects<double> effects;
-    effects.get<StringElasticity>() = StringElasticity<double>::of_stiffness(stiffness, 1.0);
-    const Diagnosis d = diagnose({played(effects, 18.0, 6, 0.0, &hopping_hands)});
-    CAPTURE(stiffness, d.sentence);
-    CHECK((d.headline == Headline::kNamed || d.headline == Headline::kTie));
-    const Finding* const string = claimed(d, "string_elasticity");
-    const Finding* const gives = string != nullptr ? string : claimed(d, "stick_flex");
-    REQUIRE(gives != nullptr);
-    const int u = index_of(string != nullptr ? Unknown::kCompliance : Unknown::kStickCompliance);
-    const double truth = (string != nullptr ? 1.0 : 0.5) / stiffness;  // of the string, or of one of two tips
-    CHECK(gives->estimate[u] == Approx(truth).epsilon(0.1));
-    CHECK(gives->deviation[u] < 0.1 * truth);
-    REQUIRE(d.heldout.position.base_error[2].has_value());
-    CHECK(*d.heldout.position.augmented_error[2] < 0.7 * *d.heldout.position.base_error[2]);
-  }
-}
-
 TEST_CASE("a tilted frame is a fault of the measurement, not physics") {
   AllEffects<double> effects;
   effects.get<GravityTilt>().x = 0.02;
@@ -257,42 +235,6 @@ TEST_CASE("a fit that begins far off ends with the noise that it leaves") {
   CHECK(fit.iterations < 2 * kMostIterations);
 }
 
-TEST_CASE("a budget holds by what is predicted, and what it leaves is told") {
-  // A clock that goes on by the work alone: by one thread, each prediction is looked at once.
-  long predictions = 0;
-  DiagnosisWatch watch;
-  watch.cancelled = [&] { return ++predictions < 0; };
-  watch.clock = [&] { return 1e-3 * static_cast<double>(predictions); };
-  DiagnosisOptions options;
-  options.threads = 1;
-  const std::vector<Recording> takes{played({}, 30.0, 12)};
-  const auto diagnosed = [&](double budget) {
-    options.budget = budget;
-    predictions = 0;
-    return diagnose(takes, options, watch);
-  };
-  const Diagnosis whole = diagnosed(1e9);
-  const double wanted = watch.clock();
-  CHECK(whole.not_done.empty());
-  CHECK(whole.windows.size() == whole.windows_seen);
-  REQUIRE(whole.adequacy.adequate);
-  for (const double share : {0.9, 0.8, 0.7, 0.5, 0.2}) {
-    const double budget = share * wanted;
-    const Diagnosis hurried = diagnosed(budget);
-    CAPTURE(share, wanted);
-    CHECK(watch.clock() < 1.2 * budget);
-    CHECK_FALSE(hurried.not_done.empty());
-    // What was begun and not ended is not told.
-    const bool judged = std::ranges::none_of(
-        hurried.not_done, [](const std::string& left) { return left.starts_with("asking what noise"); });
-    CHECK(judged == hurried.adequacy.adequate.has_value());
-    CHECK(judged == std::isfinite(hurried.windows.front().residual_noise));
-  }
-  const Diagnosis nothing = diagnosed(1e-6);
-  CHECK(nothing.headline == Headline::kInsufficientData);
-  CHECK(nothing.sentence.find("budget") != std::string::npos);
-}
-
 TEST_CASE("one thread and two come to the same, bit for bit") {
   const std::vector<Recording> takes{played({}, 6.0, 4)};
   DiagnosisOptions one, two;
@@ -335,31 +277,6 @@ TEST_CASE("friction is found where nobody saw the spin, of either sense") {
   }
 }
 
-TEST_CASE(
-    "of a play that runs backwards nothing is concluded, whether it is seen which stick is which or not") {
-  AllEffects<double> effects;
-  effects.get<StringFriction>().coefficient = 0.2;
-  const Recording forwards = played(effects, 14.0, 2), backwards = with_time_reversed(forwards);
-  CHECK(claimed(diagnose({forwards}), "string_friction") != nullptr);
-  CHECK(with_time_reversed(backwards).diabolo.position == forwards.diabolo.position);
-  CHECK(with_time_reversed(backwards).time.isApprox(forwards.time));
-  CHECK(backwards.diabolo_orientation.quaternion.col(0) ==
-        forwards.diabolo_orientation.quaternion.col(forwards.size() - 1));
-  Recording told = backwards;  // sticks that point forwards tell which is which
-  told.left_orientation = told.right_orientation = OrientationTrack::missing(told.size());
-  for (OrientationTrack* track : {&told.left_orientation, &told.right_orientation}) {
-    track->quaternion.colwise() = Eigen::Vector4d(0.0, 0.0, 0.0, 1.0);
-    track->valid.setConstant(true);
-  }
-  for (const Recording& recording : {backwards, told}) {
-    const Diagnosis d = diagnose({recording});
-    CAPTURE(d.sentence);
-    CHECK(d.headline == Headline::kInsufficientData);
-    CHECK_THAT(d.reason, Contains("time seems to run backwards"));
-    CHECK(d.findings.empty());
-  }
-}
-
 TEST_CASE("a take without orientations beside one with them keeps friction its name") {
   AllEffects<double> effects;
   effects.get<StringFriction>().coefficient = 0.2;
@@ -375,17 +292,6 @@ TEST_CASE("a take without orientations beside one with them keeps friction its n
   DiagnosisOptions options;
   options.holdout = {unseen};
   CHECK(claimed(diagnose({seen}, options), "string_friction") != nullptr);
-}
-
-TEST_CASE("what drives a play forwards is no time that runs backwards") {
-  AllEffects<double> effects;
-  FormulaLaws<double> driving({Law("motor", "a motor", Acts::kAlong, "size * taut * tanh(slip / 0.05)",
-                                   {{"size", "m/s^2", 0.5, 0.0, -100.0, 100.0}})});
-  driving.numbers[0] = 1.0;
-  effects.get<FormulaLaws>() = driving;
-  const Diagnosis d = diagnose({played(effects, 14.0, 2)});
-  CAPTURE(d.sentence);
-  CHECK(d.headline != Headline::kInsufficientData);
 }
 
 TEST_CASE("a spin that no orientation shows, or a wrong one, is told not to be asked about") {

@@ -21,6 +21,8 @@ namespace diabolo::diagnose_detail {
 inline constexpr double kTriedRestitutions[] = {0.2, 0.4, 0.6, 0.8};
 /// Fits that end as near to each other are one.
 inline constexpr double kSameValley = 0.03;
+/// A bounce that costs so many times as much, all else as it is, is not worth a fit of all.
+inline constexpr double kHopeless = 2.0;
 
 /// Without a spring that gives: its own bounce would take that of a catch's place.
 inline ActiveSet with_bounce(const ActiveSet& set) {
@@ -49,7 +51,8 @@ std::optional<std::pair<Fit, ActiveSet>> bouncing(const Fit& fit, const ActiveSe
     trial.noise_is_known = true;  // lest it is taken from what the trial leaves
     refine<D>(trial, physics, alone, kMostIterations, threads, watch);
     const auto is_there = [&](double valley) { return std::abs(valley - share) < kSameValley; };
-    if (!is_sure(trial) || std::ranges::any_of(valleys, is_there)) continue;
+    if (trial.cost > kHopeless * fit.cost || !is_sure(trial) || std::ranges::any_of(valleys, is_there))
+      continue;
     valleys.push_back(share);
     refine<D>(trial, physics, free, kMostIterations, threads, watch);
     if (watch.is_enough()) return std::nullopt;
