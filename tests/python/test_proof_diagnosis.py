@@ -188,6 +188,15 @@ def test_names_of_what_is_beside_a_stranger_are_silent_about_it(keys: list[dict[
     assert sum(len(key["names"]) > 0 for key in met) > len(forms) > 0
 
 
+def test_the_bounce_of_a_catch_is_neither_right_nor_wrong(keys: list[dict[str, Any]]) -> None:
+    bounces = kept(result([effect("landing_restitution")]) | {"adequacy": {"adequate": True}})
+    null = next(key for key in keys if key["arm"] == "null")
+    assert not judge.judge(null, bounces, kept(right(null))).false_physics
+    alone = next(key for key in keys if key["outside"] and not key["names"])
+    got = judge.judge(alone, bounces, kept(right(alone))).met
+    assert got and got.verdict == told.SILENT
+
+
 def test_one_silence_fails_where_strangers_are_few(keys: list[dict[str, Any]]) -> None:
     few = [key for key in keys if key["arm"] == "strangers"][:3]
     assert not {SILENT} & failing(scored(few, right))
