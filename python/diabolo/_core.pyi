@@ -1473,7 +1473,7 @@ class LearntLawFound:
     """Of the numbers and of FormulaLaws.variables()."""
   @property
   def gain(self) -> float:
-    """In chi^2, of held-out windows."""
+    """What chi^2 falls by with it, in units of the dispersion."""
   @property
   def gain_by_strength(self) -> float | None:
     """In chi^2, of held-out windows, where it is as strong in each as it is on average there; null where it does not change from window to window, or too fast for them."""

@@ -42,6 +42,18 @@ TEST_CASE("large errors without a claim count in full where most are") {
   CHECK(WithoutAndWith().losses().empty());
 }
 
+TEST_CASE("a prediction that diverges counts as a missed catch does, and in no mean") {
+  WithoutAndWith errors;
+  const WindowError failed{.comparable = true, .failed = true}, good{.comparable = true, .model = 0.01};
+  for (int i = 0; i < 9; ++i) errors.add(0.01, 0.01);
+  errors.add(diagnose_detail::distance_of(good), diagnose_detail::distance_of(failed));
+  CHECK(errors.losses().back() == Approx(0.01 - 0.03));
+  CHECK(diagnose_detail::mean_if_any(errors.with) == Approx(0.01));
+  errors.add(diagnose_detail::distance_of(failed), diagnose_detail::distance_of(failed));
+  CHECK(errors.losses().back() == 0.0);
+  CHECK(diagnose_detail::distance_of(good, 1.02) == Approx(0.0102));
+}
+
 TEST_CASE("where nobody sees the spin, predictions begin with that of the middle window that was fitted") {
   Fit fit;
   fit.fit_takes.resize(2);

@@ -176,3 +176,25 @@ TEST_CASE("a drag that grows with speed and spin is learnt with the spin's power
   REQUIRE(learnt.value.size() == 2);
   CHECK(learnt.value[1] == Approx(0.5).margin(0.2));
 }
+
+TEST_CASE("what depends on the heading, or on the place between the tips, is learnt as that") {
+  const auto asked = [](Acts acts, const char* formula, double size) {
+    AllEffects<double> effects;
+    effects.get<FormulaLaws>() = FormulaLaws<double>({Law("own", "", acts, formula, {{"k", "1"}})});
+    effects.get<FormulaLaws>().numbers[0] = size;
+    return diagnose({played(effects, 16.0, 105)});
+  };
+  const auto check = [](const Diagnosis& d, Acts acts, const char* formula, double size) {
+    CAPTURE(d.sentence);
+    REQUIRE_FALSE(d.learnt.empty());
+    const Learnt& learnt = d.learnt.front();
+    CAPTURE(learnt.law.formula.text(), learnt.value, learnt.deviation);
+    CHECK(learnt.law.acts == acts);
+    CHECK(learnt.law.formula.text().find(formula) != std::string::npos);
+    CHECK(std::abs(learnt.value.front() - size) < 4.0 * learnt.deviation.front());
+  };
+  check(asked(Acts::kAgainst, "k * (1 - tanh(vz / 0.1)) / 2", 0.5), Acts::kAgainst, "(1 - tanh(vz", 0.5);
+  const Diagnosis string = asked(Acts::kString, "k * (right - left)", 0.01);
+  check(string, Acts::kString, "(left - right)", -0.01);
+  for (const auto& error : string.heldout.spin.augmented_error) CHECK(error.value() < 0.4);  // of 30 rad/s
+}

@@ -32,6 +32,17 @@ TEST_CASE("a law is by the spin where it acts on it, or asks for it") {
   CHECK_FALSE(by_spin(Acts::kUp, "k * speed * pull * sin(t) + k * passing"));
 }
 
+TEST_CASE("a law may ask how far the tips are apart") {
+  FormulaLaws<double> push = law(Acts::kUp, "k * apart");
+  push.numbers[0] = 2.0;
+  Tips<double> tips;
+  tips.left = Vector(0.1, 0.3, 1.0);
+  tips.right = Vector(0.1, -0.3, 1.8);
+  const Vector pushed = push.acceleration(State<double>{}, tips, 1e-3, Parameters<double>{});
+  CHECK(pushed.z() == Approx(2.0));
+  CHECK(pushed.head<2>().norm() == 0.0);
+}
+
 TEST_CASE("laws of amplitude zero change no bit") {
   const unsigned seed = 790;
   CAPTURE(seed);

@@ -17,9 +17,9 @@ _KEPT_OF_LEARNT = ("acts", "formula", "numbers")
 
 
 def rounded(value: Any) -> Any:
-    """Numbers to six digits."""
+    """Numbers to four digits."""
     if isinstance(value, float):
-        return float(f"{value:.6g}")
+        return float(f"{value:.4g}")
     if isinstance(value, dict):
         return {name: rounded(member) for name, member in value.items()}
     if isinstance(value, list):

@@ -13,6 +13,7 @@
 #include "diabolo/diagnose/calibration_words.hpp"
 #include "diabolo/diagnose/differing_words.hpp"
 #include "diabolo/diagnose/findings.hpp"
+#include "diabolo/diagnose/held_out_words.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
 #include "diabolo/diagnose/significance.hpp"
 
@@ -120,24 +121,6 @@ inline std::string force_like_rate_in_words(const Diagnosis& d) {
   return {};
 }
 
-/// Claims that the string is wrapped around the axle: at work wherever friction is.
-inline void claim_wraps(Diagnosis& d, const Fit& fit, double z) {
-  const auto friction = std::ranges::find_if(
-      d.findings, [](const Finding& f) { return f.candidate->name == "string_friction"; });
-  if (friction == d.findings.end() || !friction->claimed) return;
-  Finding f = *friction;
-  f.candidate = &candidate_of("string_wrap");
-  f.estimate = fit.at;
-  f.deviation.setZero();
-  f.z = z;
-  f.p_value = family_wise(z);
-  f.claimed = f.material = true;
-  f.confidence = friction->confidence;
-  f.tied_with.clear();
-  f.reason = "the string is as much shorter, and rubs as much more, as its turns around the axle make it";
-  d.findings.insert(d.findings.begin(), f);
-}
-
 /// Headline and sentence. They are about place and spin: what turns the axle is named where nothing else is
 /// found, and else said behind it.
 inline void conclude(Diagnosis& d) {
@@ -212,6 +195,7 @@ inline void conclude(Diagnosis& d) {
   const bool of_motion = leading.size() + d.learnt.size() > 0 || d.headline == Headline::kUnnamedStructure;
   if (d.reason.empty() && of_motion && d.headline != Headline::kNumerical)
     d.sentence += explained_in_words(d.adequacy, !physics.empty() || !faults.empty() || has_law);
+  if (leading.size() + d.learnt.size() > 0) d.sentence += worse_ahead_in_words(d.heldout);
   if (axle_leads || d.headline == Headline::kNothingMissing) d.sentence += calibration_in_words(d);
   if (d.reason.empty()) d.sentence += force_like_rate_in_words(d) + too_far_in_words(d);
   if (!axle_leads) d.sentence += axle_claims_behind(axle);

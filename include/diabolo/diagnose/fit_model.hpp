@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "diabolo/diagnose/latent_force.hpp"
 #include "diabolo/diagnose/unknowns.hpp"
 #include "diabolo/effects/all.hpp"
+#include "diabolo/evaluate/start_on_spring.hpp"
 #include "diabolo/full_predictor.hpp"
 #include "diabolo/math/dual.hpp"
 #include "diabolo/model.hpp"
@@ -172,33 +174,6 @@ Vector3<D> string_shift(const State<D>& state, const Tips<D>& tips, const D& str
   return gradient * D(stretch_per_acceleration * pull / square);
 }
 
-/// The string of a state; moves the tips to where its strands begin.
-template <class D>
-StringNow<D> string_from(Tips<D>& tips, const State<D>& state, const FitPredictor<D>& predictor) {
-  const auto& effects = predictor.effects();
-  const auto& parameters = predictor.parameters();
-  effects.tip_shift(state, tips, parameters).move(tips);
-  return effects.string_at(effects.string(parameters), state, tips, parameters);
-}
-
-/// Moves a start ON_STRING to where the taut string allows it under the pull tension/mass [m/s^2]: path
-/// length and its rate.
-template <class D>
-void place_on_string(State<D>& state, Tips<D> tips, const D& pull, const FitPredictor<D>& predictor) {
-  const StringNow<D> string = string_from(tips, state, predictor);
-  const D length = string.length + string.compliance * pull;
-  for (int i = 0; i < 3; ++i) {
-    const StringPath<D> path(state.position, tips);
-    const Vector3<D> gradient = path.gradient();
-    state.position =
-        state.position - gradient * D((path.length() - length) / (squared_norm(gradient) + D(1e-6)));
-  }
-  const StringPath<D> path(state.position, tips);
-  const Vector3<D> gradient = path.gradient();
-  const D rate = path.rate(state.velocity, tips.left_velocity, tips.right_velocity);
-  state.velocity = state.velocity - gradient * D(rate / (squared_norm(gradient) + D(1e-6)));
-}
-
 /// Lets a start bounce as it was seen to, with the pull of a string of that length in place of a `rigid`
 /// one's, if what gives in its place is soft. Whether it is.
 template <class D>
@@ -229,26 +204,15 @@ State<D> fit_start(const FitWindow& window, const FitPredictor<D>& predictor, co
   state.spin = D(window.start.spin);
   state.spin.gradient[6] = static_cast<typename D::Gradient::Scalar>(kStartScales[6]);
   state.string_state = window.start.string_state;
-  const D& length = predictor.parameters().string_length;
-  const bool room = (tips.left - tips.right).squaredNorm() < length * length * D(0.999);
-  if (state.string_state != StringState::kOnString || !room) return state;
+  if (state.string_state != StringState::kOnString || !has_room(tips, predictor.parameters().string_length))
+    return state;
   const State<D> seen = state;
   place_on_string(state, tips, D(0.0), predictor);
-  const auto& effects = predictor.effects();
-  const bool rigid =
-      effects.template get<StringElasticity>().neutral() && effects.template get<StickFlex>().neutral();
-  if (rigid || predictor.parameters().string_law != StringLaw::kInextensible) return state;
+  const std::optional<FitPredictor<D>> rigid = without_springs(predictor);
+  if (!rigid) return state;
   // At rest relative to its springs, where it does not bounce on them: longer by what the tension of a rigid
   // string's first step stretches them.
-  typename FitPredictor<D>::Set stiff = effects;
-  stiff.template get<StringElasticity>() = {};
-  stiff.template get<StickFlex>() = {};
-  State<D> trial = state;
-  FitPredictor<D>(predictor.parameters(), stiff, typename FitPredictor<D>::AlreadyValid{})
-      .step(trial, tips, next, dt);
-  const D pull =
-      norm(trial.string_acceleration) / (norm(StringPath<D>(state.position, tips).gradient()) + D(1e-6));
-  state.string_acceleration = trial.string_acceleration;
+  const D pull = rigid_pull(state, *rigid, tips, next, dt);
   if (!bounces || !bounce(state, seen, tips, pull, predictor)) place_on_string(state, tips, pull, predictor);
   return state;
 }

@@ -5,8 +5,7 @@
 #include <cstddef>
 
 #include "diabolo/diagnose/unknowns.hpp"
-#include "diabolo/effects/stick_flex.hpp"
-#include "diabolo/effects/string_elasticity.hpp"
+#include "diabolo/evaluate/start_on_spring.hpp"
 
 namespace diabolo::diagnose_detail {
 
@@ -18,13 +17,6 @@ inline constexpr double kSoftString = 1e-4;
 /// half a radian in it (0.25 kg, rows of 4.2 ms: 370 rad/s at 1e-4, 120 rad/s at 1e-3).
 inline constexpr double kSlowString = 1e-3;
 inline constexpr int kFiner = 3;
-
-/// How far the string gives under a tension, in itself and at both tips [m/N].
-template <class Effects>
-double give_of(const Effects& effects) {
-  return value_of(effects.template get<StringElasticity>().compliance_per_newton) +
-         2.0 * value_of(effects.template get<StickFlex>().compliance);
-}
 
 /// What a fit adds to it.
 inline double added_give(const UnknownVector& at) {
@@ -63,10 +55,7 @@ inline UnknownVector least_values(const UnknownVector& at, const UnknownVector& 
   return least;
 }
 
-/// From such springs on [m/N] a bounce is so slow and wide that a window's start shows it. (On stiffer ones
-/// it drowns in the noise, and a start is better at rest.)
-inline constexpr double kBouncyString = 0.012;
-
+/// Whether a bounce is so slow and wide that a window's start shows it.
 inline bool is_bouncy(const UnknownVector& at) { return added_give(at) > kBouncyString; }
 
 }  // namespace diabolo::diagnose_detail

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <random>
 #include <vector>
@@ -12,7 +13,9 @@
 #include "diabolo/diagnose/answer.hpp"
 #include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/evidence.hpp"
+#include "diabolo/diagnose/fitted_spring.hpp"
 #include "diabolo/diagnose/folds.hpp"
+#include "diabolo/diagnose/left_out_says.hpp"
 #include "diabolo/diagnose/residual_and_noise.hpp"
 #include "diabolo/evaluate/horizon_score.hpp"
 
@@ -47,7 +50,7 @@ inline UnknownVector within_bounds(const UnknownVector& scaled, const Fit& fit) 
     const UnknownInfo& info = kUnknownInfos[static_cast<std::size_t>(u)];
     at[u] = std::clamp(at[u], info.minimum, info.maximum);
   }
-  return at;
+  return at.cwiseMax(diagnose_detail::least_values(at, fit.centre));
 }
 
 /// What is predicted without having been fitted: `holdout`, by all evidence; or, where that is empty, each
@@ -95,9 +98,6 @@ inline double starts_every(const std::vector<HeldOutRecording>& recordings, std:
 /// Predictions over less than so long say little of a slight force [s].
 inline constexpr double kAhead = 0.5;
 
-/// An error that matters to nobody at any horizon [m].
-inline constexpr double kImmaterialAhead = 1e-3;
-
 /// So many neighbouring starts count as one where noise alone is asked about: it is that of the start, which
 /// is made from a tenth of a second, and of the tips, which neighbours share.
 inline constexpr std::size_t kStartsAlike = 2;
@@ -108,7 +108,8 @@ inline constexpr double kFarAhead = 3.0;
 
 namespace diagnose_detail {
 
-/// What predictions from the same starts are wrong by without something, and with it.
+/// What predictions from the same starts are wrong by without something, and with it; infinite where one
+/// diverged.
 struct WithoutAndWith {
   std::vector<double> without, with;
 
@@ -119,7 +120,7 @@ struct WithoutAndWith {
   /// More without it, see kFarAhead.
   std::vector<double> losses() const {
     if (with.empty()) return {};
-    const double most = kFarAhead * std::max(median_of(without), median_of(with));
+    const double most = kFarAhead * std::max(median_of(without, 0.0), median_of(with, 0.0));
     std::vector<double> result;
     for (std::size_t i = 0; i < with.size(); ++i)
       result.push_back(std::min(without[i], most) - std::min(with[i], most));
@@ -139,8 +140,17 @@ struct ErrorsAhead {
   Compared compared;  ///< positions
 };
 
+inline bool both_comparable(const WindowError& a, const WindowError& b) {
+  return a.comparable && b.comparable;
+}
+
 inline bool both_predicted(const WindowError& a, const WindowError& b) {
-  return a.comparable && b.comparable && !a.failed && !b.failed;
+  return both_comparable(a, b) && !a.failed && !b.failed;
+}
+
+/// Distance of a prediction from a recording whose lengths are so many times too long [m].
+inline double distance_of(const WindowError& error, double scale = 1.0) {
+  return error.failed ? std::numeric_limits<double>::infinity() : scale * error.model;
 }
 
 /// For each start of a task, its errors at all horizons.
@@ -164,6 +174,8 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
                                               without = errors_of(HorizonTask(held.recording, base, options),
                                                                   options.threads, watch);
   assert(with.size() == without.size());  // windows depend on times and dropouts, which corrected() leaves
+  const auto scale_of = [](const UnknownVector& at) { return 1.0 + at[index_of(Unknown::kLengthScale)]; };
+  const double scale = scale_of(held.at);
   const StartNoise noise = start_noise(held.recording);
   std::vector<std::vector<double>> scatter(with.size());
   for_each_index(with.size(), options.threads, watch,
@@ -171,14 +183,15 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
   for (std::size_t i = 0; i < with.size(); ++i)
     for (std::size_t h = 0; h < ahead.size(); ++h) {
       const WindowError &a = without[i][h], &b = with[i][h];
-      if (!both_predicted(a, b)) continue;
-      ahead[h].position.found.add(a.model, b.model);
+      if (!both_comparable(a, b)) continue;
+      ahead[h].position.found.add(distance_of(a), distance_of(b, scale));
+      if (a.failed || b.failed) continue;
       if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.found.add(a.spin, b.spin);
       if (std::isfinite(b.spin) && std::isfinite(better.spin_noise(i)))
         ahead[h].spin.start.push_back(better.spin_noise(i));
       if (!std::isfinite(scatter[i][h])) continue;
-      ahead[h].position.start.push_back(scatter[i][h]);
-      ahead[h].compared.add(a.model, b.model, scatter[i][h]);
+      ahead[h].position.start.push_back(scale * scatter[i][h]);
+      ahead[h].compared.add(distance_of(a), distance_of(b, scale), scale * scatter[i][h]);
     }
   for (std::size_t c = 0; c < held.without.size(); ++c) {
     const std::vector<std::vector<WindowError>> poorer =
@@ -186,14 +199,16 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
     for (std::size_t i = 0; i < with.size(); ++i)
       for (std::size_t h = 0; h < ahead.size(); ++h) {
         const WindowError &a = poorer[i][h], &b = with[i][h];
-        if (!both_predicted(a, b)) continue;
-        ahead[h].position.claims[c].add(a.model, b.model);
+        if (!both_comparable(a, b)) continue;
+        ahead[h].position.claims[c].add(distance_of(a, scale_of(held.without[c])), distance_of(b, scale));
         if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.claims[c].add(a.spin, b.spin);
       }
   }
 }
 
-inline std::optional<double> mean_if_any(const std::vector<double>& errors) {
+/// Of those that did not diverge.
+inline std::optional<double> mean_if_any(std::vector<double> errors) {
+  std::erase_if(errors, [](double error) { return !std::isfinite(error); });
   return errors.empty() ? std::nullopt : std::optional(mean_of(errors));
 }
 

@@ -7,13 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "diabolo/diagnose/ask_wraps_again.hpp"
 #include "diabolo/diagnose/axle_laws.hpp"
 #include "diabolo/diagnose/claim_search.hpp"
+#include "diabolo/diagnose/claim_wraps.hpp"
 #include "diabolo/diagnose/conclude.hpp"
 #include "diabolo/diagnose/differing.hpp"
 #include "diabolo/diagnose/final_fit.hpp"
@@ -106,10 +106,6 @@ class Inquiry : public ClaimSearch<D> {
     return result;
   }
 
-  bool is_asked(std::string_view name) const {
-    return std::ranges::find(bank_, name, &Candidate::name) != bank_.end();
-  }
-
   void claim() {
     const Evidence evidence(fit_);
     result_.at = fit_.at;
@@ -127,11 +123,12 @@ class Inquiry : public ClaimSearch<D> {
     }
     tie_with_physics(result_, evidence, bank_, set_);
     claim_lone_fault(result_, evidence, set_);
-    if (std::ranges::none_of(fit_.fit_takes, has_spin) && is_asked("string_friction"))
+    if (std::ranges::none_of(fit_.fit_takes, has_spin) &&
+        std::ranges::find(bank_, &candidate_of("string_friction")) != bank_.end())
       tie_tilt_with_friction(result_);
     withdraw_length_of_a_wrap(result_, estimates_of(evidence, set_));
     for (const Replacement& exchange : exchanged_)
-      if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange.z);
+      if (exchange.name == "string_wrap") claim_wraps(result_, fit_, exchange);
   }
 
   /// Compares on data left out, with all claims and without each; returns what these deny.
@@ -158,7 +155,7 @@ class Inquiry : public ClaimSearch<D> {
     }
     const Candidate* denied = withdraw_what_left_out_data_deny(result_);
     tie_tips_with_faults(result_, Evidence(fit_), bank_, set_);
-    return denied;
+    return denied != nullptr ? denied : withdraw_spin_that_does_not_help(result_, judged_);
   }
 
   /// Takes laws that were learnt from what is left into the model, one after the other. Returns whether what
@@ -188,7 +185,7 @@ class Inquiry : public ClaimSearch<D> {
       settle();
       withdrawn = withdraw_what_does_not_help(result_, judged_);
       judge();
-      more = !result_.adequacy.adequate.value_or(true);
+      more = !withdrawn && !result_.adequacy.adequate.value_or(true);
     }
     note_learnt(result_, physics_, fit_, set_);
     ask_dependences();

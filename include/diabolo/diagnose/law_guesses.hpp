@@ -13,47 +13,13 @@
 #include "diabolo/diagnose/change_in_time.hpp"
 #include "diabolo/diagnose/fit.hpp"
 #include "diabolo/diagnose/guess_shapes.hpp"
+#include "diabolo/diagnose/guesses_by_motion.hpp"
 #include "diabolo/diagnose/open_law.hpp"
 #include "diabolo/effects/law.hpp"
 
 namespace diabolo {
 
 namespace diagnose_detail {
-
-/// Usual sizes of a motion, to one digit: a law's amplitude is what it is there.
-struct UsualSizes {
-  double speed = 1.0, spin = 100.0, tips = 1.0;
-};
-
-inline UsualSizes usual_sizes(const Fit& fit) {
-  std::vector<double> speeds, spins, tips;
-  for (const FitTake& fit_take : fit.fit_takes)
-    for (const FitWindow& window : fit_take.windows) {
-      speeds.push_back(mean_speed(fit_take, window));
-      spins.push_back(std::abs(window.start.spin));
-      const Tips<double> now = fit_take.take->motion->at(fit_take.take->times[window.first]);
-      tips.push_back(now.left_velocity.norm() + now.right_velocity.norm());
-    }
-  return {one_digit(median_of(speeds)), one_digit(median_of(spins)), one_digit(median_of(tips))};
-}
-
-/// Whether the axle's surface turns towards the right tip (1), against the string, or away from it (-1).
-inline constexpr const char* kSenseOfSlip = "tanh(slip / 0.05)";
-
-/// What the coefficient of the string's friction may depend on: the slip, with which it grows or falls
-/// (Stribeck's curve), the string's pull (Howell, "The general case of friction of a string round a
-/// cylinder", 1953), and the slip's sense. (A power of its own nobody tells from the coefficient itself.)
-inline void guess_rubbing(Guesses& guesses, const Fit& fit, const UsualSizes& usual) {
-  const double speed = one_digit(usual.spin * fit.at[index_of(Unknown::kAxleRadius)]);
-  const std::string slip = shown(speed);
-  guesses.fixed(Acts::kFriction, "abs(slip) / " + slip, ", growing with the slip (at " + slip + " m/s)");
-  for (const double part : {1.0, 0.2})
-    guesses.decaying(Acts::kFriction, "abs(slip)", part * speed, "m/s",
-                     ", more where the string slips slowly");
-  guesses.fixed(Acts::kFriction, "log(max(pull, 1) / 10)",
-                ", growing with the logarithm of the string's pull");
-  guesses.fixed(Acts::kFriction, kSenseOfSlip, ", more where the axle turns towards the right tip");
-}
 
 static_assert(kMayChange.back().unknown == Unknown::kTimeOffset);
 /// What may drive a change in time, as kMayChange has it, and by which factor it acts there; nothing drives a
@@ -100,7 +66,6 @@ inline void guess_in_time(Guesses& guesses, const std::vector<WindowFinding>& wi
 /// diabolo is, to both sides, and above and below. (Fore and aft it hardly goes, and where it stays in place
 /// it says nothing of one.)
 inline void guess_in_places(Guesses& guesses, const Fit& fit) {
-  constexpr double kStays = 0.01;  // [m]
   constexpr std::array kAxes{"x", "y", "z"};
   for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
     std::vector<double> places;
@@ -176,6 +141,9 @@ inline std::vector<LawGuess> law_guesses(const Fit& fit, const std::vector<Windo
   guesses.growing(kSpin, slows, tips, 1.0, ", slowing it, growing with the speed of the tips" + at_tips);
   guesses.growing(kString, "", speed, 1.0, ", growing with the speed" + at_speed);
   guesses.growing(kString, "", spin, 1.0, ", growing with the spin" + at_spin);
+  guesses.growing(kString, "", tips, 1.0, ", growing with the speed of the tips" + at_tips);
+  diagnose_detail::guess_by_heading(guesses, usual, slows);
+  diagnose_detail::guess_by_hands(guesses, usual, slows);
   if (fit.fit_takes.size() == 1) {
     diagnose_detail::guess_in_time(guesses, windows, fit.fit_takes.front().take->recording.clock);
     guesses.trending(kAgainst, speed, ", growing with the speed" + at_speed + " and in time");

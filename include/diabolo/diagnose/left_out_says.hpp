@@ -13,6 +13,9 @@ namespace diabolo {
 /// free diabolo by 1 mm leaves 0.04 mm beside the best start.
 inline constexpr double kImmaterialPosition = 4e-5, kImmaterialSpin = 0.1;
 
+/// An error that matters to nobody at any horizon [m].
+inline constexpr double kImmaterialAhead = 1e-3;
+
 /// What data that were left out say of something, from the intervals of what it gains, horizon by horizon. An
 /// interval in which all is too small to be noticed says nothing.
 struct LeftOutSays {

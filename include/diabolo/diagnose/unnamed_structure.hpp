@@ -72,7 +72,7 @@ struct LearntLawFound {
     visit("acts", &LearntLawFound::acts, "What the formula is the size of, see FormulaLaws.");
     visit("formula", &LearntLawFound::formula, "Of the numbers and of FormulaLaws.variables().");
     visit("numbers", &LearntLawFound::numbers, "Of the formula, the size first.");
-    visit("gain", &LearntLawFound::gain, "In chi^2, of held-out windows.");
+    visit("gain", &LearntLawFound::gain, "What chi^2 falls by with it, in units of the dispersion.");
     visit("gain_by_strength", &LearntLawFound::gain_by_strength,
           "In chi^2, of held-out windows, where it is as strong in each as it is on average there; "
           "null where it does not change from window to window, or too fast for them.");

@@ -94,21 +94,35 @@ inline void withdraw_length_of_a_wrap(Diagnosis& d, const Estimates& now) {
   claims_first(d);
 }
 
-/// No claim stands whose model predicts worse than the base what it was not fitted to: the spin, of a claim
-/// on the spin; any, where positions are. Returns whether that was so.
+/// The least sure claim on the spin where what was left out shows a spin that is predicted worse than by the
+/// base; null where there is none. The model has to do without it.
+inline const Candidate* withdraw_spin_that_does_not_help(Diagnosis& d, const HeldOut& heldout) {
+  Finding* weakest = nullptr;
+  if (LeftOutSays(heldout.spin.improvement_ci95, kImmaterialSpin).against())
+    for (Finding& f : d.findings)
+      if (f.claimed && is_of_spin(*f.candidate) &&
+          (weakest == nullptr || std::abs(f.z) < std::abs(weakest->z)))
+        weakest = &f;
+  if (weakest == nullptr) return nullptr;
+  weakest->claimed = false;
+  weakest->reason = kDenied;
+  d.withdrawn = d.withdrawn || std::abs(weakest->z) > kStrong;
+  return weakest->candidate;
+}
+
+/// Nothing stands, claims and learnt laws, whose model predicts positions worse than the base that it was not
+/// fitted to. Returns whether that was so.
 inline bool withdraw_what_does_not_help(Diagnosis& d, const HeldOut& heldout) {
-  const LeftOutSays position(heldout.position.improvement_ci95, kImmaterialPosition),
-      spin(heldout.spin.improvement_ci95, kImmaterialSpin);
-  if (!position.against() && !spin.against()) return false;
-  bool withdrawn = false;
+  if (!LeftOutSays(heldout.position.improvement_ci95, kImmaterialPosition).against()) return false;
   for (Finding& f : d.findings) {
-    if (!f.claimed || (!position.against() && !is_of_spin(*f.candidate))) continue;
+    if (!f.claimed) continue;
     f.claimed = false;
-    withdrawn = true;
     d.withdrawn = d.withdrawn || (f.candidate->kind == CandidateKind::kPhysics && std::abs(f.z) > kStrong);
     f.reason = kDenied;
   }
-  return position.against() || withdrawn;
+  d.withdrawn = d.withdrawn || !d.learnt.empty();
+  d.learnt.clear();
+  return true;
 }
 
 /// Nothing is claimed that leaves the gap more than half open where the middle window still misses by far:

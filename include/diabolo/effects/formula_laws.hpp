@@ -190,6 +190,8 @@ struct FormulaLaws : NeutralEffect<Scalar> {
         return norm(tips.left_velocity);
       case 18:
         return norm(tips.right_velocity);
+      case 21:
+        return norm<Scalar>(tips.right - tips.left);
       default: {
         const Vector3<Scalar> to_tip = soft_unit<Scalar>(tips.right - state.position);
         const Scalar passing = to_tip.dot(Vector3<Scalar>(tips.right_velocity - state.velocity));

@@ -55,7 +55,7 @@ struct LawVariable {
   std::string_view name, unit, meaning;
   bool by_spin = false;  ///< unknown where nobody sees the diabolo turn
 };
-inline constexpr std::array<LawVariable, 21> kLawVariables{{
+inline constexpr std::array<LawVariable, 22> kLawVariables{{
     {"t", "s", "time of the recording, or of the tips' motion"},
     {"x", "m", "position of the diabolo, forwards"},
     {"y", "m", "the same to the left"},
@@ -77,6 +77,7 @@ inline constexpr std::array<LawVariable, 21> kLawVariables{{
     {"right_speed", "m/s", "speed of the right tip"},
     {"passing", "m/s", "speed of the string over the axle, towards the right tip"},
     {"slip", "m/s", "speed of the axle's surface against the string, towards the right tip", true},
+    {"apart", "m", "distance between the tips"},
 }};
 
 /// A number of a law: its amplitude, or what gives it its shape.

@@ -12,6 +12,7 @@
 #include "diabolo/evaluate/evaluation_step.hpp"
 #include "diabolo/evaluate/horizon_options.hpp"
 #include "diabolo/evaluate/start_noise.hpp"
+#include "diabolo/evaluate/start_on_spring.hpp"
 #include "diabolo/evaluate/start_state.hpp"
 #include "diabolo/evaluate/windows.hpp"
 #include "diabolo/model.hpp"
@@ -40,6 +41,7 @@ class HorizonTask {
         starts_(recording_, has_signed_spin(model), options.unseen_spin),
         baseline_(baseline_track(recording)),
         predictor_(predictor_for(model, recording)),
+        on_spring_(predictor_),
         windows_(
             prediction_windows(recording_, starts_, tips_.times(), options.starts_every, options.horizons)),
         start_(options.start) {}
@@ -86,11 +88,13 @@ class HorizonTask {
   /// Calls `visit(h, position, state after it, whether it stayed in this world)` at each comparable horizon
   /// `h` of the prediction of a window from a start.
   template <class Visit>
-  void predict(std::size_t index, const State<double>& start, Visit&& visit) const {
+  void predict(std::size_t index, State<double> start, Visit&& visit) const {
     const PredictionWindow& window = windows_[index];
     const Eigen::VectorXd& times = tips_.times();
     const double begin = times[window.start];
     const auto motion = tips_.motion(window.start, window.last);
+    on_spring_.place(start, predictor_, motion->at(begin), motion->at(begin + kEvaluationStep),
+                     kEvaluationStep);
     bool in_world = true;
     State<double> before = start;
     const Steps steps{begin, kEvaluationStep, steps_until(times[window.last] - begin)};
@@ -129,6 +133,7 @@ class HorizonTask {
   StartStates starts_;
   Track baseline_;
   FullPredictor<double> predictor_;
+  StartsOnSpring<FullPredictor<double>> on_spring_;
   std::vector<PredictionWindow> windows_;
   Start start_;
 };

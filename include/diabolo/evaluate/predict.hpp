@@ -11,6 +11,7 @@
 
 #include "diabolo/evaluate/evaluation_step.hpp"
 #include "diabolo/evaluate/excerpt_score.hpp"
+#include "diabolo/evaluate/start_on_spring.hpp"
 #include "diabolo/evaluate/start_state.hpp"
 #include "diabolo/math/parallel.hpp"
 #include "diabolo/model.hpp"
@@ -43,7 +44,8 @@ inline State<double> start_state(const Recording& recording, const StartStates& 
   return starts.at(start, row);
 }
 
-/// Predicts the diabolo at each row of a recording from its state at one row and the recorded tips: the first
+/// Predicts the diabolo at each row of a recording from its state at one row, on a spring at rest (see
+/// StartsOnSpring), and the recorded tips: the first
 /// step of kEvaluationStep at or after the row. `row` is by default the first one from which the authors'
 /// program could start. Throws RecordingError, std::invalid_argument where it cannot start at the row, and
 /// Cancelled.
@@ -53,7 +55,7 @@ inline Prediction predict(const Recording& recording, const Model& model, Start 
   const StartStates starts(recording, has_signed_spin(model));
   Prediction result;
   result.first = row ? *row : first_start(recording, starts);
-  const State<double> begin = start_state(recording, starts, start, result.first);
+  State<double> begin = start_state(recording, starts, start, result.first);
   const RecordedTips tips(recording, model.interpolation);
   const Eigen::Index last = recording.size() - 1;
   const auto elapsed = [&](Eigen::Index at) { return tips.times()[at] - tips.times()[result.first]; };
@@ -64,10 +66,12 @@ inline Prediction predict(const Recording& recording, const Model& model, Start 
       result.forces.push_back(forces);
     }
   };
-  record(0, begin, {});
   const auto motion = tips.motion(result.first, last);
   const Steps steps{tips.times()[result.first], kEvaluationStep, steps_until(elapsed(last))};
   const FullPredictor<double> predictor = predictor_for(model, recording);
+  StartsOnSpring(predictor).place(begin, predictor, motion->at(steps.begin), motion->at(steps.time(1)),
+                                  steps.dt);
+  record(0, begin, {});
   State<double> before = begin;
   std::size_t hint = 0;
   Tips<double> tips_before = motion->at(steps.begin, hint);

@@ -125,7 +125,9 @@ void read_record(const nlohmann::json& json, T& value, const std::string& where)
 template <class T>
 nlohmann::ordered_json record_schema() {
   if constexpr (json_detail::IsOptional<T>::value) {
-    return {{"anyOf", {record_schema<typename T::value_type>(), {{"type", "null"}}}}};
+    nlohmann::ordered_json schema = record_schema<typename T::value_type>(), &type = schema["type"];
+    if (!type.is_array()) type = {type, "null"};  // a number may be null anyway
+    return schema;
   } else if constexpr (json_detail::IsList<T>::value) {
     return {{"type", "array"}, {"items", record_schema<typename T::value_type>()}};
   } else if constexpr (std::same_as<T, double>) {
