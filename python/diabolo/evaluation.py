@@ -107,7 +107,8 @@ def evaluate(
     starts_every: by default one prediction from the first row of each recording (and of the excerpt of it
         that the paper's table has), by the paper's recipe. Given [s], predictions from a start each so often,
         compared at `horizons` [s], for each recording and, where there are several, for all together.
-    start: how the state at such a start is found: "fair", from the rows up to it, the same for every model;
+    start: how the state at such a start is found: "fair", from the rows up to it, the same for every model
+        (where string or sticks give a little it is brought to rest on them, if noise may have it off them);
         or "published", by the rules of the authors' program, which look one row ahead.
     seed: of the bootstrap intervals. threads: 0 takes all cores; the result does not depend on it.
     progress: called with the fraction done.
@@ -165,8 +166,9 @@ def predict(
     """Predict the diabolo at each row of a recording from its state at one row and the recorded tips.
 
     row: where to start; by default the first one from which the authors' program could.
-    start: as for `evaluate`. Rows before the start are NaN; `time` is that of the recording. `forces`
-        are those of the string on the tips; axis, tumble and turns are there, too.
+    start: as for `evaluate`; the first row shows where it begins. Rows before the start are NaN; `time` is
+        that of the recording. `forces` are those of the string on the tips; axis, tumble and turns are there,
+        too.
 
     Warns (RecordingWarning) of a recording that is odd, such as in other units.
     """

@@ -109,12 +109,16 @@ TEST_CASE("an answer says where it predicts worse than the base") {
   heldout.position.base_error = {55e-3, 62e-3};
   heldout.position.augmented_error = {43e-3, 118e-3};
   heldout.position.start_error = {5e-3, 110e-3};
+  heldout.position.improvement_ci95 = {Interval{1e-3, 2e-2}, std::nullopt};
   heldout.spin.base_error = heldout.spin.augmented_error = {std::nullopt, std::nullopt};
   heldout.spin.start_error = {std::nullopt, std::nullopt};
+  heldout.spin.improvement_ci95 = {std::nullopt, std::nullopt};
   CHECK(worse_ahead_in_words(heldout).empty());  // the noise of the starts may do it
   heldout.position.start_error = {5e-3, 9e-3};
   CHECK(worse_ahead_in_words(heldout) ==
         " But 1 s ahead on held-out data its place is off by 120 mm, the base's by 62 mm.");
+  heldout.position.improvement_ci95.back() = Interval{1e-3, 2e-2};  // missed catches
+  CHECK(worse_ahead_in_words(heldout).empty());
 }
 
 TEST_CASE("of two that are denied the less sure goes first") {

@@ -48,9 +48,10 @@ TEST_CASE("a prediction that diverges counts as a missed catch does, and in no m
   for (int i = 0; i < 9; ++i) errors.add(0.01, 0.01);
   errors.add(diagnose_detail::distance_of(good), diagnose_detail::distance_of(failed));
   CHECK(errors.losses().back() == Approx(0.01 - 0.03));
-  CHECK(diagnose_detail::mean_if_any(errors.with) == Approx(0.01));
+  CHECK(errors.predicted().with.size() == 9);
   errors.add(diagnose_detail::distance_of(failed), diagnose_detail::distance_of(failed));
   CHECK(errors.losses().back() == 0.0);
+  CHECK(errors.predicted().without.size() == 9);
   CHECK(diagnose_detail::distance_of(good, 1.02) == Approx(0.0102));
 }
 

@@ -196,5 +196,6 @@ TEST_CASE("what depends on the heading, or on the place between the tips, is lea
   check(asked(Acts::kAgainst, "k * (1 - tanh(vz / 0.1)) / 2", 0.5), Acts::kAgainst, "(1 - tanh(vz", 0.5);
   const Diagnosis string = asked(Acts::kString, "k * (right - left)", 0.01);
   check(string, Acts::kString, "(left - right)", -0.01);
+  REQUIRE(string.heldout.spin.augmented_error.size() == 4);
   for (const auto& error : string.heldout.spin.augmented_error) CHECK(error.value() < 0.4);  // of 30 rad/s
 }

@@ -14,16 +14,17 @@ _KEPT_OF_FIT = ("horizons_s", "base_error_m", "augmented_error_m")
 _KEPT_OF_PLACE = ("quantity", "mode", "direction")
 _KEPT_OF_CHANGE = ("quantity", "trend_per_s", "frequency_hz")
 _KEPT_OF_LEARNT = ("acts", "formula", "numbers")
+_PARAMETERS = ("parameters", "numbers")
 
 
-def rounded(value: Any) -> Any:
-    """Numbers to four digits."""
+def rounded(value: Any, digits: int = 4) -> Any:
+    """Numbers to so many digits, those of parameters to six: one may lie next to 1."""
     if isinstance(value, float):
-        return float(f"{value:.4g}")
+        return float(f"{value:.{digits}g}")
     if isinstance(value, dict):
-        return {name: rounded(member) for name, member in value.items()}
+        return {name: rounded(one, 6 if name in _PARAMETERS else digits) for name, one in value.items()}
     if isinstance(value, list):
-        return [rounded(member) for member in value]
+        return [rounded(member, digits) for member in value]
     return value
 
 

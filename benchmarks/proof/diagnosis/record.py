@@ -35,9 +35,11 @@ def kept_of_key(key: Key) -> Key:
     return {**{name: key[name] for name in _KEPT_OF_KEY}, "scenario": kept}
 
 
-def _without_sizes(answer: Answer) -> Answer:
-    """Sizes of effects count in the oracle's answer alone."""
-    return {**answer, "ladder": [{"name": rung["name"], "z": rung["z"]} for rung in answer["ladder"]]}
+def _thinned(answer: Answer, names: list[str]) -> Answer:
+    """Sizes of effects count in the oracle's answer alone, and so do those that neither stand out nor are at
+    work."""
+    ladder = [rung for rung in answer["ladder"] if rung["name"] in names or abs(rung["z"] or 0.0) >= 1.0]
+    return {**answer, "ladder": [{"name": rung["name"], "z": rung["z"]} for rung in ladder]}
 
 
 def summary(keys: list[Key], answers: dict[str, dict[str, Answer]], tool: str) -> dict[str, Any]:
@@ -81,7 +83,8 @@ class Record:
         lines = [self.sealed]
         for key in self.keys:
             found = {who: by[key["case"]] for who, by in self.answers.items() if key["case"] in by}
-            found = {who: one if who == ORACLE else _without_sizes(one) for who, one in found.items()}
+            names = key["names"]
+            found = {who: one if who == ORACLE else _thinned(one, names) for who, one in found.items()}
             lines.append({"key": kept_of_key(key), "answers": found})
         files.write_packed(path, lines)
 

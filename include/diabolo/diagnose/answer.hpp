@@ -86,9 +86,10 @@ struct HeldOut {
   bool whole_recordings = false;                      ///< left out one by one; else blocks of rows
   std::vector<double> horizons{0.1, 0.25, 0.5, 1.0};  ///< [s]
   ErrorsByHorizon position, spin;
-  std::vector<std::optional<double>> augmented_median;  ///< of the distances [m]
-  std::vector<ResidualAndNoise> ahead;                  ///< at each horizon of kAhead and more
-  std::optional<AxleAhead> axle;                        ///< nothing where it was not seen
+  std::vector<std::optional<double>>
+      augmented_median;                 ///< of the distances of those that did not diverge [m]
+  std::vector<ResidualAndNoise> ahead;  ///< at each horizon of kAhead and more
+  std::optional<AxleAhead> axle;        ///< nothing where it was not seen
   std::size_t windows = 0;
 };
 
@@ -171,7 +172,7 @@ struct Learnt {
   Law law;
   std::vector<double> value{}, deviation{};  ///< of its numbers, in their units
   std::size_t first = 0;                     ///< place of its first number among those of the model's laws
-  double gain = 0.0;                         ///< of windows that were left out, in chi^2
+  double gain = 0.0;                         ///< what chi^2 falls by, in units of the dispersion
   std::optional<Dependence> dependence{};
   std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
 };

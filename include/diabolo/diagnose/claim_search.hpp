@@ -110,7 +110,7 @@ class ClaimSearch {
       const auto clock = [&] { return std::pair(fit_.delay, set_[index_of(Unknown::kGravity)]); };
       const auto before = clock();
       exchange(again);
-      const bool soft = !fit_.bounces && is_bouncy(fit_.at);
+      const bool soft = !fit_.bounces && is_bouncy(give_of(physics_.effects) + added_give(fit_.at));
       if ((clock() == before && !soft) || !budget_.allows("asking all again with what was found", kFitsShare))
         return try_bounce(again);
       ask_again(soft);

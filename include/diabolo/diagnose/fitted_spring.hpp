@@ -55,7 +55,7 @@ inline UnknownVector least_values(const UnknownVector& at, const UnknownVector& 
   return least;
 }
 
-/// Whether a bounce is so slow and wide that a window's start shows it.
-inline bool is_bouncy(const UnknownVector& at) { return added_give(at) > kBouncyString; }
+/// Whether a bounce on a string that gives so much [m/N] is so slow and wide that a window's start shows it.
+inline bool is_bouncy(double give) { return give > kBouncyString; }
 
 }  // namespace diabolo::diagnose_detail

@@ -42,7 +42,8 @@ inline UsualSizes usual_sizes(const Fit& fit) {
 }
 
 /// What may depend on where the diabolo is heading: a push of the air that turns with it, drag on the way up
-/// or down alone, a spin that is lost on the way up or fed by the string that passes.
+/// or down alone, a spin that is lost on the way up; and on the string that passes: a spin that it feeds, a
+/// push along it.
 inline void guess_by_heading(Guesses& guesses, const UsualSizes& usual, const std::string& slows) {
   using enum Acts;
   const std::string per = " / " + shown(usual.speed), at = " (at " + shown(usual.speed) + " m/s)",

@@ -20,13 +20,14 @@ inline std::optional<std::size_t> first_worse(const ErrorsByHorizon& errors, dou
   for (std::size_t h = 0; h < errors.start_error.size(); ++h) {
     const std::optional<double>&base = errors.base_error[h], &found = errors.augmented_error[h];
     const double noise = errors.start_error[h].value_or(0.0);
-    if (base && found && *found > *base + immaterial && *found > std::hypot(*base, noise)) return h;
+    const bool nearer = errors.improvement_ci95[h] && errors.improvement_ci95[h]->low > 0.0;
+    if (base && found && !nearer && *found > *base + immaterial && *found > std::hypot(*base, noise))
+      return h;
   }
   return std::nullopt;
 }
 
-/// That what was found predicts worse than the base somewhere: sentences, empty where it does not. (Where
-/// that is sure over more horizons than not, nothing is claimed in the first place.)
+/// That what was found predicts worse than the base somewhere: sentences, empty where it does not.
 inline std::string worse_ahead_in_words(const HeldOut& heldout) {
   std::string text;
   const auto add = [&](const ErrorsByHorizon& errors, const char* what, const char* unit, double immaterial) {

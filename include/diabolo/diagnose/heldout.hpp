@@ -117,6 +117,13 @@ struct WithoutAndWith {
     without.push_back(of_without);
     with.push_back(of_with);
   }
+  /// Those of which neither diverged.
+  WithoutAndWith predicted() const {
+    WithoutAndWith result;
+    for (std::size_t i = 0; i < with.size(); ++i)
+      if (std::isfinite(without[i] + with[i])) result.add(without[i], with[i]);
+    return result;
+  }
   /// More without it, see kFarAhead.
   std::vector<double> losses() const {
     if (with.empty()) return {};
@@ -169,14 +176,15 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
   const auto task_at = [&](const UnknownVector& at) {
     return HorizonTask(corrected(held.recording, at), augmented_model(physics, at, "augmented"), options);
   };
-  const HorizonTask better = task_at(held.at);
+  const Recording seen = corrected(held.recording, held.at);
+  const HorizonTask better(seen, augmented_model(physics, held.at, "augmented"), options);
   const std::vector<std::vector<WindowError>> with = errors_of(better, options.threads, watch),
                                               without = errors_of(HorizonTask(held.recording, base, options),
                                                                   options.threads, watch);
   assert(with.size() == without.size());  // windows depend on times and dropouts, which corrected() leaves
   const auto scale_of = [](const UnknownVector& at) { return 1.0 + at[index_of(Unknown::kLengthScale)]; };
   const double scale = scale_of(held.at);
-  const StartNoise noise = start_noise(held.recording);
+  const StartNoise noise = start_noise(seen);
   std::vector<std::vector<double>> scatter(with.size());
   for_each_index(with.size(), options.threads, watch,
                  [&](std::size_t i) { scatter[i] = better.scatter(i, noise, seed); });
@@ -201,22 +209,22 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
         const WindowError &a = poorer[i][h], &b = with[i][h];
         if (!both_comparable(a, b)) continue;
         ahead[h].position.claims[c].add(distance_of(a, scale_of(held.without[c])), distance_of(b, scale));
+        if (a.failed || b.failed) continue;
         if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.claims[c].add(a.spin, b.spin);
       }
   }
 }
 
-/// Of those that did not diverge.
-inline std::optional<double> mean_if_any(std::vector<double> errors) {
-  std::erase_if(errors, [](double error) { return !std::isfinite(error); });
+inline std::optional<double> mean_if_any(const std::vector<double>& errors) {
   return errors.empty() ? std::nullopt : std::optional(mean_of(errors));
 }
 
 /// Takes down one horizon's errors; `interval_of` is that of a mean.
 template <class IntervalOf>
 void add_horizon(const Errors& errors, ErrorsByHorizon& result, const IntervalOf& interval_of) {
-  result.base_error.push_back(mean_if_any(errors.found.without));
-  result.augmented_error.push_back(mean_if_any(errors.found.with));
+  const WithoutAndWith found = errors.found.predicted();
+  result.base_error.push_back(mean_if_any(found.without));
+  result.augmented_error.push_back(mean_if_any(found.with));
   result.start_error.push_back(mean_if_any(errors.start));
   result.improvement_ci95.push_back(interval_of(errors.found.losses()));
   result.worsening_ci95.resize(errors.claims.size());
@@ -256,7 +264,7 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     result.windows = std::max(result.windows, errors.position.found.with.size());
     diagnose_detail::add_horizon(errors.position, result.position, interval_of);
     diagnose_detail::add_horizon(errors.spin, result.spin, interval_of);
-    const std::vector<double>& distances = errors.position.found.with;
+    const std::vector<double> distances = errors.position.found.predicted().with;
     result.augmented_median.push_back(distances.empty() ? std::nullopt : std::optional(median_of(distances)));
     if (horizon < kAhead) continue;
     std::optional<ResidualAndNoise> left =

@@ -50,10 +50,7 @@ class Inquiry : public ClaimSearch<D> {
       judge();
       withdrawn = learn_laws(withdrawn);
       withdrawn = withdrawn || withdraw_what_explains_too_little(result_);
-      if (withdrawn) {
-        result_.model = options_.base;
-        result_.model.parameters.catch_slack = physics_.parameters.catch_slack;
-      }
+      if (withdrawn) result_.model = without_claims(options_.base, physics_, fit_.at, result_.learnt);
       result_.heldout.whole_recordings = !options_.holdout.empty() || recordings_.size() > 1;
       compare_takes();
       ask_axle();

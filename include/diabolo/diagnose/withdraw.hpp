@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "diabolo/diagnose/corrected.hpp"
 #include "diabolo/diagnose/findings.hpp"
 #include "diabolo/diagnose/judge_adequacy.hpp"
 #include "diabolo/diagnose/left_out_says.hpp"
@@ -110,8 +112,8 @@ inline const Candidate* withdraw_spin_that_does_not_help(Diagnosis& d, const Hel
   return weakest->candidate;
 }
 
-/// Nothing stands, claims and learnt laws, whose model predicts positions worse than the base that it was not
-/// fitted to. Returns whether that was so.
+/// Nothing stands, neither claims nor learnt laws, where held-out positions are predicted worse than by the
+/// base. Returns whether that was so.
 inline bool withdraw_what_does_not_help(Diagnosis& d, const HeldOut& heldout) {
   if (!LeftOutSays(heldout.position.improvement_ci95, kImmaterialPosition).against()) return false;
   for (Finding& f : d.findings) {
@@ -143,6 +145,20 @@ inline bool withdraw_what_explains_too_little(Diagnosis& d) {
     f.reason = "leaves more than half of the gap: the motion is none that the known laws make";
   }
   return true;
+}
+
+/// The base where no claim stands: with the rule for a catch that `physics` has, and with its laws that were
+/// learnt, as they were fitted.
+inline Model without_claims(const Model& base, const Model& physics, const UnknownVector& at,
+                            const std::vector<Learnt>& learnt) {
+  UnknownVector kept = UnknownVector::Zero();
+  for (const Learnt& one : learnt)
+    for (std::size_t i = 0; i < one.law.numbers.size(); ++i)
+      kept[index_of(own_number(one.first + i))] = at[index_of(own_number(one.first + i))];
+  Model result = base;
+  result.parameters.catch_slack = physics.parameters.catch_slack;
+  result.effects.get<FormulaLaws>() = fitted_laws(physics.effects.get<FormulaLaws>(), kept);
+  return result;
 }
 
 /// Whether what was found is off by less than the base, in the mean, at most of the horizons.

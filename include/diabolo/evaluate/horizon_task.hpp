@@ -41,7 +41,7 @@ class HorizonTask {
         starts_(recording_, has_signed_spin(model), options.unseen_spin),
         baseline_(baseline_track(recording)),
         predictor_(predictor_for(model, recording)),
-        on_spring_(predictor_),
+        on_spring_(predictor_, recording_),
         windows_(
             prediction_windows(recording_, starts_, tips_.times(), options.starts_every, options.horizons)),
         start_(options.start) {}
@@ -93,8 +93,7 @@ class HorizonTask {
     const Eigen::VectorXd& times = tips_.times();
     const double begin = times[window.start];
     const auto motion = tips_.motion(window.start, window.last);
-    on_spring_.place(start, predictor_, motion->at(begin), motion->at(begin + kEvaluationStep),
-                     kEvaluationStep);
+    on_spring_.place(start, predictor_, *motion, begin, kEvaluationStep);
     bool in_world = true;
     State<double> before = start;
     const Steps steps{begin, kEvaluationStep, steps_until(times[window.last] - begin)};

@@ -44,8 +44,8 @@ inline State<double> start_state(const Recording& recording, const StartStates& 
   return starts.at(start, row);
 }
 
-/// Predicts the diabolo at each row of a recording from its state at one row, on a spring at rest (see
-/// StartsOnSpring), and the recorded tips: the first
+/// Predicts the diabolo at each row of a recording from its state at one row (a fair one on a stiff
+/// spring is brought to rest on it, see StartsOnSpring) and the recorded tips: the first
 /// step of kEvaluationStep at or after the row. `row` is by default the first one from which the authors'
 /// program could start. Throws RecordingError, std::invalid_argument where it cannot start at the row, and
 /// Cancelled.
@@ -69,8 +69,7 @@ inline Prediction predict(const Recording& recording, const Model& model, Start 
   const auto motion = tips.motion(result.first, last);
   const Steps steps{tips.times()[result.first], kEvaluationStep, steps_until(elapsed(last))};
   const FullPredictor<double> predictor = predictor_for(model, recording);
-  StartsOnSpring(predictor).place(begin, predictor, motion->at(steps.begin), motion->at(steps.time(1)),
-                                  steps.dt);
+  StartsOnSpring(predictor, recording).place(begin, predictor, *motion, steps.begin, steps.dt);
   record(0, begin, {});
   State<double> before = begin;
   std::size_t hint = 0;

@@ -5,18 +5,24 @@
 
 #include "diabolo/effects/stick_flex.hpp"
 #include "diabolo/effects/string_elasticity.hpp"
+#include "diabolo/evaluate/start_noise.hpp"
 #include "diabolo/math/scalar.hpp"
 #include "diabolo/predictor.hpp"
 #include "diabolo/rules.hpp"
 #include "diabolo/state.hpp"
 #include "diabolo/string/string_path.hpp"
+#include "diabolo/string/string_step.hpp"
 
 namespace diabolo {
 
 /// From such springs on [m/N] a bounce is so slow and wide that a start shows it. On stiffer ones it drowns
-/// in the noise (0.4 mm are twice what the diabolo's weight stretches a string of 1e-4 m/N by), and a start
-/// is better at rest on them.
+/// in the noise of a camera, and a start is better at rest on them: 0.4 mm of noise are four times what a
+/// diabolo of 0.2 kg stretches a string of 1e-4 m/N by.
 inline constexpr double kBouncyString = 0.012;
+
+/// A start is where the string has it at rest but for its noise, where it is off by no more than so many
+/// standard deviations; else it is caught or leaves.
+inline constexpr double kWithinNoise = 4.0;
 
 /// How far the string gives under a tension, in itself and at both tips [m/N].
 template <class Effects>
@@ -49,9 +55,8 @@ void place_on_string(State<Scalar>& state, Tips<Scalar> tips, const Scalar& pull
                      gradient * Scalar((path.length() - length) / (squared_norm(gradient) + Scalar(1e-6)));
   }
   const StringPath<Scalar> path(state.position, tips);
-  const Vector3<Scalar> gradient = path.gradient();
-  const Scalar rate = path.rate(state.velocity, tips.left_velocity, tips.right_velocity);
-  state.velocity = state.velocity - gradient * Scalar(rate / (squared_norm(gradient) + Scalar(1e-6)));
+  state.velocity = without_path_rate<Scalar>(
+      state.velocity, path.gradient(), path.rate(state.velocity, tips.left_velocity, tips.right_velocity));
 }
 
 /// The predictor with a string and sticks that give nothing; none where they do not anyway, or where a spring
@@ -59,13 +64,13 @@ void place_on_string(State<Scalar>& state, Tips<Scalar> tips, const Scalar& pull
 template <class Scalar, template <class> class... Effects>
 std::optional<Predictor<Scalar, Effects...>> without_springs(const Predictor<Scalar, Effects...>& predictor) {
   using Result = Predictor<Scalar, Effects...>;
-  typename Result::Set stiff = predictor.effects();
-  auto& string = stiff.template get<StringElasticity>();
-  auto& sticks = stiff.template get<StickFlex>();
-  if ((string.neutral() && sticks.neutral()) || predictor.parameters().string_law != StringLaw::kInextensible)
+  const auto& effects = predictor.effects();
+  if ((effects.template get<StringElasticity>().neutral() && effects.template get<StickFlex>().neutral()) ||
+      predictor.parameters().string_law != StringLaw::kInextensible)
     return std::nullopt;
-  string = {};
-  sticks = {};
+  typename Result::Set stiff = effects;
+  stiff.template get<StringElasticity>() = {};
+  stiff.template get<StickFlex>() = {};
   return Result(predictor.parameters(), stiff, typename Result::AlreadyValid{});
 }
 
@@ -87,28 +92,38 @@ bool has_room(const Tips<Scalar>& tips, const Scalar& length) {
   return (tips.left - tips.right).squaredNorm() < length * length * Scalar(0.999);
 }
 
-/// Starts of predictions by a model whose string or sticks give, but do not bounce visibly: at rest on them,
-/// stretched by the pull of a rigid string. As it is seen a start would ring, slack half of the time, by the
-/// camera's noise alone.
+/// Fair starts ON_STRING by a model whose string or sticks give, but do not bounce visibly: at rest on them,
+/// stretched by the pull of a rigid string, where they are seen there within the noise of starts. As it is
+/// seen a start would ring by that noise alone, slack half of the time.
 template <class Predicting>
 class StartsOnSpring {
  public:
-  explicit StartsOnSpring(const Predicting& predictor) {
+  StartsOnSpring(const Predicting& predictor, const Recording& recording) {
     if (give_of(predictor.effects()) < kBouncyString) rigid_ = without_springs(predictor);
+    if (rigid_) noise_ = start_noise(recording);
   }
 
-  void place(State<double>& state, const Predicting& predictor, const Tips<double>& tips,
-             const Tips<double>& next, double dt) const {
-    if (!rigid_ || state.string_state != StringState::kOnString ||
-        !has_room(tips, predictor.parameters().string_length))
+  /// The first step goes from `begin` [s] for `dt` [s].
+  template <class Motion>
+  void place(State<double>& state, const Predicting& predictor, const Motion& motion, double begin,
+             double dt) const {
+    if (!rigid_ || state.string_state != StringState::kOnString) return;
+    const Tips<double> tips = motion.at(begin);
+    Tips<double> ends = tips;
+    if (!has_room(ends, string_from(ends, state, predictor).length)) return;
+    State<double> rests = state;
+    place_on_string(rests, tips, 0.0, predictor);
+    const double pull = rigid_pull(rests, *rigid_, tips, motion.at(begin + dt), dt);
+    place_on_string(rests, tips, pull, predictor);
+    if ((rests.position - state.position).norm() > kWithinNoise * noise_.position ||
+        (rests.velocity - state.velocity).norm() > kWithinNoise * noise_.velocity)
       return;
-    place_on_string(state, tips, 0.0, predictor);
-    const double pull = rigid_pull(state, *rigid_, tips, next, dt);
-    place_on_string(state, tips, pull, predictor);
+    state = rests;
   }
 
  private:
   std::optional<Predicting> rigid_;
+  StartNoise noise_;
 };
 
 }  // namespace diabolo

@@ -18,7 +18,7 @@ namespace diabolo {
 
 /// How the state at the start of a prediction is found.
 enum class Start {
-  kFair,       ///< from frames at or before the start only; the same for every model
+  kFair,       ///< from frames at or before the start only; the same for every model, but see StartsOnSpring
   kPublished,  ///< the authors' program: velocity from the start and the frame after it, string loose
 };
 
