@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Does a diagnosis say what turns the axle? On plants whose hands leave it free.
 
-Half of the plants have a groove whose flanks the string climbs, half of them, other ones, cups of unlike
-weight; the gain of the strands' levers is each plant's own, and all rub. Cameras have the small faults that
+Half of the plants have a groove whose flanks the string climbs, half have cups of unlike weight, a quarter
+both; the gain of the strands' levers is each plant's own, and all rub. Cameras have the small faults that
 no measurement is without.
 
 A law that is there is found where it is claimed, or said to be there and too small to matter; one that is
