@@ -200,8 +200,7 @@ inline void conclude(Diagnosis& d) {
   if (d.reason.empty()) d.sentence += force_like_rate_in_words(d) + too_far_in_words(d);
   if (!axle_leads) d.sentence += axle_claims_behind(axle);
   d.sentence += axle_ahead_in_words(d.heldout.axle, !axle.empty());
-  d.sentence += catch_in_words(d.catch_rule);
-  d.sentence += differing_in_words(d);
+  d.sentence += catch_in_words(d.catch_rule) + differing_in_words(d);
   for (std::size_t i = 0; i < d.not_done.size(); ++i)
     d.sentence += (i == 0 ? " Not done: " : "; ") + d.not_done[i] + (i + 1 == d.not_done.size() ? "." : "");
 }

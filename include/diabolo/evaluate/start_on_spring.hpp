@@ -11,7 +11,6 @@
 #include "diabolo/rules.hpp"
 #include "diabolo/state.hpp"
 #include "diabolo/string/string_path.hpp"
-#include "diabolo/string/string_step.hpp"
 
 namespace diabolo {
 
@@ -55,8 +54,9 @@ void place_on_string(State<Scalar>& state, Tips<Scalar> tips, const Scalar& pull
                      gradient * Scalar((path.length() - length) / (squared_norm(gradient) + Scalar(1e-6)));
   }
   const StringPath<Scalar> path(state.position, tips);
-  state.velocity = without_path_rate<Scalar>(
-      state.velocity, path.gradient(), path.rate(state.velocity, tips.left_velocity, tips.right_velocity));
+  const Vector3<Scalar> gradient = path.gradient();
+  const Scalar rate = path.rate(state.velocity, tips.left_velocity, tips.right_velocity);
+  state.velocity = state.velocity - gradient * Scalar(rate / (squared_norm(gradient) + Scalar(1e-6)));
 }
 
 /// The predictor with a string and sticks that give nothing; none where they do not anyway, or where a spring
