@@ -39,16 +39,15 @@ inline std::vector<Reached> reached_horizons(const TakeToPlay& take, const Stret
   return reached;
 }
 
-/// Where a model puts the diabolo at these times.
+/// Where a model puts the diabolo at these times, from the start as it is seen: the simulator begins there,
+/// too, and what rings by it does so in both.
 inline std::vector<Vector3<double>> positions_at(const Model& model, const Recording& recording,
-                                                 State<double> start, const TipMotion<double>& tips,
+                                                 const State<double>& start, const TipMotion<double>& tips,
                                                  const std::vector<Reached>& reached) {
   std::vector<Vector3<double>> result(reached.size(), Vector3<double>::Constant(kNaN));
   if (reached.empty()) return result;
   const Steps steps{0.0, kEvaluationStep, steps_until(reached.back().time)};
-  const FullPredictor<double> predictor = predictor_for(model, recording);
-  StartsOnSpring(predictor, recording).place(start, predictor, tips, steps.begin, steps.dt);
-  rollout(predictor, start, tips, steps,
+  rollout(predictor_for(model, recording), start, tips, steps,
           [&](std::size_t step, double, const State<double>& state, const StepStatus<double>&) {
             for (std::size_t i = 0; i < reached.size(); ++i)
               if (steps_until(reached[i].time) == step) result[i] = state.position;
