@@ -1627,7 +1627,7 @@ class HeldOutErrors:
     """What the noise of the starts alone makes."""
   @property
   def start_spin_error_radps(self) -> list[float | None]:
-    """By how much the spins of the starts are off those around them."""
+    """By how much the spins of the starts are off those around them, and what their noise makes."""
   @property
   def windows(self) -> int:
     """Predictions that were compared."""

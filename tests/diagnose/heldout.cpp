@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "diabolo/diagnose/left_out_says.hpp"
+#include "played.hpp"
 #include "recording/support.hpp"
 
 using namespace diabolo;
@@ -73,6 +74,33 @@ TEST_CASE("where nobody sees the spin, predictions begin with that of the middle
   CHECK(unseen_spin(fit) == 70.0);
   fit.fit_takes.erase(fit.fit_takes.begin());
   CHECK(unseen_spin(fit) == 700.0);  // all show it: another recording of theirs may turn alike
+}
+
+TEST_CASE("a torque that is left out shows in the spin ahead, in nothing else, and noise alone does not") {
+  AllEffects<double> braked;
+  braked.get<SpinLoss>().axle = 8.0;  // rad/s^2
+  const std::uint64_t seed = test::fresh_seed();
+  const Model base = consistent_model();
+  const auto ahead_of = [&](const AllEffects<double>& effects) {
+    const FitTake seen = make_fit_take(played(effects, 20.0, seed));  // with smooth tips
+    HeldOutRecording held{seen.take->recording, UnknownVector::Zero(), {}, 0.0};
+    held.at[index_of(Unknown::kAxleRadius)] =
+        held.recording.properties.axle_radius + 7e-4;  // as played() has it
+    return compare_held_out({held}, base, base, seed, 80, 1).ahead;
+  };
+  const std::vector<ResidualAndNoise> quiet = ahead_of({}), torque = ahead_of(braked);
+  REQUIRE(quiet.size() == 4);
+  REQUIRE(torque.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CAPTURE(quiet[i].left, quiet[i].noise, torque[i].quantity, *torque[i].ahead_s, torque[i].left,
+            torque[i].noise);
+    CHECK(quiet[i].quantity == (i % 2 == 1 ? "spin" : "position"));
+    CHECK_FALSE(diagnose_detail::is_beyond_noise(quiet[i]));
+    CHECK(diagnose_detail::is_beyond_noise(torque[i]) == (i % 2 == 1));
+    const double lost = braked.get<SpinLoss>().axle * *torque[i].ahead_s;
+    if (i % 2 == 1)
+      CHECK((torque[i].left > 0.5 * lost && torque[i].left < 1.01 * lost));  // strings drive back
+  }
 }
 
 TEST_CASE("what nobody would notice says nothing for or against, nor counts as a horizon") {

@@ -63,9 +63,9 @@ TEST_CASE("What the start's noise does to a flight grows with time as it must") 
   const StartNoise noise{.position = 1e-4, .velocity = 1e-3};
   std::vector<std::vector<double>> made(2);
   for (std::size_t i = 0; i < task.size(); ++i) {
-    const std::vector<double> scatter = task.scatter(i, noise, kSeed);
+    const std::vector<StartScatter> scatter = task.scatter(i, noise, kSeed);
     for (std::size_t h = 0; h < 2; ++h)
-      if (std::isfinite(scatter[h])) made[h].push_back(scatter[h]);
+      if (std::isfinite(scatter[h].position)) made[h].push_back(scatter[h].position);
   }
   for (std::size_t h = 0; h < 2; ++h) {
     const double t = options.horizons[h];
@@ -78,5 +78,6 @@ TEST_CASE("What the start's noise does to a flight grows with time as it must") 
 TEST_CASE("No noise, no scatter") {
   const HorizonTask task(test::thrown(), consistent_model(), {.starts_every = 0.1, .horizons = {0.2}});
   REQUIRE(task.size() > 0);
-  CHECK(task.scatter(0, {}, kSeed)[0] == 0.0);
+  CHECK(task.scatter(0, {}, kSeed)[0].position == 0.0);
+  CHECK(task.scatter(0, {}, kSeed)[0].spin == 0.0);
 }

@@ -144,7 +144,7 @@ struct Errors {
 
 struct ErrorsAhead {
   Errors position, spin;
-  Compared compared;  ///< positions
+  Compared positions, spins;  ///< where noise is known
 };
 
 inline bool both_comparable(const WindowError& a, const WindowError& b) {
@@ -185,7 +185,7 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
   const auto scale_of = [](const UnknownVector& at) { return 1.0 + at[index_of(Unknown::kLengthScale)]; };
   const double scale = scale_of(held.at);
   const StartNoise noise = start_noise(seen);
-  std::vector<std::vector<double>> scatter(with.size());
+  std::vector<std::vector<StartScatter>> scatter(with.size());
   for_each_index(with.size(), options.threads, watch,
                  [&](std::size_t i) { scatter[i] = better.scatter(i, noise, seed); });
   for (std::size_t i = 0; i < with.size(); ++i)
@@ -195,11 +195,15 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
       ahead[h].position.found.add(distance_of(a), distance_of(b, scale));
       if (a.failed || b.failed) continue;
       if (std::isfinite(a.spin) && std::isfinite(b.spin)) ahead[h].spin.found.add(a.spin, b.spin);
-      if (std::isfinite(b.spin) && std::isfinite(better.spin_noise(i)))
-        ahead[h].spin.start.push_back(better.spin_noise(i));
-      if (!std::isfinite(scatter[i][h])) continue;
-      ahead[h].position.start.push_back(scale * scatter[i][h]);
-      ahead[h].compared.add(distance_of(a), distance_of(b, scale), scale * scatter[i][h]);
+      if (const double noise_of_spin = std::hypot(better.spin_noise(i), scatter[i][h].spin);
+          std::isfinite(b.spin) && std::isfinite(noise_of_spin)) {
+        ahead[h].spin.start.push_back(noise_of_spin);
+        if (std::isfinite(a.spin)) ahead[h].spins.add(a.spin, b.spin, noise_of_spin);
+      }
+      const double noise_of_position = scale * scatter[i][h].position;
+      if (!std::isfinite(noise_of_position)) continue;
+      ahead[h].position.start.push_back(noise_of_position);
+      ahead[h].positions.add(distance_of(a), distance_of(b, scale), noise_of_position);
     }
   for (std::size_t c = 0; c < held.without.size(); ++c) {
     const std::vector<std::vector<WindowError>> poorer =
@@ -267,13 +271,16 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     const std::vector<double> distances = errors.position.found.predicted().with;
     result.augmented_median.push_back(distances.empty() ? std::nullopt : std::optional(median_of(distances)));
     if (horizon < kAhead) continue;
-    std::optional<ResidualAndNoise> left =
-        diagnose_detail::residual_and_noise_of(errors.compared, kImmaterialAhead, kStartsAlike);
-    if (!left) continue;
-    left->quantity = "position";
-    left->unit = "m";
-    left->ahead_s = horizon;
-    result.ahead.push_back(*left);
+    for (const bool of_spin : {false, true}) {
+      std::optional<ResidualAndNoise> left = diagnose_detail::residual_and_noise_of(
+          of_spin ? errors.spins : errors.positions, of_spin ? kImmaterialSpinAhead : kImmaterialAhead,
+          kStartsAlike);
+      if (!left) continue;
+      left->quantity = of_spin ? "spin" : "position";
+      left->unit = of_spin ? "rad/s" : "m";
+      left->ahead_s = horizon;
+      result.ahead.push_back(*left);
+    }
   }
   return result;
 }

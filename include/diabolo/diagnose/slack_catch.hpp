@@ -75,13 +75,13 @@ class CatchTrials {
     return result;
   }
 
-  /// What the noise of each start alone makes at each horizon [m].
-  std::vector<std::vector<double>> scatter(double slack, std::uint64_t seed) const {
-    std::vector<std::vector<double>> result;
+  /// What the noise of each start alone makes at each horizon.
+  std::vector<std::vector<StartScatter>> scatter(double slack, std::uint64_t seed) const {
+    std::vector<std::vector<StartScatter>> result;
     for (const HeldOutRecording& held : recordings_) {
       const HorizonTask starts = task(held, slack);
       const StartNoise noise = start_noise(held.recording);
-      std::vector<std::vector<double>> some(starts.size());
+      std::vector<std::vector<StartScatter>> some(starts.size());
       for_each_index(some.size(), threads_, watch_,
                      [&](std::size_t i) { some[i] = starts.scatter(i, noise, seed); });
       std::ranges::move(some, std::back_inserter(result));
@@ -146,7 +146,7 @@ inline std::optional<CatchRule> slack_catch(const Fit& fit, const Model& physics
   for (std::size_t i = 0; i < best.size(); ++i) {
     const std::optional<std::size_t> h = detail::last_horizon(by_given[i], best[i]);
     if (!h) continue;
-    const double gain = by_given[i][*h].model - best[i][*h].model, enough = kStrong * scatter[i][*h];
+    const double gain = by_given[i][*h].model - best[i][*h].model, enough = kStrong * scatter[i][*h].position;
     found.starts_for += gain > enough ? 1 : 0;
     found.starts_against += -gain > enough ? 1 : 0;
   }

@@ -31,6 +31,13 @@ struct WindowError {
   double spin = kNaN;  ///< predicted less recorded, in size [rad/s]; NaN where it was not seen
 };
 
+/// How far predictions from starts that are as likely as each other are apart, the mean of some; NaN where
+/// the recording cannot tell.
+struct StartScatter {
+  double position = kNaN;  ///< [m]
+  double spin = kNaN;      ///< of the noise of place and velocity alone [rad/s]
+};
+
 /// What the predictions over one recording need, made once.
 class HorizonTask {
  public:
@@ -64,24 +71,28 @@ class HorizonTask {
   double spin_noise(std::size_t index) const { return starts_.spin_noise(windows_[index].start); }
 
   /// How far the predictions at each horizon are from each other that begin as start number `index` does and
-  /// as it might have: the mean distance [m] over some draws of a start with this noise. NaN where the
-  /// recording cannot tell.
-  std::vector<double> scatter(std::size_t index, const StartNoise& noise, std::uint64_t seed) const {
+  /// as it might have: the mean over some draws of a start with this noise.
+  std::vector<StartScatter> scatter(std::size_t index, const StartNoise& noise, std::uint64_t seed) const {
     constexpr int kDraws = 4;
     const State<double> start = starts_.at(start_, windows_[index].start);
-    std::vector<Vector3<double>> nominal(windows_[index].rows.size(), Vector3<double>::Zero());
-    std::vector<double> distance(nominal.size(), kNaN);
-    predict(index, start, [&](std::size_t h, const Vector3<double>& predicted, auto&&...) {
-      nominal[h] = predicted;
-      distance[h] = 0.0;
+    struct Predicted {
+      Vector3<double> position = Vector3<double>::Zero();
+      double spin = 0.0;
+    };
+    std::vector<Predicted> nominal(windows_[index].rows.size());
+    std::vector<StartScatter> apart(nominal.size());
+    predict(index, start, [&](std::size_t h, const auto& position, const State<double>& after, bool) {
+      nominal[h] = {position, after.spin};
+      apart[h] = {0.0, 0.0};
     });
     std::mt19937_64 generator(seed + index);
     for (int draw = 0; draw < kDraws; ++draw)
       predict(index, drawn_start(start, noise, generator),
-              [&](std::size_t h, const Vector3<double>& predicted, auto&&...) {
-                distance[h] += (predicted - nominal[h]).norm() / kDraws;
+              [&](std::size_t h, const auto& position, const State<double>& after, bool) {
+                apart[h].position += (position - nominal[h].position).norm() / kDraws;
+                apart[h].spin += std::abs(after.spin - nominal[h].spin) / kDraws;
               });
-    return distance;
+    return apart;
   }
 
  private:
