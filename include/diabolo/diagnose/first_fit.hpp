@@ -66,7 +66,8 @@ std::optional<Fit> softly_begun(Fit fit, const ActiveSet& set, const Model& phys
 }
 
 /// From starts alone, with all of `set` free, stiff and soft: what costs less is gone on with. A string that
-/// rings leaves valleys far from each other: where another spring than a stiff one promises much, it is gone
+/// rings leaves valleys far from each other: where both ended ringing, each is settled before they are
+/// compared, since rough costs tell little; where another spring than a stiff one promises much, it is gone
 /// on with, too. At the end the fit has been looked at with `set`. Returns whether there was time for the
 /// first one.
 template <class D>
@@ -77,20 +78,30 @@ bool fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
     reweight(rough, threads);
     descend<D>(rough, physics, set, kMostIterations, threads, watch);
   };
+  const auto rings = [&](const Fit& rough) {
+    return is_dynamic(give_of(physics.effects) + added_give(rough.at));
+  };
+  const auto exchange_if_cheaper = [&](Fit&& other) {
+    if (cost_with_noise_of(fit, other, threads) < fit.cost) fit = std::move(other);
+  };
   fit.far_window = kFarWindowAtFirst;
   const Fit begun = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
-  std::optional<Fit> soft = softly_begun<D>(begun, set, physics, threads, watch);
-  if (soft && cost_with_noise_of(fit, *soft, threads) < fit.cost) fit = *std::move(soft);
-  std::optional<Fit> ringing;
-  if (!is_dynamic(give_of(physics.effects) + added_give(fit.at)))
-    ringing = another_spring<D>(fit, set, physics, threads, watch);
+  std::optional<Fit> soft = softly_begun<D>(begun, set, physics, threads, watch), ringing;
+  const bool both_ring = soft && rings(fit) && rings(*soft);
+  if (soft && !both_ring) exchange_if_cheaper(*std::move(soft));
+  if (!rings(fit)) ringing = another_spring<D>(fit, set, physics, threads, watch);
   settle(fit);
-  const bool in_time = !watch.is_enough();
-  if (!ringing || !in_time) return in_time;
-  approach<D>(*ringing, physics, set, kMostIterations, threads, watch);
-  settle(*ringing);
-  if (cost_with_noise_of(fit, *ringing, threads) < fit.cost) fit = *std::move(ringing);
+  if (watch.is_enough()) return false;
+  if (both_ring) {
+    settle(*soft);
+    exchange_if_cheaper(*std::move(soft));
+  }
+  if (ringing) {
+    approach<D>(*ringing, physics, set, kMostIterations, threads, watch);
+    settle(*ringing);
+    exchange_if_cheaper(*std::move(ringing));
+  }
   return true;
 }
 
