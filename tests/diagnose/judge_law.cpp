@@ -67,6 +67,11 @@ TEST_CASE("a law that explains less than a quarter of what is beyond noise is an
   };
   CHECK(enough(4000.0));
   CHECK_FALSE(enough(3500.0));
+  LearntLaw instead = learnt_with(3500.0, {{"k", "1"}}, "k");
+  instead.replaces = true;  // a name, which had explained most
+  CHECK(explains_enough(instead, fit, windows));
+  instead.gain = 0.9 * kGainOfLaw;
+  CHECK_FALSE(explains_enough(instead, fit, windows));
   CHECK_FALSE(explains_enough(learnt_with(0.9 * kGainOfLaw, {{"k", "1"}}, "k"), fit_of_two(),
                               windows_with(1.0, 1.0)));
 }

@@ -37,7 +37,8 @@ struct LearntLaw {
   Model physics;          ///< the base of the fit
   Fit fit;
   ActiveSet set = ActiveSet::Constant(false);
-  double gain = 0.0;  ///< what chi^2 falls by, in units of the dispersion
+  double gain = 0.0;      ///< what chi^2 falls by, in units of the dispersion
+  bool replaces = false;  ///< a law with a name, which had stood in its place
   std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
 };
 
@@ -76,11 +77,13 @@ inline double least_explained(const Fit& fit, const std::vector<WindowFinding>& 
   return kShareOfLaw * beyond_noise(fit, windows, acts == Acts::kSpin);
 }
 
-/// Whether a law explains as much as one that is at work would.
+/// Whether a law explains as much as one that is at work would. (In the place of one with a name it explains
+/// what that did, too, and what it gains parts the two of them.)
 inline bool explains_enough(const LearntLaw& learnt, const Fit& before,
                             const std::vector<WindowFinding>& windows) {
   return learnt.gain > kGainOfLaw &&
-         learnt.gain * learnt.fit.dispersion > least_explained(before, windows, learnt.law.acts);
+         (learnt.replaces ||
+          learnt.gain * learnt.fit.dispersion > least_explained(before, windows, learnt.law.acts));
 }
 
 /// The gain less what its numbers cost, beyond those of a fit of `set` that stood in its place.

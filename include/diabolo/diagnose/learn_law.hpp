@@ -138,7 +138,10 @@ LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics
   result.fit.at[index_of(own_number(result.first))] = std::copysign(1.0, size);
   approach<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
   const ActiveSet kept = eliminate(Evidence(result.fit), bank, result.set);
-  if ((kept != result.set).any()) {  // a law with a name stood in its place
+  if ((kept != result.set).any()) {  // something with a name stood in its place
+    result.replaces = std::ranges::any_of(bank, [&](const Candidate* candidate) {
+      return is_law(*candidate) && is_in(result.set, *candidate) && !is_in(kept, *candidate);
+    });
     result.set = kept;
     put_at_rest(result.fit, kept);
     approach<D>(result.fit, result.physics, kept, kMostIterations, threads, watch);
