@@ -1221,7 +1221,7 @@ class ResidualAndNoise:
     """Of a prediction of held-out data; null for windows that are fitted."""
   @property
   def base(self) -> float:
-    """Left by the base in the middle window, root mean square; ahead, the middle distance."""
+    """Left by the base in the median window, root mean square; ahead, the median error."""
   @property
   def begin_s(self) -> float:
     """Of the stretch of time."""
@@ -1304,7 +1304,7 @@ class Adequacy:
     """Over all windows: position and, where it was seen, spin; then predictions."""
   @property
   def places(self) -> list[ResidualAndNoise]:
-    """Where more is left than noise leaves, the worst first; then predictions."""
+    """Where more is left than noise leaves: fitted windows, then predictions, each the worst first."""
   @property
   def spin_explained(self) -> float | None:
     """The same of the spin."""
@@ -1627,7 +1627,7 @@ class HeldOutErrors:
     """What the noise of the starts alone makes."""
   @property
   def start_spin_error_radps(self) -> list[float | None]:
-    """By how much the spins of the starts are off those around them, and what their noise makes."""
+    """What the noise of the starts alone makes: of their spin, and of position and velocity through the string."""
   @property
   def windows(self) -> int:
     """Predictions that were compared."""

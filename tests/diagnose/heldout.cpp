@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "diabolo/diagnose/left_out_says.hpp"
 #include "played.hpp"
+#include "recording/played.hpp"
 #include "recording/support.hpp"
 
 using namespace diabolo;
@@ -82,7 +83,7 @@ TEST_CASE("a torque that is left out shows in the spin ahead, in nothing else, a
   const std::uint64_t seed = test::fresh_seed();
   const Model base = consistent_model();
   const auto ahead_of = [&](const AllEffects<double>& effects) {
-    const FitTake seen = make_fit_take(played(effects, 20.0, seed));  // with smooth tips
+    const FitTake seen = make_fit_take(played(effects, 9.0, seed));  // a braked one rests after 9.5 s
     HeldOutRecording held{seen.take->recording, UnknownVector::Zero(), {}, 0.0};
     held.at[index_of(Unknown::kAxleRadius)] =
         held.recording.properties.axle_radius + 7e-4;  // as played() has it
@@ -98,9 +99,22 @@ TEST_CASE("a torque that is left out shows in the spin ahead, in nothing else, a
     CHECK_FALSE(diagnose_detail::is_beyond_noise(quiet[i]));
     CHECK(diagnose_detail::is_beyond_noise(torque[i]) == (i % 2 == 1));
     const double lost = braked.get<SpinLoss>().axle * *torque[i].ahead_s;
-    if (i % 2 == 1)
-      CHECK((torque[i].left > 0.5 * lost && torque[i].left < 1.01 * lost));  // strings drive back
+    if (i % 2 == 1)  // the string's coupling wins back 0.15 1/s of it: 4 % and 7 %
+      CHECK((torque[i].left > 0.85 * lost && torque[i].left < 1.05 * lost));
   }
+}
+
+TEST_CASE("noise of a start's place and velocity reaches the spin by the string, and in flight does not") {
+  const HorizonOptions options{.starts_every = 0.5, .horizons = {0.5}};
+  const StartNoise noise{.position = 1e-3, .velocity = 1e-2};
+  const std::uint64_t seed = test::fresh_seed();
+  const HorizonTask on_string(played({}, 6.0, seed), consistent_model(), options);
+  REQUIRE(on_string.size() > 4);
+  CHECK(on_string.scatter(4, noise, seed)[0].spin > 0.0);
+  const HorizonTask flight(test::thrown(), consistent_model(), {.starts_every = 0.1, .horizons = {0.1}});
+  REQUIRE(flight.size() > 0);
+  CHECK(flight.scatter(0, noise, seed)[0].position > 0.0);
+  CHECK(flight.scatter(0, noise, seed)[0].spin == 0.0);
 }
 
 TEST_CASE("what nobody would notice says nothing for or against, nor counts as a horizon") {

@@ -68,8 +68,10 @@ TEST_CASE("a law that explains less than a quarter of what is beyond noise is an
   CHECK(enough(4000.0));
   CHECK_FALSE(enough(3500.0));
   LearntLaw instead = learnt_with(3500.0, {{"k", "1"}}, "k");
-  instead.replaces = true;  // a name, which had explained most
+  instead.inherited = 400.0;  // 3750 + 100 are a quarter of what noise does not leave, and of that
   CHECK(explains_enough(instead, fit, windows));
+  instead.inherited = 300.0;
+  CHECK_FALSE(explains_enough(instead, fit, windows));
   instead.gain = 0.9 * kGainOfLaw;
   CHECK_FALSE(explains_enough(instead, fit, windows));
   CHECK_FALSE(explains_enough(learnt_with(0.9 * kGainOfLaw, {{"k", "1"}}, "k"), fit_of_two(),

@@ -41,7 +41,7 @@ struct ResidualAndNoise {
     visit("windows", &ResidualAndNoise::windows,
           "How many were looked at, of half a second each; or predictions.");
     visit("base", &ResidualAndNoise::base,
-          "Left by the base in the middle window, root mean square; ahead, the middle distance.");
+          "Left by the base in the median window, root mean square; ahead, the median error.");
     visit("left", &ResidualAndNoise::left, "The same with what was found.");
     visit("noise", &ResidualAndNoise::noise, "The same of noise alone.");
     visit("times_noise", &ResidualAndNoise::times_noise,
@@ -89,7 +89,7 @@ struct Adequacy {
     visit("overall", &Adequacy::overall,
           "Over all windows: position and, where it was seen, spin; then predictions.");
     visit("places", &Adequacy::places,
-          "Where more is left than noise leaves, the worst first; then predictions.");
+          "Where more is left than noise leaves: fitted windows, then predictions, each the worst first.");
     visit("changes", &Adequacy::changes, "What is left and changes in time, the surest first.");
   }
 };

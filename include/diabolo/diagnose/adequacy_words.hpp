@@ -107,17 +107,21 @@ inline std::string learnt_plainly(const Learnt& learnt) {
   return text + (sure ? "" : " (that it depends on this is not shown)");
 }
 
-/// "93 % of the gap": of windows of half a second where these show one, else of the farthest prediction that
-/// does, else of the spin.
+/// "93 % of the gap": of windows of half a second where these show one, else of the farthest prediction of
+/// position that does, else of the spin, in windows, then ahead.
 inline std::string share_of_gap(const Adequacy& adequacy) {
   std::optional<double> share = adequacy.explained;
   std::string of;
-  for (auto left = adequacy.overall.rbegin(); !share && left != adequacy.overall.rend(); ++left) {
-    if (left->quantity != "position" || !left->ahead_s) continue;
-    share = diagnose_detail::explained_of(*left);
-    of = " after " + shown(*left->ahead_s) + " s";
-  }
+  const auto ask_ahead = [&](const std::string& quantity, const std::string& where) {
+    for (auto left = adequacy.overall.rbegin(); !share && left != adequacy.overall.rend(); ++left) {
+      if (left->quantity != quantity || !left->ahead_s) continue;
+      share = diagnose_detail::explained_of(*left);
+      of = where + " after " + shown(*left->ahead_s) + " s";
+    }
+  };
+  ask_ahead("position", "");
   if (!share) share = adequacy.spin_explained, of = " in the spin";
+  ask_ahead("spin", " in the spin");
   if (!share) return {};
   return std::to_string(std::lround(100.0 * std::max(0.0, *share))) + " % of the gap" + of;
 }

@@ -88,7 +88,7 @@ struct HeldOut {
   ErrorsByHorizon position, spin;
   std::vector<std::optional<double>>
       augmented_median;                 ///< of the distances of those that did not diverge [m]
-  std::vector<ResidualAndNoise> ahead;  ///< at each horizon of kAhead and more
+  std::vector<ResidualAndNoise> ahead;  ///< position and spin, at each horizon of kAhead and more
   std::optional<AxleAhead> axle;        ///< nothing where it was not seen
   std::size_t windows = 0;
 };

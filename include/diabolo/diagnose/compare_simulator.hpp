@@ -155,6 +155,7 @@ inline std::string listed(const std::vector<ComparedLaw>& laws, const Diagnosis&
 inline bool has_left_over(const Diagnosis& d, const Diagnosis& camera) {
   if (d.adequacy.adequate.value_or(true)) return false;
   return std::ranges::any_of(d.adequacy.overall, [&](const ResidualAndNoise& left) {
+    if (!(left.times_noise > kTimesNoise)) return false;
     const auto same = std::ranges::find_if(camera.adequacy.overall, [&](const ResidualAndNoise& other) {
       return other.quantity == left.quantity && other.ahead_s == left.ahead_s;
     });

@@ -65,11 +65,10 @@ std::optional<Fit> softly_begun(Fit fit, const ActiveSet& set, const Model& phys
   return fit;
 }
 
-/// From starts alone, with all of `set` free, stiff and soft: what costs less is gone on with. A string that
-/// rings leaves valleys far from each other: where both ended ringing, each is settled before they are
-/// compared, since rough costs tell little; where another spring than a stiff one promises much, it is gone
-/// on with, too. At the end the fit has been looked at with `set`. Returns whether there was time for the
-/// first one.
+/// From starts alone, with all of `set` free, stiff and soft: the cheaper fit is kept. Where both end on an
+/// oscillating string, each converges before the costs are compared, since rough costs say little. Where the
+/// kept one is stiff and another spring promises much, that is fitted, too. At the end the fit has been
+/// looked at with `set`. Returns whether there was time for the first one.
 template <class D>
 bool fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                     const FitWatch& watch) {

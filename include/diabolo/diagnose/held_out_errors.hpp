@@ -46,7 +46,8 @@ struct HeldOutErrors {
     visit("spin_improvement_ci95_radps", &HeldOutErrors::spin_improvement_ci95_radps,
           "95 % interval of base less augmented.");
     visit("start_spin_error_radps", &HeldOutErrors::start_spin_error_radps,
-          "By how much the spins of the starts are off those around them, and what their noise makes.");
+          "What the noise of the starts alone makes: of their spin, and of position and velocity through the "
+          "string.");
     visit("axle_heldout", &HeldOutErrors::axle_heldout,
           "recordings, or blocks of one, on which the axle is compared; null where it was not seen.");
     visit("axle_ahead_s", &HeldOutErrors::axle_ahead_s,

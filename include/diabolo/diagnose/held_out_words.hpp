@@ -38,7 +38,7 @@ inline std::string worse_ahead_in_words(const HeldOut& heldout) {
             size_in_words(*errors.base_error[*h], unit) + ".";
   };
   add(heldout.position, "place", "m", kImmaterialAhead);
-  add(heldout.spin, "spin", "rad/s", kImmaterialSpin);
+  add(heldout.spin, "spin", "rad/s", kImmaterialSpinAhead);
   return text;
 }
 

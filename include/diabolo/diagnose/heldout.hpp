@@ -95,7 +95,7 @@ inline double starts_every(const std::vector<HeldOutRecording>& recordings, std:
   return std::max(kStartsEvery, seconds / (kStartsPerWindow * static_cast<double>(most_windows)));
 }
 
-/// Predictions over less than so long say little of a slight force [s].
+/// Predictions over less than so long say little of a slight force or torque [s].
 inline constexpr double kAhead = 0.5;
 
 /// So many neighbouring starts count as one where noise alone is asked about: it is that of the start, which
@@ -140,11 +140,11 @@ struct Errors {
   WithoutAndWith found;                ///< by the base, and with what was found
   std::vector<double> start;           ///< what the start's noise alone makes
   std::vector<WithoutAndWith> claims;  ///< each in its turn
+  Compared compared;                   ///< with the noise of the start, where it is known
 };
 
 struct ErrorsAhead {
   Errors position, spin;
-  Compared positions, spins;  ///< where noise is known
 };
 
 inline bool both_comparable(const WindowError& a, const WindowError& b) {
@@ -198,12 +198,12 @@ inline void add_errors(const HeldOutRecording& held, const Model& base, const Mo
       if (const double noise_of_spin = std::hypot(better.spin_noise(i), scatter[i][h].spin);
           std::isfinite(b.spin) && std::isfinite(noise_of_spin)) {
         ahead[h].spin.start.push_back(noise_of_spin);
-        if (std::isfinite(a.spin)) ahead[h].spins.add(a.spin, b.spin, noise_of_spin);
+        if (std::isfinite(a.spin)) ahead[h].spin.compared.add(a.spin, b.spin, noise_of_spin);
       }
       const double noise_of_position = scale * scatter[i][h].position;
       if (!std::isfinite(noise_of_position)) continue;
       ahead[h].position.start.push_back(noise_of_position);
-      ahead[h].positions.add(distance_of(a), distance_of(b, scale), noise_of_position);
+      ahead[h].position.compared.add(distance_of(a), distance_of(b, scale), noise_of_position);
     }
   for (std::size_t c = 0; c < held.without.size(); ++c) {
     const std::vector<std::vector<WindowError>> poorer =
@@ -271,16 +271,17 @@ inline HeldOut compare_held_out(const std::vector<HeldOutRecording>& recordings,
     const std::vector<double> distances = errors.position.found.predicted().with;
     result.augmented_median.push_back(distances.empty() ? std::nullopt : std::optional(median_of(distances)));
     if (horizon < kAhead) continue;
-    for (const bool of_spin : {false, true}) {
-      std::optional<ResidualAndNoise> left = diagnose_detail::residual_and_noise_of(
-          of_spin ? errors.spins : errors.positions, of_spin ? kImmaterialSpinAhead : kImmaterialAhead,
-          kStartsAlike);
-      if (!left) continue;
-      left->quantity = of_spin ? "spin" : "position";
-      left->unit = of_spin ? "rad/s" : "m";
+    const auto tell = [&](const diagnose_detail::Errors& of, const char* quantity, const char* unit,
+                          double immaterial) {
+      auto left = diagnose_detail::residual_and_noise_of(of.compared, immaterial, kStartsAlike);
+      if (!left) return;
+      left->quantity = quantity;
+      left->unit = unit;
       left->ahead_s = horizon;
       result.ahead.push_back(*left);
-    }
+    };
+    tell(errors.position, "position", "m", kImmaterialAhead);
+    tell(errors.spin, "spin", "rad/s", kImmaterialSpinAhead);
   }
   return result;
 }

@@ -182,7 +182,7 @@ inline bool is_within(const ResidualAndNoise& moment, const std::vector<Residual
 
 /// What windows leave against what noise alone leaves: over all, in each state of the string, and in each
 /// stretch of time; and `ahead`, the same of predictions of data that were left out, which see a slight force
-/// that a window with a start of its own does not. `names` are the recordings'.
+/// or torque that a window with a start of its own does not. `names` are the recordings'.
 inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
                                const std::vector<std::string>& names,
                                const std::vector<ResidualAndNoise>& ahead = {}) {
@@ -220,12 +220,15 @@ inline Adequacy judge_adequacy(const std::vector<WindowFinding>& windows,
                          [&](const ResidualAndNoise& moment) { return !in::is_within(moment, stretches); });
   }
   std::ranges::stable_sort(result.places, std::greater(), &ResidualAndNoise::times_noise);
+  const auto of_windows = static_cast<std::ptrdiff_t>(result.places.size());
   result.changes = changes_in_time(windows);
   for (const ResidualAndNoise& left : ahead) {
     if (!result.adequate) break;
     result.overall.push_back(left);
     if (in::is_beyond_noise(left)) result.places.push_back(left);
   }
+  std::ranges::stable_sort(result.places.begin() + of_windows, result.places.end(), std::greater(),
+                           &ResidualAndNoise::times_noise);
   if (!result.places.empty() || !result.changes.empty()) result.adequate = false;
   return result;
 }

@@ -21,7 +21,8 @@ namespace diabolo {
 /// (Beside that it must matter, explain windows that were left out, and help predictions of them.)
 inline constexpr double kGainOfLaw = 2.0 * kSignificance * kSignificance;
 
-/// A law explains no less than this share of what noise alone would not leave; what explains less is another.
+/// A law explains at least this share of what noise alone would not leave, together with what laws with a
+/// name had explained that it displaces. What explains less is another.
 inline constexpr double kShareOfLaw = 0.25;
 
 /// Each number beyond a law's amplitude has to bring this share of its gain.
@@ -37,8 +38,8 @@ struct LearntLaw {
   Model physics;          ///< the base of the fit
   Fit fit;
   ActiveSet set = ActiveSet::Constant(false);
-  double gain = 0.0;      ///< what chi^2 falls by, in units of the dispersion
-  bool replaces = false;  ///< a law with a name, which had stood in its place
+  double gain = 0.0;       ///< what chi^2 falls by, in units of the dispersion
+  double inherited = 0.0;  ///< what laws with a name, which it displaces, had explained of chi^2
   std::vector<std::optional<Interval>> worsening_ci95{}, spin_worsening_ci95{};  ///< see Finding
 };
 
@@ -77,13 +78,13 @@ inline double least_explained(const Fit& fit, const std::vector<WindowFinding>& 
   return kShareOfLaw * beyond_noise(fit, windows, acts == Acts::kSpin);
 }
 
-/// Whether a law explains as much as one that is at work would. (In the place of one with a name it explains
-/// what that did, too, and what it gains parts the two of them.)
+/// Whether a law explains as much as one that is at work would. One that displaces a named one explains what
+/// that did, too: its gain is only the difference between the two.
 inline bool explains_enough(const LearntLaw& learnt, const Fit& before,
                             const std::vector<WindowFinding>& windows) {
+  const double explained = learnt.gain * learnt.fit.dispersion + learnt.inherited;
   return learnt.gain > kGainOfLaw &&
-         (learnt.replaces ||
-          learnt.gain * learnt.fit.dispersion > least_explained(before, windows, learnt.law.acts));
+         explained > least_explained(before, windows, learnt.law.acts) + kShareOfLaw * learnt.inherited;
 }
 
 /// The gain less what its numbers cost, beyond those of a fit of `set` that stood in its place.

@@ -120,6 +120,17 @@ std::vector<LawGuess> fast_guesses(const Fit& fit, const Model& physics, const A
   });
 }
 
+/// What laws with a name that `set` has and `kept` has not explain of a fit's chi^2.
+inline double explained_by_laws(const Fit& fit, const Bank& bank, const ActiveSet& set,
+                                const ActiveSet& kept) {
+  ActiveSet less = set;
+  for (const Candidate* candidate : bank)
+    if (is_law(*candidate) && is_in(set, *candidate) && !is_in(kept, *candidate))
+      less = with(less, *candidate, false);
+  const Evidence evidence(fit);
+  return evidence.cost(less) - evidence.cost(set);
+}
+
 /// Fits a guess from where its probes are, with its shape, and with what is sure beside it.
 template <class D>
 LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics, const ActiveSet& set,
@@ -139,9 +150,7 @@ LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics
   approach<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
   const ActiveSet kept = eliminate(Evidence(result.fit), bank, result.set);
   if ((kept != result.set).any()) {  // something with a name stood in its place
-    result.replaces = std::ranges::any_of(bank, [&](const Candidate* candidate) {
-      return is_law(*candidate) && is_in(result.set, *candidate) && !is_in(kept, *candidate);
-    });
+    result.inherited = explained_by_laws(fit, bank, set, kept);
     result.set = kept;
     put_at_rest(result.fit, kept);
     approach<D>(result.fit, result.physics, kept, kMostIterations, threads, watch);

@@ -13,7 +13,7 @@ namespace diabolo {
 /// free diabolo by 1 mm leaves 0.04 mm beside the best start.
 inline constexpr double kImmaterialPosition = 4e-5, kImmaterialSpin = 0.1;
 
-/// Errors that matter to nobody at any horizon [m], [rad/s]: of a spin, about a hundredth of one in play.
+/// Errors of predictions that matter to nobody [m], [rad/s]. A spin in play is a hundred times that or more.
 inline constexpr double kImmaterialAhead = 1e-3, kImmaterialSpinAhead = 0.5;
 
 /// What data that were left out say of something, from the intervals of what it gains, horizon by horizon. An

@@ -31,8 +31,8 @@ struct WindowError {
   double spin = kNaN;  ///< predicted less recorded, in size [rad/s]; NaN where it was not seen
 };
 
-/// How far predictions from starts that are as likely as each other are apart, the mean of some; NaN where
-/// the recording cannot tell.
+/// How far predictions from equally likely starts are apart, a mean over draws; NaN where the recording
+/// cannot tell.
 struct StartScatter {
   double position = kNaN;  ///< [m]
   double spin = kNaN;      ///< of the noise of place and velocity alone [rad/s]
