@@ -49,7 +49,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BATCHES = ROOT / "benchmarks" / "proof" / "diagnosis" / "batches"
 PLACE = {"quantity": "position", "mode": "ON_STRING", "direction": "left"}
 # Of the file that was published when the batch was sealed, as SHA-256.
-DIGEST_OF_FOURTEENTH = "d4603c62d86d99166bac45d512953bec1ca3282c7309124cb4aad09bddb66f8f"
+DIGEST_OF_FIFTEENTH = "7c431a42cc3fe989eaf446c9e9207c62d531999f037e788f54bba0b9a133ccc4"
 
 SILENT = "strangers met with silence, SNR >= 10"
 SWING = load_recording(ROOT / "data" / "recordings" / "swing.csv")
@@ -517,14 +517,14 @@ def test_intervals_of_rates() -> None:
         (["quick", "--cases", "0"], "--cases: 0; expected a whole number from 1 to 9999"),
         (["quick", "--tool", "guess"], "--tool guess: expected one of diagnose, no_faults"),
         (["run", "never-sealed"], "never-sealed.json: there is no such file; expected a sealed batch"),
-        (["run", "fourteenth"], "the keys of batch fourteenth are open; seal a fresh one"),
-        (["seal", "fourteenth"], "batch fourteenth is scored already; choose another name"),
+        (["run", "fifteenth"], "the keys of batch fifteenth are open; seal a fresh one"),
+        (["seal", "fifteenth"], "batch fifteenth is scored already; choose another name"),
         (["score", "never-sealed"], "never-sealed.jsonl.xz: there is no such file; `score` writes it"),
-        (["score", "fourteenth", "--tool", "parameter_fit"], "no answers of parameter_fit"),
+        (["score", "fifteenth", "--tool", "parameter_fit"], "no answers of parameter_fit"),
         (["seal", "../elsewhere"], "expected a name of letters"),
-        (["run", "fourteenth", "--minutes", "nan"], "--minutes: nan; expected more than 0"),
-        (["run", "fourteenth", "--minutes", "-1"], "--minutes: -1.0; expected more than 0"),
-        (["page", "fourteenth", "--out", "nowhere/page.md"], "nowhere/page.md: there is no folder"),
+        (["run", "fifteenth", "--minutes", "nan"], "--minutes: nan; expected more than 0"),
+        (["run", "fifteenth", "--minutes", "-1"], "--minutes: -1.0; expected more than 0"),
+        (["page", "fifteenth", "--out", "nowhere/page.md"], "nowhere/page.md: there is no folder"),
     ],
 )
 def test_the_command_says_what_is_missing(
@@ -548,45 +548,45 @@ def test_the_product_does_not_know_the_proof() -> None:
 
 
 @pytest.fixture
-def fourteenth(tmp_path: Path) -> commands.Places:
+def fifteenth(tmp_path: Path) -> commands.Places:
     """Of a copy of the batches."""
     shutil.copytree(BATCHES, tmp_path / "batches")
     return commands.Places(tmp_path, tmp_path / "build", tmp_path / "no plant", run.silent)
 
 
 def test_the_last_batch_scored_again_from_its_record_gives_its_page(
-    fourteenth: commands.Places, tmp_path: Path
+    fifteenth: commands.Places, tmp_path: Path
 ) -> None:
-    assert commands.write_page(fourteenth, "fourteenth", tmp_path / "proof.md") == 0
+    assert commands.write_page(fifteenth, "fifteenth", tmp_path / "proof.md") == 0
     assert (tmp_path / "proof.md").read_text() == (ROOT / "docs" / "proof.md").read_text()
 
 
 def test_a_record_that_is_not_what_was_sealed_is_told(
-    fourteenth: commands.Places, capsys: pytest.CaptureFixture[str]
+    fifteenth: commands.Places, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = record.read(fourteenth.record("fourteenth"))
+    found = record.read(fifteenth.record("fifteenth"))
     closed = set(found.not_as_sealed())
     assert len(closed) < 60  # none, but where the processor rounds otherwise
     changed = [key for key in found.keys if key["case"] not in closed and key["parameters"]][:2]
     changed[0]["names"] = [*changed[0]["names"], "wind"]
     next(iter(changed[1]["parameters"].values())).clear()
     assert set(found.not_as_sealed()) == closed | {key["case"] for key in changed}
-    found.write(fourteenth.record("fourteenth"))
-    commands.score_batch(fourteenth, "fourteenth", "diagnose", 1, None)
+    found.write(fifteenth.record("fifteenth"))
+    commands.score_batch(fifteenth, "fifteenth", "diagnose", 1, None)
     told = capsys.readouterr().out.splitlines()[0]
-    assert told == f"{198 - len(closed)} of 200 keys, drawn again, are those sealed"
+    assert told == f"{128 - len(closed)} of 130 keys, drawn again, are those sealed"
 
 
-def test_a_retired_batch_keeps_its_scores(fourteenth: commands.Places) -> None:
-    scores = record.read(fourteenth.record("fourteenth")).summary("diagnose")["scores"]
-    assert commands.retire_batch(fourteenth, "fourteenth") == 0
-    assert [path.name for path in fourteenth.earlier.parent.iterdir()] == ["earlier.jsonl.xz"]
-    batches = earlier.read(fourteenth.earlier)
-    assert [*batches][-2:] == ["thirteenth", "fourteenth"]
-    assert batches["fourteenth"]["seal"] == DIGEST_OF_FOURTEENTH
-    assert [score["hits"] for score in batches["fourteenth"]["scores"]] == [score["hits"] for score in scores]
-    with pytest.raises(ValueError, match=r"fourteenth\.jsonl\.xz: there is no such file"):
-        commands.score_batch(fourteenth, "fourteenth", "diagnose", 1, None)
+def test_a_retired_batch_keeps_its_scores(fifteenth: commands.Places) -> None:
+    scores = record.read(fifteenth.record("fifteenth")).summary("diagnose")["scores"]
+    assert commands.retire_batch(fifteenth, "fifteenth") == 0
+    assert [path.name for path in fifteenth.earlier.parent.iterdir()] == ["earlier.jsonl.xz"]
+    batches = earlier.read(fifteenth.earlier)
+    assert [*batches][-2:] == ["fourteenth", "fifteenth"]
+    assert batches["fifteenth"]["seal"] == DIGEST_OF_FIFTEENTH
+    assert [score["hits"] for score in batches["fifteenth"]["scores"]] == [score["hits"] for score in scores]
+    with pytest.raises(ValueError, match=r"fifteenth\.jsonl\.xz: there is no such file"):
+        commands.score_batch(fifteenth, "fifteenth", "diagnose", 1, None)
 
 
 def test_scoring_opens_a_batch_once_and_records_it(

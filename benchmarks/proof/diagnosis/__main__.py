@@ -31,7 +31,7 @@ EXAMPLE = """\
   python -m benchmarks.proof.diagnosis seal next --cases 600       # then commit batches/next.json
   python -m benchmarks.proof.diagnosis run next --minutes 60       # goes on where it was stopped
   python -m benchmarks.proof.diagnosis score next && python -m benchmarks.proof.diagnosis page next
-  python -m benchmarks.proof.diagnosis score fourteenth              # again from its record"""
+  python -m benchmarks.proof.diagnosis score fifteenth              # again from its record"""
 
 
 def make_parser() -> argparse.ArgumentParser:
