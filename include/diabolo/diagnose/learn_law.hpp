@@ -131,6 +131,17 @@ inline double explained_by_laws(const Fit& fit, const Bank& bank, const ActiveSe
   return evidence.cost(less) - evidence.cost(set);
 }
 
+/// Fits a law again beside `kept` of what was free, from a fit `before` of `set`: it displaces the rest.
+template <class D>
+void displace(LearntLaw& learnt, const ActiveSet& kept, const Fit& before, const ActiveSet& set,
+              const Bank& bank, int threads, const FitWatch& watch) {
+  learnt.inherited = explained_by_laws(before, bank, set, kept);
+  learnt.set = kept;
+  put_at_rest(learnt.fit, kept);
+  approach<D>(learnt.fit, learnt.physics, kept, kMostIterations, threads, watch);
+  learnt.gain = (before.cost - learnt.fit.cost) / learnt.fit.dispersion;
+}
+
 /// Fits a guess from where its probes are, with its shape, and with what is sure beside it.
 template <class D>
 LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics, const ActiveSet& set,
@@ -148,15 +159,24 @@ LearntLaw fitted(const ScoredGuess& scored, const Fit& fit, const Model& physics
   for (std::size_t i = 0; i < numbers.size(); ++i) result.set[index_of(own_number(result.first + i))] = true;
   result.fit.at[index_of(own_number(result.first))] = std::copysign(1.0, size);
   approach<D>(result.fit, result.physics, result.set, kMostIterations, threads, watch);
-  const ActiveSet kept = eliminate(Evidence(result.fit), bank, result.set);
-  if ((kept != result.set).any()) {  // something with a name stood in its place
-    result.inherited = explained_by_laws(fit, bank, set, kept);
-    result.set = kept;
-    put_at_rest(result.fit, kept);
-    approach<D>(result.fit, result.physics, kept, kMostIterations, threads, watch);
-  }
   result.gain = (fit.cost - result.fit.cost) / result.fit.dispersion;
+  const ActiveSet kept = eliminate(Evidence(result.fit), bank, result.set);
+  if ((kept != result.set).any())  // something with a name stood in its place
+    displace<D>(result, kept, fit, set, bank, threads, watch);
   return result;
+}
+
+/// The law with a name that is least sure beside a learnt one; null where there is none.
+inline const Candidate* weakest_law(const LearntLaw& learnt, const Bank& bank) {
+  const Estimates now = estimates_of(Evidence(learnt.fit), learnt.set);
+  const Candidate* weakest = nullptr;
+  double least = 0.0;
+  for (const Candidate* candidate : bank) {
+    if (!is_law(*candidate) || !is_in(learnt.set, *candidate)) continue;
+    const double sure = in_favour(*candidate, significance(*candidate, now));
+    if (weakest == nullptr || sure < least) weakest = candidate, least = sure;
+  }
+  return weakest;
 }
 
 }  // namespace diagnose_detail
@@ -183,11 +203,18 @@ std::optional<LearntLaw> learn_law(const Fit& fit, const Model& physics, const A
     if (scored.guess != best.front().guess && at_best * fit.dispersion < least) continue;
     if (!trials.empty() && at_best < trials.front().gain) break;
     LearntLaw trial = diagnose_detail::fitted<D>(scored, fit, physics, set, bank, options.threads, watch);
+    const auto stands = [&] {
+      return diagnose_detail::explains_enough(trial, fit, windows) && diagnose_detail::matters(trial) &&
+             diagnose_detail::is_sure_of_laws(trial) &&
+             !diagnose_detail::may_have_a_name(trial, scored.guess->named_powers);
+    };
+    // Beside a named law that does nearly the same it may explain nothing left out: then it is tried alone.
+    if (stands() && !diagnose_detail::explains_left_out(trial))
+      if (const Candidate* other = diagnose_detail::weakest_law(trial, bank))
+        diagnose_detail::displace<D>(trial, with(trial.set, *other, false), fit, set, bank, options.threads,
+                                     watch);
     if (watch.is_enough()) return std::nullopt;  // it may not have settled
-    if (diagnose_detail::explains_enough(trial, fit, windows) && diagnose_detail::matters(trial) &&
-        diagnose_detail::is_sure_of_laws(trial) && diagnose_detail::explains_left_out(trial) &&
-        !diagnose_detail::may_have_a_name(trial, scored.guess->named_powers))
-      trials.push_back(std::move(trial));
+    if (stands() && diagnose_detail::explains_left_out(trial)) trials.push_back(std::move(trial));
   }
   std::ranges::stable_sort(trials, std::greater(),
                            [&](const LearntLaw& law) { return diagnose_detail::worth(law, set); });
