@@ -66,9 +66,9 @@ std::optional<Fit> softly_begun(Fit fit, const ActiveSet& set, const Model& phys
 }
 
 /// From starts alone, with all of `set` free, stiff and soft: the cheaper fit is kept. Where both end on an
-/// oscillating string, each converges before the costs are compared, since rough costs say little. Where the
-/// kept one is stiff and another spring promises much, that is fitted, too. At the end the fit has been
-/// looked at with `set`. Returns whether there was time for the first one.
+/// oscillating string, rough costs say little: the other one converges, too, and is kept where it then costs
+/// clearly less. Where the kept one is stiff and another spring promises much, that is fitted, too. At the
+/// end the fit has been looked at with `set`. Returns whether there was time for the first one.
 template <class D>
 bool fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int threads,
                     const FitWatch& watch) {
@@ -80,21 +80,21 @@ bool fit_everything(Fit& fit, const Model& physics, const ActiveSet& set, int th
   const auto rings = [&](const Fit& rough) {
     return is_dynamic(give_of(physics.effects) + added_give(rough.at));
   };
-  const auto exchange_if_cheaper = [&](Fit&& other) {
-    if (cost_with_noise_of(fit, other, threads) < fit.cost) fit = std::move(other);
+  const auto exchange_if_cheaper = [&](Fit&& other, double share = 1.0) {
+    if (cost_with_noise_of(fit, other, threads) < share * fit.cost) fit = std::move(other);
   };
   fit.far_window = kFarWindowAtFirst;
   const Fit begun = fit;
   approach<D>(fit, physics, set, kMostIterations, threads, watch);
   std::optional<Fit> soft = softly_begun<D>(begun, set, physics, threads, watch), ringing;
+  if (soft && cost_with_noise_of(fit, *soft, threads) < fit.cost) std::swap(fit, *soft);
   const bool both_ring = soft && rings(fit) && rings(*soft);
-  if (soft && !both_ring) exchange_if_cheaper(*std::move(soft));
   if (!rings(fit)) ringing = another_spring<D>(fit, set, physics, threads, watch);
   settle(fit);
   if (watch.is_enough()) return false;
   if (both_ring) {
     settle(*soft);
-    exchange_if_cheaper(*std::move(soft));
+    exchange_if_cheaper(*std::move(soft), kPromising);
   }
   if (ringing) {
     approach<D>(*ringing, physics, set, kMostIterations, threads, watch);
